@@ -15,7 +15,7 @@ module linkage
    use reduced, only: reduced_t
    use row_kernels, only: right_hand_side, take_known
    use smooth_piece, only: smooth_piece_t
-   use solution, only: solution_t
+   use solution, only: find_free, solution_t
    implicit none (type, external)
    private
    public :: linkage_t, scales_t
@@ -276,6 +276,12 @@ contains
          call self%reduced%guided%response(g, must_agree, self%motion, self%solution%a)
       end if
       if (self%rows%n_unknown == 0) return
+      if (self%rows%n_solve == 0) then
+         self%solution%bad_row = 0
+         call find_free(self%rows%n_unknown, self%rows%unknown, self%coordinates%n_v, self%bodies%n, self%inverse_mass, g, &
+                        self%solution%a)
+         return
+      end if
       call self%solution%find(self%inverse_mass, self%rows, g, must_agree, status)
    end subroutine linkage_find_accelerations
 

@@ -57,7 +57,7 @@ contains
       real(wp), intent(inout) :: a(n_entry)       !! (entries) matrix, then its factors [any]
       real(wp), intent(inout) :: inverse(n)       !! (n) one over D [any]
       real(wp), intent(inout) :: row(n)           !! (n) scratch [any]
-      real(wp), intent(inout) :: x(n)             !! (n) right-hand side, then y of L y = b, then solution [any]
+      real(wp), intent(inout) :: x(n)             !! (n) right-hand side, then z of L D z = b, then solution [any]
       integer, intent(out) :: bad_row             !! first row with a small pivot, 0: none
 
       real(wp) :: factor, pivot, right, sum
@@ -75,13 +75,13 @@ contains
             sum = a(start_i + j)
             !GCC$ novector
             do k = max(first_i, first(j)), j - 1
-               sum = sum - row(k)*a(start_j + k)
+               sum = sum - row(k - first_i + 1)*a(start_j + k)
             end do
-            row(j) = sum  ! L(i,j) D(j)
+            row(j - first_i + 1) = sum  ! L(i,j) D(j)
             factor = sum*inverse(j)
             a(start_i + j) = factor
             pivot = pivot - sum*factor
-            right = right - factor*x(j)
+            right = right - sum*x(j)
          end do
          if (.not. pivot > threshold*a(start_i + i)) then
             bad_row = i
@@ -89,9 +89,9 @@ contains
          end if
          a(start_i + i) = pivot
          inverse(i) = 1.0_wp/pivot
-         x(i) = right
+         x(i) = right*inverse(i)
       end do
-      if (to == n) call solve_upper(n, n_entry, first, start, a, inverse, x)
+      if (to == n) call solve_upper(n, n_entry, first, start, a, x)
    end subroutine factorise_and_solve
 
    !> Factorise a semi-definite matrix in place; rows that depend on earlier ones are set aside.
@@ -167,25 +167,24 @@ contains
             x(i) = x(i) - a(start(i) + j)*x(j)
          end do
       end do
-      call solve_upper(n, n_entry, first, start, a, inverse, x)
+      do i = 1, n
+         x(i) = x(i)*inverse(i)
+      end do
+      call solve_upper(n, n_entry, first, start, a, x)
    end subroutine solve_factored
 
-   !> The second half of a solution, D L^T x = y.
-   pure subroutine solve_upper(n, n_entry, first, start, a, inverse, x)
+   !> The last part of a solution, L^T x = z.
+   pure subroutine solve_upper(n, n_entry, first, start, a, x)
       integer, intent(in) :: n                    !! order
       integer, intent(in) :: n_entry              !! entries of the envelope
       integer, intent(in) :: first(n)             !! (n) first column of each row
       integer, intent(in) :: start(n)             !! (n) place of entry (i, j) is start(i) + j
       real(wp), intent(in) :: a(n_entry)          !! (entries) factors [any]
-      real(wp), intent(in) :: inverse(n)          !! (n) one over D [any]
-      real(wp), intent(inout) :: x(n)             !! (n) y, then x [any]
+      real(wp), intent(inout) :: x(n)             !! (n) z, then x [any]
 
       real(wp) :: value
       integer :: i, j
 
-      do i = 1, n
-         x(i) = x(i)*inverse(i)
-      end do
       do i = n, 1, -1
          value = x(i)
          !GCC$ novector

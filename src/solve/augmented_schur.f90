@@ -33,6 +33,7 @@ module augmented_schur
       type(part_t) :: rest                        !! the other rows
       type(part_t) :: all                         !! all rows
       integer, allocatable :: unknown(:)          !! (bodies) unknown bodies that are not lone
+      real(wp), allocatable :: x(:)               !! (rows) values in the order of an envelope [any]
       real(wp) :: least_pivot = least_pivots(1)   !! of its diagonal: below, rows are nearly dependent [1]
    contains
       procedure, nopass :: info => schur_info
@@ -94,7 +95,7 @@ contains
       call prepare_part(rows, is_taken, self%rest)
       is_taken = .true.
       call prepare_part(rows, is_taken, self%all)
-      allocate (self%residual(rows%n_solve), source=0.0_wp)
+      allocate (self%residual(rows%n_solve), self%x(rows%n), source=0.0_wp)
    end subroutine schur_prepare
 
    !> Take the least pivot of independent rows.
@@ -116,7 +117,7 @@ contains
       real(wp), intent(inout), contiguous :: lambda(:)             !! (rows) multipliers [N or N.m]
       integer, intent(out) :: bad_row                              !! row that depends on others, or nearly so, 0: none
 
-      integer :: k, n_body
+      integer :: n_body
 
       n_body = size(g, 2) - 1
       if (rows%n_solve > 0) self%n_factorisations = self%n_factorisations + 1
@@ -128,18 +129,19 @@ contains
                             g, b, self%least_pivot, a, lambda, bad_row)
       end if
       if (bad_row > 0 .or. size(self%unknown) == 0) return
-      do k = 1, self%rest%n_block
-         call take_block(k, self%rest, n_body, rows%n, inverse_mass, rows%jac, g, b, self%least_pivot, bad_row)
-         if (bad_row > 0) return
-      end do
-      call in_given_order(size(self%rest%order), self%rest%order, rows%n, self%rest%x, lambda)
+      if (self%rest%is_in_order) then
+         call take_blocks(self%rest, n_body, rows%n, inverse_mass, rows%jac, g, b, self%least_pivot, lambda, bad_row)
+      else
+         call take_blocks(self%rest, n_body, rows%n, inverse_mass, rows%jac, g, b, self%least_pivot, self%x, bad_row)
+         if (bad_row == 0) call in_given_order(size(self%rest%order), self%rest%order, rows%n, self%x, lambda)
+      end if
+      if (bad_row > 0) return
       call body_accelerations(rows, size(self%unknown), self%unknown, n_body, inverse_mass, rows%jac, g, lambda, a)
    end subroutine schur_solve
 
-   !> Assemble and factorise a block; the last one solves.
-   pure subroutine take_block(block, part, n_body, n_row, inverse_mass, jac, g, b, least_pivot, bad_row)
-      integer, intent(in) :: block                              !! which; they are taken in their order
-      type(part_t), intent(inout) :: part                       !! the part; S and x are set
+   !> Assemble and factorise a part block by block, and solve.
+   pure subroutine take_blocks(part, n_body, n_row, inverse_mass, jac, g, b, least_pivot, x, bad_row)
+      type(part_t), intent(inout) :: part                       !! the part; S is set
       integer, intent(in) :: n_body                             !! number of bodies
       integer, intent(in) :: n_row                              !! number of rows
       real(wp), intent(in) :: inverse_mass(part%n_v, 0:n_body)  !! (n_v, 0:bodies) inverse masses [1/kg or 1/(kg.m^2)]
@@ -147,13 +149,21 @@ contains
       real(wp), intent(in) :: g(part%n_v, 0:n_body)             !! (n_v, 0:bodies) applied loads [N or N.m]
       real(wp), intent(in) :: b(n_row)                          !! (rows) right-hand side [m/s^2 or rad/s^2]
       real(wp), intent(in) :: least_pivot                       !! of its diagonal: below, rows are nearly dependent [1]
+      real(wp), intent(inout) :: x(n_row)                       !! (rows) multipliers, set in the order of the envelope [N or N.m]
       integer, intent(out) :: bad_row                           !! row that depends on others, or nearly so, 0: none
 
-      call assemble(block, part, n_body, n_row, inverse_mass, jac, g, b)
-      call factorise_and_solve(part%block(3, block - 1) + 1, part%block(3, block), size(part%order), size(part%s%a), part%s%first, &
-                               part%s%start, least_pivot, part%s%a, part%s%inverse, part%s%row, part%x, bad_row)
-      if (bad_row > 0) bad_row = part%order(bad_row)
-   end subroutine take_block
+      integer :: k
+
+      do k = 1, part%n_block
+         call assemble(k, part, n_body, n_row, inverse_mass, jac, g, b, x)
+         call factorise_and_solve(part%block(3, k - 1) + 1, part%block(3, k), size(part%order), size(part%s%a), part%s%first, &
+                                  part%s%start, least_pivot, part%s%a, part%s%inverse, part%s%row, x, bad_row)
+         if (bad_row > 0) then
+            bad_row = part%order(bad_row)
+            return
+         end if
+      end do
+   end subroutine take_blocks
 
    !> Factors of S with its diagonal raised.
    subroutine schur_factorise(self, inverse_mass, rows, damping, bad_row)
@@ -168,7 +178,8 @@ contains
       associate (part => self%all)
          self%residual = 0.0_wp
          do k = 1, part%n_block
-            call assemble(k, part, ubound(inverse_mass, 2), rows%n, inverse_mass, rows%jac, 0.0_wp*inverse_mass, self%residual)
+            call assemble(k, part, ubound(inverse_mass, 2), rows%n, inverse_mass, rows%jac, 0.0_wp*inverse_mass, self%residual, &
+                          self%x)
          end do
          do k = 1, size(part%order)
             associate (diagonal => part%s%a(part%s%start(k) + k))
@@ -177,7 +188,7 @@ contains
             end associate
          end do
          call factorise_and_solve(1, size(part%order), size(part%order), size(part%s%a), part%s%first, part%s%start, 0.0_wp, &
-                                  part%s%a, part%s%inverse, part%s%row, part%x, bad_row)
+                                  part%s%a, part%s%inverse, part%s%row, self%x, bad_row)
          if (bad_row > 0) bad_row = part%order(bad_row)
       end associate
       self%n_factorisations = self%n_factorisations + 1
@@ -192,10 +203,10 @@ contains
 
       associate (part => self%all)
          do k = 1, size(part%order)
-            part%x(k) = x(part%order(k))
+            self%x(k) = x(part%order(k))
          end do
-         call solve_factored(size(part%x), size(part%s%a), part%s%first, part%s%start, part%s%a, part%s%inverse, part%x)
-         call in_given_order(size(part%x), part%order, size(x), part%x, x)
+         call solve_factored(size(part%order), size(part%s%a), part%s%first, part%s%start, part%s%a, part%s%inverse, self%x)
+         call in_given_order(size(part%order), part%order, size(x), self%x, x)
       end associate
    end subroutine schur_back_solve
 
@@ -216,20 +227,21 @@ contains
    end subroutine in_given_order
 
    !> What a block of bodies gives to the Schur complement of a part, and to the right-hand side of its multipliers.
-   pure subroutine assemble(block, part, n_body, n_row, inverse_mass, jac, g, b)
+   pure subroutine assemble(block, part, n_body, n_row, inverse_mass, jac, g, b, x)
       integer, intent(in) :: block                         !! which of the blocks; they are taken in their order
-      type(part_t), intent(inout) :: part                  !! the part; S and x are set
+      type(part_t), intent(inout) :: part                  !! the part; S is set
       integer, intent(in) :: n_body                        !! number of bodies
       integer, intent(in) :: n_row                         !! number of rows
       real(wp), intent(in) :: inverse_mass(part%n_v, 0:n_body)  !! (n_v, 0:bodies) inverse masses [1/kg or 1/(kg.m^2)]
       real(wp), intent(in) :: jac(2*part%n_v*n_row)    !! (2 n_v rows) Phi_q, row by row [1 or m]
       real(wp), intent(in) :: g(part%n_v, 0:n_body)    !! (n_v, 0:bodies) applied loads [N or N.m]
       real(wp), intent(in) :: b(n_row)                     !! (rows) right-hand side [m/s^2 or rad/s^2]
+      real(wp), intent(inout) :: x(size(part%order))       !! (its rows) right-hand side, envelope's order [m/s^2 or rad/s^2]
 
       if (part%n_v == n_v_planar) then
-         call assemble_planar(block, part, n_body, n_row, inverse_mass, jac, g, b)
+         call assemble_planar(block, part, n_body, n_row, inverse_mass, jac, g, b, x)
       else
-         call assemble_spatial(block, part, n_body, n_row, inverse_mass, jac, g, b)
+         call assemble_spatial(block, part, n_body, n_row, inverse_mass, jac, g, b, x)
       end if
    end subroutine assemble
 

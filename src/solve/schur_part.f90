@@ -18,6 +18,7 @@ module schur_part
       integer :: n_v = 0                          !! rates of a body
       type(envelope_t) :: s                       !! Schur complement, then its factors
       integer, allocatable :: order(:)            !! (its rows) rows in the order of the envelope
+      logical :: is_in_order = .false.            !! which is their own
       integer :: n_side = 0                       !! their sides that are unknown bodies
       integer, allocatable :: side(:, :)          !! (2, sides) place in the envelope's order, place in the Jacobian; body by body,
                                                   !! of each in the order of the envelope
@@ -26,7 +27,6 @@ module schur_part
       integer :: n_block = 0                      !! blocks of these bodies
       integer, allocatable :: block(:, :)         !! (3, 0:blocks) last of these bodies, last row that has a side in this block or
                                                   !! one before, last row that is complete after it; of block 0: 0
-      real(wp), allocatable :: x(:)               !! (its rows) right-hand side and solution, in the order of the envelope [any]
    end type part_t
 
    integer, parameter :: block_rows = 96   !! rows that a block completes, at least: some 20 kB of a chain of bodies in space
@@ -116,6 +116,7 @@ contains
 
       part%n_v = rows%n_v
       call choose_order(rows, is_taken, part%order, first, cost)
+      part%is_in_order = all(part%order == [(k, k=1, size(part%order))])
       allocate (place(rows%n_solve), source=0)
       place(part%order) = [(k, k=1, size(part%order))]
       call new_envelope(first, part%s)
@@ -142,7 +143,6 @@ contains
       end do
       part%n_side = n_side
       part%body = part%body(:, :part%n_body)
-      allocate (part%x(size(part%order)), source=0.0_wp)
       call cut_blocks(part)
    end subroutine prepare_part
 

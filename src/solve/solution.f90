@@ -13,7 +13,7 @@ module solution
    use kinds, only: i8, wp
    implicit none (type, external)
    private
-   public :: solution_t
+   public :: find_free, solution_t
 
    real(wp), parameter :: damping(2) = [1.0e-9_wp, 1.0e-5_wp]  !! (2) of rows nearly, or always, dependent; round-off over it
                                                                !! shows in reactions that are not unique [1]
@@ -92,8 +92,8 @@ contains
       call self%solver%set_least_pivot(least)
    end subroutine take_least_pivot
 
-   !> Accelerations of the unknown bodies and multipliers of the solved rows, as rows and b were set. Status 1 if rows that always
-   !> depend on others contradict them, or if there is no solution.
+   !> Accelerations of the unknown bodies and multipliers of the solved rows, of which there are some, as rows and b were set. Status 1
+   !> if rows that always depend on others contradict them, or if there is no solution.
    subroutine solution_find(self, inverse_mass, rows, g, must_agree, status)
       class(solution_t), intent(inout) :: self                 !! the solution
       real(wp), intent(in), contiguous :: inverse_mass(:, 0:)  !! (n_v, 0:bodies) inverse masses, 0 if known [1/kg or 1/(kg.m^2)]
@@ -105,11 +105,6 @@ contains
       integer :: k
 
       status = 0
-      if (rows%n_solve == 0) then
-         self%bad_row = 0
-         call find_free(rows%n_unknown, rows%unknown, rows%n_v, ubound(g, 2), inverse_mass, g, self%a)
-         return
-      end if
       self%bad_row = 1
       if (.not. self%is_redundant) call self%solver%solve(inverse_mass, rows, g, self%b, self%a, self%lambda, self%bad_row)
       if (self%bad_row == 0) return

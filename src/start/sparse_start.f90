@@ -63,14 +63,14 @@ contains
       real(wp), intent(in), contiguous :: jac(:, :)      !! (2 n_v, rows) Phi_q [1 or m]
       real(wp), intent(in), contiguous :: weight(:, 0:)  !! (n_v, 0:bodies) W [any]
 
-      real(wp) :: none(self%rows%n_v, 0:self%n_body), zero(self%rows%n)
+      real(wp) :: none(self%rows%n_v, 0:self%n_body), unused(size(self%part%order)), zero(self%rows%n)
       integer :: k
 
       none = 0.0_wp
       zero = 0.0_wp
       associate (part => self%part)
          do k = 1, part%n_block
-            call assemble(k, part, self%n_body, self%rows%n, weight, jac, none, zero)
+            call assemble(k, part, self%n_body, self%rows%n, weight, jac, none, zero, unused)
          end do
          call factorise_semidefinite(threshold, part%s, self%is_dependent)
       end associate
@@ -86,7 +86,7 @@ contains
       integer, intent(out) :: rank                       !! independent rows
 
       real(wp), dimension(self%rows%n_v, 0:self%n_body) :: change, none, total
-      real(wp) :: lambda(self%rows%n), residual(self%rows%n)
+      real(wp) :: lambda(self%rows%n), residual(self%rows%n), z(size(self%part%order))
       real(wp) :: before, now
       integer :: k
 
@@ -99,9 +99,9 @@ contains
       before = huge(1.0_wp)
       associate (part => self%part, rows => self%rows)
          do k = 0, n_refinement
-            part%x = residual(part%order)
-            call solve_factored(size(part%x), size(part%s%a), part%s%first, part%s%start, part%s%a, part%s%inverse, part%x)
-            lambda(part%order) = part%x
+            z = residual(part%order)
+            call solve_factored(size(z), size(part%s%a), part%s%first, part%s%start, part%s%a, part%s%inverse, z)
+            lambda(part%order) = z
             call body_accelerations(rows, rows%n_unknown, rows%unknown, self%n_body, weight, jac, none, lambda, change)
             ! the sum of changes is kept, not that of multipliers: large weights would make the round-off of these visible
             change = total + change
