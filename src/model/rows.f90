@@ -7,7 +7,8 @@ module rows
    use kinds, only: wp
    implicit none (type, external)
    private
-   public :: coordinate_place, list_sides, n_v_planar, n_v_spatial, new_rows, place_in_row, rows_t, side_place
+   public :: body_of_side, coordinate_place, list_sides, n_v_planar, n_v_spatial, new_rows, place_in_row, place_of_side
+   public :: row_of_side, rows_t, side_place
 
    integer, parameter :: n_v_planar = 3    !! rates of a body in the plane
    integer, parameter :: n_v_spatial = 6   !! rates of a body in space
@@ -25,9 +26,10 @@ module rows
       integer :: n_unknown = 0                  !! bodies whose motion is unknown
       integer, allocatable :: unknown(:)        !! (unknown bodies) their numbers, rising
       integer :: n_side = 0                     !! sides of solved rows that are unknown bodies
-      integer, allocatable :: side(:, :)        !! (3, sides) row, place before its entries in `jac`, body; sorted by body
+      integer, allocatable :: side(:)           !! (sides) numbers: 2 (row - 1) for body i, one more for body j; sorted by body
       integer, allocatable :: last_side(:)      !! (0:bodies) last side of each body; of body 0: 0
-      integer, allocatable :: known(:, :)       !! (3, sides of solved rows that are known bodies, the ground none) as `side`
+      integer, allocatable :: known(:, :)       !! (3, sides of solved rows that are known bodies, the ground none) row, place
+                                                !! before its entries in `jac`, body
       real(wp), allocatable :: phi(:)           !! (n) Phi [m or rad]
       real(wp), allocatable :: phi_t(:)         !! (n) partial time derivative of Phi [m/s or rad/s]
       real(wp), allocatable :: jac(:, :)        !! (2 n_v, n) Phi_q [1 or m]
@@ -80,7 +82,7 @@ contains
       end do
       rows%n_side = rows%last_side(n_body)
       deallocate (rows%known)
-      allocate (rows%side(3, rows%n_side), rows%known(3, n_known), source=0)
+      allocate (rows%side(rows%n_side), rows%known(3, n_known), source=0)
       n_known = 0
       do row = rows%n_solve, 1, -1
          do side = 2, 1, -1
@@ -92,7 +94,7 @@ contains
             else
                k = rows%last_side(body)
                rows%last_side(body) = k - 1
-               rows%side(:, k) = [row, side_place(rows%n_v, row, side), body]
+               rows%side(k) = 2*(row - 1) + side - 1
             end if
          end do
       end do
@@ -119,6 +121,29 @@ contains
 
       place = coordinate_place(n_v, 2*(row - 1) + side)
    end function side_place
+
+   !> Row of a side, from its number.
+   elemental integer function row_of_side(side) result(row)
+      integer, intent(in) :: side   !! its number in `rows%side`
+
+      row = shiftr(side, 1) + 1
+   end function row_of_side
+
+   !> Body of a side, from its number.
+   pure integer function body_of_side(rows, side) result(body)
+      type(rows_t), intent(in) :: rows   !! the rows
+      integer, intent(in) :: side        !! its number in `rows%side`
+
+      body = rows%body(iand(side, 1) + 1, row_of_side(side))
+   end function body_of_side
+
+   !> Entries of Phi_q before those of a side, from its number.
+   elemental integer function place_of_side(n_v, side) result(place)
+      integer, intent(in) :: n_v    !! rates of a body
+      integer, intent(in) :: side   !! its number in `rows%side`
+
+      place = n_v*side
+   end function place_of_side
 
    !> Entries of a row before those of one of its sides, from its place among all.
    elemental integer function place_in_row(n_v, row, place) result(before)

@@ -14,7 +14,7 @@ module augmented_lagrangian
    use augmented, only: augmented_t
    use body_kernels, only: body_accelerations, row_residuals
    use envelope, only: envelope_t, factorise_and_solve, new_envelope, solve_factored
-   use rows, only: coordinate_place, n_v_planar, rows_t
+   use rows, only: body_of_side, coordinate_place, n_v_planar, place_of_side, row_of_side, rows_t
    use kind_info, only: kind_info_t
    use kinds, only: wp
    use matrix_kernels_planar, only: planar_loads => penalty_loads, planar_matrix => penalty_matrix, &
@@ -80,7 +80,7 @@ contains
       type(rows_t), intent(in) :: rows                      !! rows, of which the bodies are read
 
       integer, allocatable :: first(:), first_body(:), neighbour(:), order(:), other(:), start(:)
-      integer :: body, c, k, m, n, of_row(2, rows%n_solve), pass
+      integer :: body, c, k, m, n, of_row(2, rows%n_solve), other_body, pass
       real :: cost, other_cost
 
       n = rows%n_unknown
@@ -104,12 +104,13 @@ contains
             do c = 1, 2
                do m = 1, 2
                   if (of_row(c, k) == 0 .or. of_row(m, k) == 0) cycle
-                  body = self%place(rows%side(3, of_row(c, k)))
-                  if (body < self%place(rows%side(3, of_row(m, k)))) cycle
+                  body = self%place(body_of_side(rows, rows%side(of_row(c, k))))
+                  other_body = self%place(body_of_side(rows, rows%side(of_row(m, k))))
+                  if (body < other_body) cycle
                   self%n_pair = self%n_pair + 1
                   if (pass == 1) cycle
-                  self%pair(:, self%n_pair) = [k, rows%side(2, of_row(c, k)), rows%side(2, of_row(m, k)), body, &
-                                               self%place(rows%side(3, of_row(m, k)))]
+                  self%pair(:, self%n_pair) = [k, place_of_side(rows%n_v, rows%side([of_row(c, k), of_row(m, k)])), body, &
+                                               other_body]
                end do
             end do
          end do
@@ -134,7 +135,7 @@ contains
       number(rows%unknown) = [(k, k=1, rows%n_unknown)]
       of_row = 0
       do k = 1, rows%n_side
-         row = rows%side(1, k)
+         row = row_of_side(rows%side(k))
          of_row(merge(1, 2, of_row(1, row) == 0), row) = k
       end do
       allocate (start(rows%n_unknown + 1), neighbour(rows%n_side))
@@ -142,9 +143,9 @@ contains
       do i = 1, rows%n_unknown
          start(i + 1) = start(i)
          do k = rows%last_side(rows%unknown(i) - 1) + 1, rows%last_side(rows%unknown(i))
-            other = sum(of_row(:, rows%side(1, k))) - k
+            other = sum(of_row(:, row_of_side(rows%side(k)))) - k
             if (other == 0) cycle
-            neighbour(start(i + 1)) = number(rows%side(3, other))
+            neighbour(start(i + 1)) = number(body_of_side(rows, rows%side(other)))
             start(i + 1) = start(i + 1) + 1
          end do
       end do
@@ -247,11 +248,12 @@ contains
       n_body = ubound(inverse_mass, 2)
       associate (k => self%k, n => rows%n_solve)
          if (rows%n_v == n_v_planar) then
-            call planar_penalties(n_body, rows%n, n, rows%n_side, rows%side, penalty, rows%jac, inverse_mass, self%alpha)
+            call planar_penalties(n_body, rows%n, n, rows%n_side, rows%side, rows%body, penalty, rows%jac, inverse_mass, self%alpha)
             call planar_matrix(n_body, rows%n, n, rows%n_unknown, rows%unknown, self%place, self%n_pair, self%pair, k%n, k%start, &
                                size(k%a), self%alpha, inverse_mass, rows%jac, k%a)
          else
-            call spatial_penalties(n_body, rows%n, n, rows%n_side, rows%side, penalty, rows%jac, inverse_mass, self%alpha)
+            call spatial_penalties(n_body, rows%n, n, rows%n_side, rows%side, rows%body, penalty, rows%jac, inverse_mass, &
+                                   self%alpha)
             call spatial_matrix(n_body, rows%n, n, rows%n_unknown, rows%unknown, self%place, self%n_pair, self%pair, k%n, k%start, &
                                 size(k%a), self%alpha, inverse_mass, rows%jac, k%a)
          end if
@@ -286,11 +288,11 @@ contains
 
       n_body = ubound(self%place, 1)
       if (rows%n_v == n_v_planar) then
-         call planar_loads(n_body, rows%n, rows%n_solve, rows%n_side, rows%side, self%place, self%k%n, self%alpha, rows%jac, &
-                           self%residual, self%x)
+         call planar_loads(n_body, rows%n, rows%n_solve, rows%n_side, rows%side, rows%body, self%place, self%k%n, self%alpha, &
+                           rows%jac, self%residual, self%x)
       else
-         call spatial_loads(n_body, rows%n, rows%n_solve, rows%n_side, rows%side, self%place, self%k%n, self%alpha, rows%jac, &
-                            self%residual, self%x)
+         call spatial_loads(n_body, rows%n, rows%n_solve, rows%n_side, rows%side, rows%body, self%place, self%k%n, self%alpha, &
+                            rows%jac, self%residual, self%x)
       end if
       call solve_factored(self%k%n, size(self%k%a), self%k%first, self%k%start, self%k%a, self%k%inverse, self%x)
       do k = 1, rows%n_unknown

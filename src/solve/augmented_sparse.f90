@@ -6,7 +6,7 @@
 !> Source: Flores et al. (2008), eq. (2.15). Cost: in proportion to the bodies and rows, unless loops fill the factors.
 module augmented_sparse
    use augmented, only: direct_t
-   use rows, only: coordinate_place, n_v_planar, rows_t
+   use rows, only: body_of_side, coordinate_place, n_v_planar, row_of_side, rows_t
    use kind_info, only: kind_info_t
    use kinds, only: wp
    use klu, only: sparse_lu_t
@@ -79,7 +79,7 @@ contains
             self%matrix%row(place) = column - 1
             do k = rows%last_side(body - 1) + 1, rows%last_side(body)
                place = place + 1
-               self%matrix%row(place) = nq + rows%side(1, k) - 1
+               self%matrix%row(place) = nq + row_of_side(rows%side(k)) - 1
                self%lower(c, k) = place
             end do
          end do
@@ -87,7 +87,7 @@ contains
       ! the sides of each row, at most two
       allocate (in_row(rows%n_solve), of_row(2, rows%n_solve), source=0)
       do k = 1, rows%n_side
-         i = rows%side(1, k)
+         i = row_of_side(rows%side(k))
          in_row(i) = in_row(i) + 1
          of_row(in_row(i), i) = k
       end do
@@ -97,7 +97,7 @@ contains
             self%upper(of_row(k, i)) = place + 1
             do c = 1, n_v
                place = place + 1
-               self%matrix%row(place) = coordinate(rows%side(3, of_row(k, i))) + c - 1
+               self%matrix%row(place) = coordinate(body_of_side(rows, rows%side(of_row(k, i)))) + c - 1
             end do
          end do
          place = place + 1
@@ -159,11 +159,11 @@ contains
       n_body = ubound(inverse_mass, 2)
       n_entry = size(self%matrix%a)
       if (rows%n_v == n_v_planar) then
-         call planar_upper(n_body, rows%n, rows%n_solve, rows%n_side, rows%side, self%upper, n_entry, rows%jac, self%root, &
-                           self%matrix%a, self%row_scale)
+         call planar_upper(n_body, rows%n, rows%n_solve, rows%n_side, rows%side, rows%body, self%upper, n_entry, rows%jac, &
+                           self%root, self%matrix%a, self%row_scale)
       else
-         call spatial_upper(n_body, rows%n, rows%n_solve, rows%n_side, rows%side, self%upper, n_entry, rows%jac, self%root, &
-                            self%matrix%a, self%row_scale)
+         call spatial_upper(n_body, rows%n, rows%n_solve, rows%n_side, rows%side, rows%body, self%upper, n_entry, rows%jac, &
+                            self%root, self%matrix%a, self%row_scale)
       end if
       do row = 1, rows%n_solve
          self%matrix%a(self%diagonal(row)) = -damping

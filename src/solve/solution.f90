@@ -92,8 +92,8 @@ contains
       call self%solver%set_least_pivot(least)
    end subroutine take_least_pivot
 
-   !> Accelerations of the unknown bodies and multipliers of the solved rows, of which there are some, as rows and b were set. Status 1
-   !> if rows that always depend on others contradict them, or if there is no solution.
+   !> Accelerations of the unknown bodies and multipliers of the solved rows, of which there are some, as rows and b were set.
+   !> Status 1 if rows that always depend on others contradict them, or if there is no solution.
    subroutine solution_find(self, inverse_mass, rows, g, must_agree, status)
       class(solution_t), intent(inout) :: self                 !! the solution
       real(wp), intent(in), contiguous :: inverse_mass(:, 0:)  !! (n_v, 0:bodies) inverse masses, 0 if known [1/kg or 1/(kg.m^2)]

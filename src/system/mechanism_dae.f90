@@ -6,7 +6,7 @@ submodule(mechanism) mechanism_dae
    use, intrinsic :: ieee_arithmetic, only: ieee_is_finite
    use assembly_report, only: assembly_t
    use dependent_rows, only: choose_dependent
-   use rows, only: place_in_row, rows_t
+   use rows, only: body_of_side, place_in_row, place_of_side, row_of_side, rows_t
    implicit none (type, external)
 
 contains
@@ -106,9 +106,9 @@ contains
 
       z = 0.0_wp
       do k = 1, rows%n_side
-         row = rows%side(1, k)
-         place = place_in_row(rows%n_v, row, rows%side(2, k))
-         body = rows%side(3, k)
+         row = row_of_side(rows%side(k))
+         place = place_in_row(rows%n_v, row, place_of_side(rows%n_v, rows%side(k)))
+         body = body_of_side(rows, rows%side(k))
          z(:, body) = z(:, body) + rows%jac(place + 1:place + size(z, 1), row)*x(row)
       end do
       z = z*inverse_mass

@@ -1,6 +1,7 @@
 !> Where the residual of `mechanism_dae` has entries: a body couples with itself, and with those that it shares joints, forces or
 !> contacts with. All bodies have all their coordinates, as many as rates, and contacts no states of their own.
 submodule(mechanism_state) mechanism_pattern
+   use rows, only: row_of_side
    implicit none (type, external)
 
    !> Neighbours of bodies, of each those of a list.
@@ -38,8 +39,8 @@ contains
                      call add_body(n_v*n + n_v*(place(near%other(first)) - 1))
                   end do
                   do first = self%linkage%rows%last_side(body - 1) + 1, self%linkage%rows%last_side(body)
-                     call add_entry(self%n + self%linkage%rows%side(1, first) - 1)
-                     if (level == 0) call add_entry(self%n + m + self%linkage%rows%side(1, first) - 1)
+                     call add_entry(self%n + row_of_side(self%linkage%rows%side(first)) - 1)
+                     if (level == 0) call add_entry(self%n + m + row_of_side(self%linkage%rows%side(first)) - 1)
                   end do
                end do
             end do
