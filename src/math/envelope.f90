@@ -3,7 +3,7 @@
 !> Row i keeps its entries from column `first(i)` to the diagonal, one after the other; the factor
 !> fills exactly that envelope. Pivots are tested against the diagonal they came from: a pivot
 !> smaller than `threshold` times that means that the row depends on earlier ones. Such rows end a factorisation, or are
-!> set aside: then D is zero there, L z = 0 on all others gives the combination of rows that vanishes, and a solution has
+!> set aside: then one over D is zero there, L z = 0 on all others gives the combination of rows that vanishes, and a solution has
 !> zeros there.
 !> Source: A. Jennings, A compact storage scheme for the solution of symmetric linear simultaneous
 !> equations, Comput. J. 9 (1966) 281-285. Limits: no pivoting, so positive (semi-)definite only.
@@ -19,8 +19,7 @@ module envelope
       integer :: n = 0                        !! order
       integer, allocatable :: first(:)        !! (n) first column of each row
       integer, allocatable :: start(:)        !! (n) place of entry (i, j) is start(i) + j
-      real(wp), allocatable :: a(:)           !! (entries) matrix, then L without its unit diagonal, D on the diagonal [any]
-      real(wp), allocatable :: inverse(:)     !! (n) one over D [any]
+      real(wp), allocatable :: a(:)           !! (entries) matrix, then L with one over D in the place of its unit diagonal [any]
       real(wp), allocatable :: row(:)         !! (n) scratch [any]
    end type envelope_t
 
@@ -41,12 +40,12 @@ contains
          matrix%start(i) = entries - first(i) + 1
          entries = entries + i - first(i) + 1
       end do
-      allocate (matrix%a(entries), matrix%inverse(matrix%n), matrix%row(matrix%n), source=0.0_wp)
+      allocate (matrix%a(entries), matrix%row(matrix%n), source=0.0_wp)
    end subroutine new_envelope
 
    !> Factorise some rows in place after those before them; after the last row, solve for one right-hand side. The factors can serve
    !> further ones. The loops are short: they are kept from being vectorised.
-   pure subroutine factorise_and_solve(from, to, n, n_entry, first, start, threshold, a, inverse, row, x, bad_row)
+   pure subroutine factorise_and_solve(from, to, n, n_entry, first, start, threshold, a, row, x, bad_row)
       integer, intent(in) :: from                 !! the first of the rows
       integer, intent(in) :: to                   !! the last of them
       integer, intent(in) :: n                    !! order
@@ -55,7 +54,6 @@ contains
       integer, intent(in) :: start(n)             !! (n) place of entry (i, j) is start(i) + j
       real(wp), intent(in) :: threshold           !! least pivot, as a part of the diagonal it came from [1]
       real(wp), intent(inout) :: a(n_entry)       !! (entries) matrix, then its factors [any]
-      real(wp), intent(inout) :: inverse(n)       !! (n) one over D [any]
       real(wp), intent(inout) :: row(n)           !! (n) scratch [any]
       real(wp), intent(inout) :: x(n)             !! (n) right-hand side, then z of L D z = b, then solution [any]
       integer, intent(out) :: bad_row             !! first row with a small pivot, 0: none
@@ -78,7 +76,7 @@ contains
                sum = sum - row(k - first_i + 1)*a(start_j + k)
             end do
             row(j - first_i + 1) = sum  ! L(i,j) D(j)
-            factor = sum*inverse(j)
+            factor = sum*a(start_j + j)
             a(start_i + j) = factor
             pivot = pivot - sum*factor
             right = right - sum*x(j)
@@ -87,9 +85,8 @@ contains
             bad_row = i
             return
          end if
-         a(start_i + i) = pivot
-         inverse(i) = 1.0_wp/pivot
-         x(i) = right*inverse(i)
+         a(start_i + i) = 1.0_wp/pivot
+         x(i) = right*a(start_i + i)
       end do
       if (to == n) call solve_upper(n, n_entry, first, start, a, x)
    end subroutine factorise_and_solve
@@ -111,14 +108,13 @@ contains
                sum = a(start(i) + j)
                if (from < j) sum = sum - ddot(j - from, row(from:), 1, a(start(j) + from:), 1)
                row(j) = sum  ! L(i,j) D(j)
-               factor = sum*matrix%inverse(j)
+               factor = sum*a(start(j) + j)
                a(start(i) + j) = factor
                pivot = pivot - sum*factor
             end do
             is_dependent(i) = .not. pivot > threshold*a(start(i) + i)
-            a(start(i) + i) = merge(0.0_wp, pivot, is_dependent(i))
-            matrix%inverse(i) = 0.0_wp
-            if (.not. is_dependent(i)) matrix%inverse(i) = 1.0_wp/pivot
+            a(start(i) + i) = 0.0_wp
+            if (.not. is_dependent(i)) a(start(i) + i) = 1.0_wp/pivot
          end do
       end associate
    end subroutine factorise_semidefinite
@@ -150,13 +146,12 @@ contains
    end subroutine vanishing_vector
 
    !> Solve for one more right-hand side with the factors of `factorise_and_solve`.
-   pure subroutine solve_factored(n, n_entry, first, start, a, inverse, x)
+   pure subroutine solve_factored(n, n_entry, first, start, a, x)
       integer, intent(in) :: n                    !! order
       integer, intent(in) :: n_entry              !! entries of the envelope
       integer, intent(in) :: first(n)             !! (n) first column of each row
       integer, intent(in) :: start(n)             !! (n) place of entry (i, j) is start(i) + j
       real(wp), intent(in) :: a(n_entry)          !! (entries) factors [any]
-      real(wp), intent(in) :: inverse(n)          !! (n) one over D [any]
       real(wp), intent(inout) :: x(n)             !! (n) right-hand side, then solution [any]
 
       integer :: i, j
@@ -168,7 +163,7 @@ contains
          end do
       end do
       do i = 1, n
-         x(i) = x(i)*inverse(i)
+         x(i) = x(i)*a(start(i) + i)
       end do
       call solve_upper(n, n_entry, first, start, a, x)
    end subroutine solve_factored

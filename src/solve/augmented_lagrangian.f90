@@ -205,7 +205,7 @@ contains
       call assemble(self, penalty, inverse_mass, rows)
       self%x = 0.0_wp
       call factorise_and_solve(1, self%k%n, self%k%n, size(self%k%a), self%k%first, self%k%start, 0.0_wp, self%k%a, &
-                               self%k%inverse, self%k%row, self%x, bad_row)
+                               self%k%row, self%x, bad_row)
       self%n_factorisations = self%n_factorisations + 1
       if (bad_row > 0) then
          bad_row = 1
@@ -294,7 +294,7 @@ contains
          call spatial_loads(n_body, rows%n, rows%n_solve, rows%n_side, rows%side, rows%body, self%place, self%k%n, self%alpha, &
                             rows%jac, self%residual, self%x)
       end if
-      call solve_factored(self%k%n, size(self%k%a), self%k%first, self%k%start, self%k%a, self%k%inverse, self%x)
+      call solve_factored(self%k%n, size(self%k%a), self%k%first, self%k%start, self%k%a, self%x)
       do k = 1, rows%n_unknown
          i = self%place(rows%unknown(k))
          self%d(:, rows%unknown(k)) = self%x(i + 1:i + rows%n_v)

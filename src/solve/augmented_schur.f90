@@ -157,7 +157,7 @@ contains
       do k = 1, part%n_block
          call assemble(k, part, n_body, n_row, inverse_mass, jac, g, b, x)
          call factorise_and_solve(part%block(3, k - 1) + 1, part%block(3, k), size(part%order), size(part%s%a), part%s%first, &
-                                  part%s%start, least_pivot, part%s%a, part%s%inverse, part%s%row, x, bad_row)
+                                  part%s%start, least_pivot, part%s%a, part%s%row, x, bad_row)
          if (bad_row > 0) then
             bad_row = part%order(bad_row)
             return
@@ -188,7 +188,7 @@ contains
             end associate
          end do
          call factorise_and_solve(1, size(part%order), size(part%order), size(part%s%a), part%s%first, part%s%start, 0.0_wp, &
-                                  part%s%a, part%s%inverse, part%s%row, self%x, bad_row)
+                                  part%s%a, part%s%row, self%x, bad_row)
          if (bad_row > 0) bad_row = part%order(bad_row)
       end associate
       self%n_factorisations = self%n_factorisations + 1
@@ -205,7 +205,7 @@ contains
          do k = 1, size(part%order)
             self%x(k) = x(part%order(k))
          end do
-         call solve_factored(size(part%order), size(part%s%a), part%s%first, part%s%start, part%s%a, part%s%inverse, self%x)
+         call solve_factored(size(part%order), size(part%s%a), part%s%first, part%s%start, part%s%a, self%x)
          call in_given_order(size(part%order), part%order, size(x), self%x, x)
       end associate
    end subroutine schur_back_solve

@@ -100,7 +100,7 @@ contains
       associate (part => self%part, rows => self%rows)
          do k = 0, n_refinement
             z = residual(part%order)
-            call solve_factored(size(z), size(part%s%a), part%s%first, part%s%start, part%s%a, part%s%inverse, z)
+            call solve_factored(size(z), size(part%s%a), part%s%first, part%s%start, part%s%a, z)
             lambda(part%order) = z
             call body_accelerations(rows, rows%n_unknown, rows%unknown, self%n_body, weight, jac, none, lambda, change)
             ! the sum of changes is kept, not that of multipliers: large weights would make the round-off of these visible
