@@ -31,6 +31,15 @@ def remove(root, gudgeon, installed, expect=0):
     return call([root / "scripts/install", "--remove", gudgeon, "/opt/mine", installed.parents[1]], expect=expect)
 
 
+def test_libraries_are_loaded_on_demand(root, tmp_path):
+    """`make LINK=shared` and `make LINK=static` are what they say: the last command of a build names archives or none."""
+    for link in ("shared", "static"):
+        told = call(["make", "-n", f"LINK={link}", f"B={tmp_path / link}", "binary"], cwd=root).splitlines()
+        last = [line for line in told if f"-o {tmp_path / link}/gudgeon " in line]
+        assert len(last) == 1 and last[0].startswith(os.environ.get("FC", "gfortran"))
+        assert ("-Bstatic" in last[0]) == (link == "static")
+
+
 def test_what_is_installed(root, installed):
     there = set(files_below(installed))
     for name in ("bin/gudgeon", "share/man/man1/gudgeon.1", "share/bash-completion/completions/gudgeon",
