@@ -18,7 +18,7 @@ module dop853
    use kind_info, only: kind_info_t
    use kinds, only: wp
    use ode_system, only: ode_system_t
-   use one_step, only: one_step_t, wild
+   use one_step, only: judge_stage, one_step_t
    use step_course, only: along, course_even, pace_at, parameter_of
    implicit none (type, external)
    private
@@ -136,11 +136,12 @@ contains
       real(wp), intent(in) :: h                     !! length of the step [s]
       integer, intent(out) :: status                !! of the evaluations
 
-      integer :: course, first, i, last, n
+      integer :: course, first, i, last, n, n_rate
 
       n = size(self%y)
       first = system%n_position + 1  ! of the derivatives that forces make
       last = n - system%n_quadrature
+      n_rate = last - system%n_position
       self%count%n_evaluations = self%count%n_evaluations + n_new_stage
       self%h_stages = h
       self%k(:, 1) = self%step%f0
@@ -149,12 +150,9 @@ contains
       do i = 2, 12
          call add_stages(i, n, self%step%y0, h, self%k, self%y)
          call system%evaluate(self%step%t0 + places(i, course)*h, self%y, self%k(:, i), status)
+         call judge_stage(n_rate, self%k(first:last, i), status)
          if (status /= 0) return
          if (course /= course_even) self%k(:, i) = paces(i, course)*self%k(:, i)
-         if (greatest(last - first + 1, self%k(first, i)) > wild) then
-            status = 1
-            return
-         end if
       end do
       call add_stages(13, n, self%step%y0, h, self%k, self%trial)
    end subroutine dop853_make_stages
@@ -226,20 +224,6 @@ contains
          end do
       end select
    end subroutine add_stages
-
-   !> Greatest magnitude of some numbers.
-   pure real(wp) function greatest(n, x)
-      integer, intent(in) :: n       !! how many
-      real(wp), intent(in) :: x(n)   !! (n) the numbers [any]
-
-      integer :: e
-
-      greatest = 0.0_wp
-      do e = 1, n
-         greatest = max(greatest, abs(x(e)))
-      end do
-   end function greatest
-
    !> Norm of the error estimate of the trial step, over the tolerance.
    real(wp) function dop853_error_norm(self, system, h) result(norm)
       class(dop853_t), intent(inout) :: self     !! the integrator

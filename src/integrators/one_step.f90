@@ -20,7 +20,7 @@ module one_step
    implicit none (type, external)
    private
    public :: one_step_advance, one_step_load, one_step_memory_size, one_step_restart, one_step_save, one_step_t
-   public :: is_wild, wild
+   public :: judge_stage, wild
 
    real(wp), parameter :: wild = 1.0e60_wp        !! derivative of a trial step far too long for a stiff force [any]
    integer, parameter :: too_deep = 2             !! of a trial step: a contact that begins is beyond the limit
@@ -279,7 +279,7 @@ contains
          call system%evaluate(t_new, self%trial, self%step%f1, status)
          self%count%n_evaluations = self%count%n_evaluations + 1
          if (status == 0 .and. self%controls%fixed_step > 0.0_wp) then
-            if (is_wild(self%step%f1)) status = 1
+            if (is_wild(size(self%step%f1), self%step%f1)) status = 1
          end if
       end if
       if (status /= 0) norm = huge(1.0_wp)
@@ -289,11 +289,22 @@ contains
    end subroutine try_step
 
    !> Whether a derivative is that of a step far too long, or no number: nothing can be evaluated from there on.
-   pure logical function is_wild(f)
-      real(wp), intent(in) :: f(:)   !! (n) derivative [any]
+   pure logical function is_wild(n, f)
+      integer, intent(in) :: n       !! entries
+      real(wp), intent(in) :: f(n)   !! (n) derivative [any]
 
-      is_wild = count(abs(f) <= wild) < size(f)  ! a sum without branches, for vectors; what is not finite is not counted
+      is_wild = count(abs(f) <= wild) < n  ! a sum without branches, for vectors; what is not finite is not counted
    end function is_wild
+
+   !> Give up a step at a stage whose derivative is wild: the states of the next ones would be, and squares of their speeds overflow.
+   pure subroutine judge_stage(n, f, status)
+      integer, intent(in) :: n            !! entries that count: the derivatives that forces make
+      real(wp), intent(in) :: f(n)        !! (n) derivative, if there is one [any]
+      integer, intent(inout) :: status    !! of the evaluation; 1: wild
+
+      if (status /= 0) return
+      if (is_wild(n, f)) status = 1
+   end subroutine judge_stage
 
    !> Tell the system the step. A system that follows it was evaluated at the start just before, also after a step that was
    !> rejected, and its derivative there is the one that belongs to the step.

@@ -25,7 +25,8 @@ module rock4
    use kinds, only: eps, wp
    use memory, only: get, put
    use ode_system, only: ode_system_t
-   use one_step, only: is_wild, one_step_advance, one_step_load, one_step_memory_size, one_step_restart, one_step_save, one_step_t
+   use one_step, only: judge_stage, one_step_advance, one_step_load, one_step_memory_size, one_step_restart, one_step_save, &
+      one_step_t
    use rock4_stages, only: end_coefficients, estimate_coefficients, find_recurrence, least_degree, longest_stretch, most_stages, &
       n_recurrence, recurrence
    use spectral_radius, only: find_radius, most_iterations
@@ -150,21 +151,25 @@ contains
       t = t + h*recurrence(4, m, self%degree)
       associate (g => self%g(:, 1), k => self%k, y => self%y)
          call system%evaluate(t, g, k(:, 1), status)
+         call judge_stage(n, k(:, 1), status)
          if (status /= 0) return
          do concurrent(j=1:n)
             y(j) = g(j) + h*c(1)*k(j, 1)
          end do
          call system%evaluate(t + h*c(1), y, k(:, 2), status)
+         call judge_stage(n, k(:, 2), status)
          if (status /= 0) return
          do concurrent(j=1:n)
             y(j) = g(j) + h*(c(2)*k(j, 1) + c(3)*k(j, 2))
          end do
          call system%evaluate(t + h*(c(2) + c(3)), y, k(:, 3), status)
+         call judge_stage(n, k(:, 3), status)
          if (status /= 0) return
          do concurrent(j=1:n)
             y(j) = g(j) + h*(c(4)*k(j, 1) + c(5)*k(j, 2) + c(6)*k(j, 3))
          end do
          call system%evaluate(t + h*(c(4) + c(5) + c(6)), y, k(:, 4), status)
+         call judge_stage(n, k(:, 4), status)
          if (status /= 0) return
          do concurrent(j=1:n)
             self%trial(j) = g(j) + h*(c(7)*k(j, 1) + c(8)*k(j, 2) + c(9)*k(j, 3) + c(10)*k(j, 4))
@@ -192,7 +197,7 @@ contains
          end do
          do j = 2, m
             call system%evaluate(self%step%t0 + h*c(4, j - 1), g(:, 1), f, status)
-            if (status == 0 .and. is_wild(f)) status = 1
+            call judge_stage(size(f), f, status)
             if (status /= 0) return
             do i = 1, size(y0)
                new = h*c(1, j)*f(i) + c(2, j)*g(i, 1) + c(3, j)*g(i, 2)

@@ -11,7 +11,7 @@ module verner
    use kind_info, only: kind_info_t
    use kinds, only: wp
    use ode_system, only: ode_system_t
-   use one_step, only: one_step_t
+   use one_step, only: judge_stage, one_step_t
    implicit none (type, external)
    private
    public :: verner_t
@@ -67,6 +67,7 @@ contains
    end subroutine verner_prepare
 
    !> Stages of a step of length h from the start of the present step; the end state into `trial`.
+   !> Length: a formula for each stage.
    subroutine verner_make_stages(self, system, h, status)
       class(verner_t), intent(inout) :: self        !! the integrator
       class(ode_system_t), intent(inout) :: system  !! the system
@@ -74,9 +75,12 @@ contains
       integer, intent(out) :: status                !! of the evaluations
 
       real(wp) :: t
-      integer :: i, n
+      integer :: first, i, last, n, n_rate
 
       n = size(self%y)
+      first = system%n_position + 1  ! of the derivatives that forces make
+      last = n - system%n_quadrature
+      n_rate = last - system%n_position
       t = self%step%t0
       associate (y0 => self%step%y0, k1 => self%step%f0, k => self%k, y => self%y)
          self%count%n_evaluations = self%count%n_evaluations + 7
@@ -84,21 +88,25 @@ contains
             y(i) = y0(i) + h*a21*k1(i)
          end do
          call system%evaluate(t + c2*h, y, k(:, 2), status)
+         call judge_stage(n_rate, k(first:last, 2), status)
          if (status /= 0) return
          do concurrent(i=1:n)
             y(i) = y0(i) + h*(a31*k1(i) + a32*k(i, 2))
          end do
          call system%evaluate(t + c3*h, y, k(:, 3), status)
+         call judge_stage(n_rate, k(first:last, 3), status)
          if (status /= 0) return
          do concurrent(i=1:n)
             y(i) = y0(i) + h*(a41*k1(i) + a42*k(i, 2) + a43*k(i, 3))
          end do
          call system%evaluate(t + c4*h, y, k(:, 4), status)
+         call judge_stage(n_rate, k(first:last, 4), status)
          if (status /= 0) return
          do concurrent(i=1:n)
             y(i) = y0(i) + h*(a51*k1(i) + a52*k(i, 2) + a53*k(i, 3) + a54*k(i, 4))
          end do
          call system%evaluate(t + c5*h, y, k(:, 5), status)
+         call judge_stage(n_rate, k(first:last, 5), status)
          if (status /= 0) return
          ! stage 7 does not need stage 6; evaluated before it, all stages at the end of the step follow one another, and what
          ! is a function of time alone is found once
@@ -106,16 +114,19 @@ contains
             y(i) = y0(i) + h*(a71*k1(i) + a72*k(i, 2) + a73*k(i, 3) + a74*k(i, 4) + a75*k(i, 5))
          end do
          call system%evaluate(t + c7*h, y, k(:, 7), status)
+         call judge_stage(n_rate, k(first:last, 7), status)
          if (status /= 0) return
          do concurrent(i=1:n)
             y(i) = y0(i) + h*(a61*k1(i) + a62*k(i, 2) + a63*k(i, 3) + a64*k(i, 4) + a65*k(i, 5))
          end do
          call system%evaluate(t + h, y, k(:, 6), status)
+         call judge_stage(n_rate, k(first:last, 6), status)
          if (status /= 0) return
          do concurrent(i=1:n)
             y(i) = y0(i) + h*(a81*k1(i) + a82*k(i, 2) + a83*k(i, 3) + a84*k(i, 4) + a85*k(i, 5) + a87*k(i, 7))
          end do
          call system%evaluate(t + h, y, k(:, 8), status)
+         call judge_stage(n_rate, k(first:last, 8), status)
          if (status /= 0) return
          do concurrent(i=1:n)
             self%trial(i) = y0(i) + h*(b1*k1(i) + b3*k(i, 3) + b4*k(i, 4) + b5*k(i, 5) + b7*k(i, 7) + b8*k(i, 8))
