@@ -303,11 +303,13 @@ ARCHIVES := $(and $(OPENBLAS),$(wildcard /usr/lib/*/libsundials_fcvode_mod.a),$(
 LINK ?= $(if $(SUNDIALS_DIR)$(HDF5_DIR)$(SUITESPARSE_DIR)$(FFTW_DIR)$(LAPACK),shared,$(if $(ARCHIVES),static,shared))
 ifeq ($(LINK),static)
 # Archives that want no others: those of SUNDIALS 7 want MPI, that of HDF5 after 1.10 curl and OpenSSL; these are loaded. What
-# blas_threads looks up at run time stays visible. gfortran's own too, but in the sanitized build, whose tools want theirs loaded.
-RUN_TIME := $(if $(filter sanitize,$(MODE)),,$(wildcard $(foreach l,gfortran quadmath,$(shell $(FC) -print-file-name=lib$(l).a))) -static-libgcc)
+# blas_threads looks up at run time stays visible.
 HDF5_MINOR := $(shell awk '/define H5_VERS_MINOR/ { print $$3 }' /usr/include/hdf5/serial/H5public.h 2>/dev/null)
 HDF5_ARCHIVES := $(if $(filter 10,$(HDF5_MINOR)),-lhdf5_serial_fortran -lhdf5_serial_hl -lhdf5_serial -lsz -laec -lz)
 SUNDIALS_ARCHIVES := $(if $(filter 6,$(SUNDIALS_VERSION)),-Wl$(comma)--start-group $(SUNDIALS_LIBRARIES) -Wl$(comma)--end-group)
+# gfortran's own too, but where a library that is loaded brings it along, and in the sanitized build, whose tools want it loaded.
+RUN_TIME := $(if $(and $(HDF5_ARCHIVES),$(SUNDIALS_ARCHIVES),$(filter-out sanitize,$(MODE))), \
+  $(wildcard $(foreach l,gfortran quadmath,$(shell $(FC) -print-file-name=lib$(l).a))) -static-libgcc)
 LIBRARIES := -Wl,--as-needed $(if $(SUNDIALS_ARCHIVES),,$(SUNDIALS_LIBRARIES)) $(if $(HDF5_ARCHIVES),,$(HDF5_LIBRARIES)) \
   -Wl,-Bstatic $(SUNDIALS_ARCHIVES) $(HDF5_ARCHIVES) -lklu -lbtf -lamd -lcolamd -lsuitesparseconfig -lfftw3 \
   $(foreach f,openblas_set_num_threads blas_memory_alloc blas_memory_free,-Wl$(comma)-u$(comma)$(f) -Wl$(comma)--export-dynamic-symbol=$(f)) \
