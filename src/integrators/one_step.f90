@@ -293,7 +293,13 @@ contains
       integer, intent(in) :: n       !! entries
       real(wp), intent(in) :: f(n)   !! (n) derivative [any]
 
-      is_wild = count(abs(f) <= wild) < n  ! a sum without branches, for vectors; what is not finite is not counted
+      integer :: i
+
+      is_wild = .false.
+      do i = 1, n
+         is_wild = .not. abs(f(i)) <= wild  ! what is not finite too
+         if (is_wild) return
+      end do
    end function is_wild
 
    !> Give up a step at a stage whose derivative is wild: the states of the next ones would be, and squares of their speeds overflow.
