@@ -77,7 +77,7 @@ contains
    end function block_info
 
    !> Two contacts at each corner.
-   function block_labels() result(labels)
+   pure function block_labels() result(labels)
       type(text_t), allocatable :: labels(:)  !! (contacts of an item) names
 
       integer :: c

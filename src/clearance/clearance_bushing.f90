@@ -80,7 +80,7 @@ contains
    end function bushing_info
 
    !> A contact at each base.
-   function bushing_labels() result(labels)
+   pure function bushing_labels() result(labels)
       type(text_t), allocatable :: labels(:)  !! (2) names
 
       allocate (labels(2))

@@ -64,7 +64,6 @@ module clearance_set
       type(clearance_laws_t) :: laws       !! laws of all items
    contains
       procedure(info_interface), nopass, deferred :: info
-      procedure, nopass :: contact_labels => clearance_contact_labels
       procedure(ideal_interface), nopass, deferred :: ideal_kind
       procedure(prepare_interface), deferred :: prepare
       procedure(mistake_interface), nopass, deferred :: mistake
@@ -225,8 +224,7 @@ contains
       integer :: k
 
       self%n = size(items)
-      self%labels = self%contact_labels()
-      self%n_contact_item = size(self%labels)
+      self%n_contact_item = size(self%contact_labels())
       self%n_contact = self%n*self%n_contact_item
       allocate (self%names(self%n), self%items%body(2, self%n), self%items%s_i(3, self%n), self%items%s_j(3, self%n))
       allocate (self%items%clearance(self%n), self%laws%parameters(n_law_parameter, self%n_contact), source=0.0_wp)
@@ -261,14 +259,6 @@ contains
       class(clearance_set_t), intent(inout) :: self  !! the set, prepared
       type(motion_t), intent(in) :: motion           !! bodies where the deck puts them
    end subroutine clearance_set_start
-
-   !> One contact per item, without a name of its own; a geometry with several overrides this.
-   function clearance_contact_labels() result(labels)
-      type(text_t), allocatable :: labels(:)  !! (contacts of an item) names
-
-      allocate (labels(1))
-      labels(1)%s = ""
-   end function clearance_contact_labels
 
    !> How far what takes part in a contact is from the centres of mass of both bodies, for bounds of round-off; the clearance and
    !> lengths like it count too.

@@ -72,7 +72,7 @@ contains
    end subroutine add_stop_columns
 
    !> A contact for each limit.
-   function stop_labels() result(labels)
+   pure function stop_labels() result(labels)
       type(text_t), allocatable :: labels(:)  !! (2) names
 
       allocate (labels(2))

@@ -74,7 +74,7 @@ contains
    end function thrust_info
 
    !> The points of both collars.
-   function thrust_labels() result(labels)
+   pure function thrust_labels() result(labels)
       type(text_t), allocatable :: labels(:)  !! (contacts of an item) names
 
       integer :: m

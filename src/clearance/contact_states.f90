@@ -30,12 +30,12 @@ module contact_states
                                                           !! a contact has changed since
       type(numbers_before_t) :: before                    !! of earlier sets
       type(text_t), allocatable :: names(:)               !! (n) names
-      type(text_t), allocatable :: labels(:)              !! (n_contact_item) names of the contacts of an item
       type(contact_memory_t), allocatable :: contact(:)   !! (n_contact) state of the contacts
       type(grip_t) :: grip                                !! what the contacts remember of their friction
    contains
       procedure :: item_of
       procedure :: label_of
+      procedure, nopass :: contact_labels => states_contact_labels
       procedure :: begin_contact
       procedure :: set_impact_speed
       procedure :: end_contact
@@ -75,11 +75,21 @@ contains
       integer, intent(in) :: contact               !! contact of the set
       character(:), allocatable :: label           !! the name
 
+      type(text_t), allocatable :: labels(:)
       integer :: place
 
+      labels = self%contact_labels()
       place = modulo(contact - 1, self%n_contact_item) + 1
-      label = self%labels(place)%s
+      label = labels(place)%s
    end function label_of
+
+   !> Names of the contacts of an item: one without a name.
+   pure function states_contact_labels() result(labels)
+      type(text_t), allocatable :: labels(:)  !! (contacts of an item) names
+
+      allocate (labels(1))
+      labels(1)%s = ""
+   end function states_contact_labels
 
    !> A contact begins: store its impact speed.
    subroutine begin_contact(self, k, t, impact_speed, loss)

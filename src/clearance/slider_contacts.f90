@@ -66,7 +66,7 @@ module slider_contacts
 contains
 
    !> Corners A to D at the upper, then at the lower surface.
-   function slider_contact_labels() result(labels)
+   pure function slider_contact_labels() result(labels)
       type(text_t), allocatable :: labels(:)  !! (8) names
 
       integer :: c

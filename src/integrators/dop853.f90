@@ -18,8 +18,9 @@ module dop853
    use kind_info, only: kind_info_t
    use kinds, only: wp
    use ode_system, only: ode_system_t
-   use one_step, only: judge_stage, one_step_t
+   use one_step, only: one_step_t
    use step_course, only: along, course_even, pace_at, parameter_of
+   use wild_stages, only: judge_stage
    implicit none (type, external)
    private
    public :: dop853_t

@@ -17,12 +17,11 @@ module one_step
    use ode_system, only: contact_end, ode_system_t
    use onset_control, only: begin_control, end_controlled_step, is_too_deep, meet_onsets
    use step_control, only: n_control_number, step_control_t
+   use wild_stages, only: is_wild
    implicit none (type, external)
    private
    public :: one_step_advance, one_step_load, one_step_memory_size, one_step_restart, one_step_save, one_step_t
-   public :: judge_stage, wild
 
-   real(wp), parameter :: wild = 1.0e60_wp        !! derivative of a trial step far too long for a stiff force [any]
    integer, parameter :: too_deep = 2             !! of a trial step: a contact that begins is beyond the limit
 
    !> A one-step method.
@@ -287,30 +286,6 @@ contains
          if (is_too_deep(system, self, t_new, self%trial)) status = too_deep
       end if
    end subroutine try_step
-
-   !> Whether a derivative is that of a step far too long, or no number: nothing can be evaluated from there on.
-   pure logical function is_wild(n, f)
-      integer, intent(in) :: n       !! entries
-      real(wp), intent(in) :: f(n)   !! (n) derivative [any]
-
-      integer :: i
-
-      is_wild = .false.
-      do i = 1, n
-         is_wild = .not. abs(f(i)) <= wild  ! what is not finite too
-         if (is_wild) return
-      end do
-   end function is_wild
-
-   !> Give up a step at a stage whose derivative is wild: the states of the next ones would be, and squares of their speeds overflow.
-   pure subroutine judge_stage(n, f, status)
-      integer, intent(in) :: n            !! entries that count: the derivatives that forces make
-      real(wp), intent(in) :: f(n)        !! (n) derivative, if there is one [any]
-      integer, intent(inout) :: status    !! of the evaluation; 1: wild
-
-      if (status /= 0) return
-      if (is_wild(n, f)) status = 1
-   end subroutine judge_stage
 
    !> Tell the system the step. A system that follows it was evaluated at the start just before, also after a step that was
    !> rejected, and its derivative there is the one that belongs to the step.

@@ -13,7 +13,8 @@ module rk4
    use kind_info, only: kind_info_t
    use kinds, only: wp
    use ode_system, only: ode_system_t
-   use one_step, only: one_step_t, wild
+   use one_step, only: one_step_t
+   use wild_stages, only: wild
    implicit none (type, external)
    private
    public :: rk4_t

@@ -25,11 +25,12 @@ module rock4
    use kinds, only: eps, wp
    use memory, only: get, put
    use ode_system, only: ode_system_t
-   use one_step, only: judge_stage, one_step_advance, one_step_load, one_step_memory_size, one_step_restart, one_step_save, &
+   use one_step, only: one_step_advance, one_step_load, one_step_memory_size, one_step_restart, one_step_save, &
       one_step_t
    use rock4_stages, only: end_coefficients, estimate_coefficients, find_recurrence, least_degree, longest_stretch, most_stages, &
       n_recurrence, recurrence
    use spectral_radius, only: find_radius, most_iterations
+   use wild_stages, only: judge_stage
    implicit none (type, external)
    private
    public :: rock4_t

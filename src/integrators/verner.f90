@@ -11,7 +11,8 @@ module verner
    use kind_info, only: kind_info_t
    use kinds, only: wp
    use ode_system, only: ode_system_t
-   use one_step, only: judge_stage, one_step_t
+   use one_step, only: one_step_t
+   use wild_stages, only: judge_stage
    implicit none (type, external)
    private
    public :: verner_t

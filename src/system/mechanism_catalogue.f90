@@ -272,7 +272,7 @@ contains
                call catalogue%add_item(room_clearances, set%names(i)%s, channels=joint_names, &
                                        radius=merge(set%items%clearance(i), not_a_number(), set%traits%is_round))
                do c = 1, set%n_contact_item
-                  call catalogue%add_item(room_contacts, set%names(i)%s, label=set%labels(c)%s, channels=contact_names)
+                  call catalogue%add_item(room_contacts, set%names(i)%s, label=set%label_of(c), channels=contact_names)
                end do
             end do
          end associate

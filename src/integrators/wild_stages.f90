@@ -1,0 +1,37 @@
+!> Derivatives of a step far too long for a stiff force: such a step is given up before its numbers overflow.
+module wild_stages
+   use kinds, only: wp
+   implicit none (type, external)
+   private
+   public :: is_wild, judge_stage, wild
+
+   real(wp), parameter :: wild = 1.0e60_wp        !! derivative of a trial step far too long for a stiff force [any]
+
+contains
+
+   !> Whether a derivative is that of a step far too long, or no number: nothing can be evaluated from there on.
+   pure logical function is_wild(n, f)
+      integer, intent(in) :: n       !! entries
+      real(wp), intent(in) :: f(n)   !! (n) derivative [any]
+
+      integer :: i
+
+      is_wild = .false.
+      do i = 1, n
+         is_wild = .not. abs(f(i)) <= wild  ! what is not finite too
+         if (is_wild) return
+      end do
+   end function is_wild
+
+   !> Give up a step at a stage whose derivative is wild: the states of the next ones would be, and squares of their speeds
+   !> overflow.
+   pure subroutine judge_stage(n, f, status)
+      integer, intent(in) :: n            !! entries that count: the derivatives that forces make
+      real(wp), intent(in) :: f(n)        !! (n) derivative, if there is one [any]
+      integer, intent(inout) :: status    !! of the evaluation; 1: wild
+
+      if (status /= 0) return
+      if (is_wild(n, f)) status = 1
+   end subroutine judge_stage
+
+end module wild_stages
