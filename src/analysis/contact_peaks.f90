@@ -129,8 +129,8 @@ contains
                           .and. greater + 2.0_wp*rise < value)
    end function may_exceed
 
-   !> Maximum of the normal force within the last step, first sought on its interpolant; the place that was found, and others if it
-   !> is not the one, are reached by the method itself, so that the force is as accurate as the step.
+   !> Maximum of the normal force within the last step, on its interpolant as good as it gets. Where it is far above the ends, see
+   !> `find_penetration_peak`, the place that was found, and others if it is not the one, are reached by the method itself.
    subroutine find_force_peak(system, method, slot, item, left, right, y, ydot, peak)
       type(mechanism_t), intent(inout) :: system    !! the system
       class(integrator_t), intent(inout) :: method      !! the integrator, after a step
@@ -148,26 +148,27 @@ contains
       integer :: k, status
 
       peak%force = -1.0_wp
+      call method%prepare_output(system, status)
+      if (status /= 0) return
       bracket = bracket_t(h=method%step%h, a=left, b=right)
       do k = 1, n_search
          place = place_in(bracket, k)
          call method%within(system, place, y)
          call look_from(y, status)
          if (status /= 0) return
+         call keep_greater()
          if (missing(here, bracket) <= near_force*abs(here%value)) exit
          call narrow(place, here, bracket)
       end do
+      if (peak%force <= (1.0_wp + close_by)*max(left%value, right%value)) return
+      peak%force = -1.0_wp
       bend = bend_of(bracket)
       bracket = bracket_t(h=method%step%h, a=left, b=right)
       do k = 1, n_search
          call method%refine(system, place, y, status)
          if (status == 0) call look_from(y, status)
          if (status /= 0) return
-         if (here%value > peak%force) then
-            peak%t = method%step%t0 + place*method%step%h
-            peak%force = here%value
-            peak%y = y
-         end if
+         call keep_greater()
          if (missing(here, bracket) <= near_force*abs(here%value)) exit
          if (0.5_wp*here%rate**2 <= near_force*abs(here%value)*bend) exit
          call narrow(place, here, bracket)
@@ -192,6 +193,14 @@ contains
          call system%linkage%set_state(t, state, ydot)
          call look(system, slot, item, here, penetration)
       end subroutine look_from
+
+      !> Keep the force at the place if it is the greatest so far.
+      subroutine keep_greater()
+         if (here%value <= peak%force) return
+         peak%t = method%step%t0 + place*method%step%h
+         peak%force = here%value
+         peak%y = y
+      end subroutine keep_greater
 
    end subroutine find_force_peak
 

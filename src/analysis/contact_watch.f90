@@ -5,7 +5,6 @@
 !> greater force is found. What is greater by no more than the noise of an integration is not told anew.
 module contact_watch
    use clearance_set, only: clearance_set_t, loss_contact, loss_friction
-   use contact_impulse, only: find_impulse
    use contact_peaks, only: add_peak, drop_peaks, find_force_peak, find_penetration_peak, has_peak_above, look, peak_t, trend_t
    use contact_places, only: place_of_loss, slip_function, touch_function, transition_function, turn_function
    use cut_off, only: follow_cut_off, lost_by_damping
@@ -100,9 +99,9 @@ contains
 
       type(trend_t) :: force, penetration
       type(peak_t) :: peak
-      real(wp) :: deepest, deepest_at, impulse
-      integer :: i, k, number
-      logical :: has_force_peak, has_moved, has_peak
+      real(wp) :: deepest, deepest_at
+      integer :: i, k, number, place
+      logical :: has_force_peak, has_peak
 
       self%n_peak = 0
       do k = 1, size(system%loose%sets)
@@ -125,9 +124,9 @@ contains
                if (has_force_peak) then
                   call find_force_peak(system, method, k, i, self%force(number), force, self%y, self%ydot, peak)
                end if
-               call find_impulse(system, method, k, i, self%force(number), force, self%y, has_moved, impulse)
-               call set%add_impulse(i, impulse)
-               if (has_moved .or. has_peak .or. has_force_peak) then
+               place = system%place_of_impulse(number)
+               call set%add_impulse(i, method%step%y1(place) - method%step%y0(place))
+               if (has_peak .or. has_force_peak) then
                   call system%linkage%set_state(method%t, method%step%y1, method%step%f1)
                end if
                if (penetration%value > deepest) deepest_at = method%t

@@ -295,6 +295,7 @@ contains
                      to = whole%bristle_place(place%slot(m), c)
                      y(to + 1:to + set%grip%n_component) = own(from + 1:from + set%grip%n_component)
                   end if
+                  y(whole%place_of_impulse(target%before%contacts + c)) = own(system%place_of_impulse(m))
                   if (.not. system%ledger%is_kept) cycle
                   from = system%in_state(place_of_loss(m, 1))
                   to = whole%in_state(place_of_loss(target%before%contacts + c, 1))

@@ -5,8 +5,8 @@ module build_system
    use build_clearances, only: add_clearances, levels_as_written, levels_ideal, levels_loose
    use build_known, only: choose_bodies, reduction_t, set_guided, set_known, start_angles
    use build_linkage, only: add_joints, begin_linkage, choose_solver, count_sets, declare_rows
-   use clearance_set, only: clearance_set_t
-   use contact_places, only: n_loss, place_of_film_loss, slip_function, touch_function, transition_function, turn_function
+   use clearance_set, only: clearance_set_t, n_integrand
+   use contact_places, only: place_of_film_loss, slip_function, touch_function, transition_function, turn_function
    use find_known, only: has_smooth_cells
    use force_registry, only: n_force_kinds, new_force_set
    use friction_law, only: memory_bristle, memory_slip
@@ -16,7 +16,7 @@ module build_system
    use item, only: option_t, place_of
    use joint_registry, only: n_joint_kinds
    use kinds, only: wp
-   use loading, only: loading_t
+   use loading, only: loading_t, start_loads
    use motion, only: motion_t, new_loads
    use rubbing, only: new_rubbing
    use mechanism, only: mechanism_t
@@ -73,14 +73,15 @@ contains
          call choose_solver(scene, system%way%name(), linkage)
       end associate
       call system%set_step(huge(1.0_wp))  ! gains and penalties that do not wait for a step
-      call add_loads(scene, system%linkage%coordinates%n_v, system%linkage%motion, system%loading)
+      call add_loads(scene, system%linkage%coordinates%n_v, system%loose%n, system%linkage%motion, system%loading)
       system%loading%counts_turns = system%loading%counts_turns &
                                     .or. any([(scene%joints(k)%info%counts_turns .and. size(scene%joints(k)%items) > 0, &
                                                k=1, n_joint_kinds)])
-      allocate (system%loose%losses(n_loss, system%loose%n_contact), source=0.0_wp)
+      allocate (system%loose%integrands(n_integrand, system%loose%n_contact), source=0.0_wp)
+      if (scene%analysis == analysis_dynamic) system%n_impulse = system%loose%n_contact
       system%n_quadrature = merge(place_of_film_loss(system%loose%n_contact, system%friction%rubbing%n > 0) &
                                   - merge(0, 1, system%loose%has_films), 0, &
-                                  system%ledger%is_kept)
+                                  system%ledger%is_kept) + system%n_impulse
       system%n = system%linkage%n_position + system%linkage%n_rate + system%n_quadrature
       call count_grips(system)
       call add_event_functions(system)
@@ -143,9 +144,10 @@ contains
    end subroutine count_grips
 
    !> Gravity, and force elements: one set per kind that has rows.
-   subroutine add_loads(scene, n_v, motion, loading)
+   subroutine add_loads(scene, n_v, n_loose, motion, loading)
       type(scene_t), intent(in) :: scene              !! the scene
       integer, intent(in) :: n_v                      !! rates of a body
+      integer, intent(in) :: n_loose                  !! loose joints
       type(motion_t), intent(in) :: motion            !! bodies where the deck puts them
       type(loading_t), intent(inout) :: loading       !! gravity and forces are set
 
@@ -158,7 +160,9 @@ contains
          loading%weight(:, k) = scene%bodies%mass(k)*scene%gravity
       end do
       call new_loads(n, loading%loads)
+      call start_loads(n, loading%weight, loading%loads%force, loading%loads%moment)
       allocate (loading%forces(count([(size(scene%forces(k)%items) > 0, k=1, n_force_kinds)])))
+      loading%loads%is_weight = size(loading%forces) + n_loose == 0  ! and stays so
       n = 0
       do k = 1, n_force_kinds
          if (size(scene%forces(k)%items) == 0) cycle

@@ -23,11 +23,15 @@ module clearance_set
    use text, only: text_t
    implicit none (type, external)
    private
-   public :: clearance_fit_law, clearance_set_t, clearance_slot_t, loss_contact, loss_friction
+   public :: clearance_fit_law, clearance_set_t, clearance_slot_t, loss_contact, loss_friction, n_integrand, &
+      normal_impulse
    public :: no_ideal_kind, no_mistake
 
-   integer, parameter :: loss_contact = 1   !! power taken by contact damping
-   integer, parameter :: loss_friction = 2  !! power taken by friction
+   ! what is integrated of a contact
+   integer, parameter :: loss_contact = 1    !! power taken by contact damping
+   integer, parameter :: loss_friction = 2   !! power taken by friction
+   integer, parameter :: normal_impulse = 3  !! normal force
+   integer, parameter :: n_integrand = 3     !! how many these are
 
    !> What a geometry is like.
    type :: clearance_traits_t
@@ -132,14 +136,15 @@ module clearance_set
          character(:), allocatable, intent(out) :: help         !! what would be right
       end subroutine mistake_interface
 
-      !> Add the forces of the contacts that act, and the power they lose. No allocation.
-      subroutine evaluate_interface(self, motion, loads, losses)
+      !> Add the forces of the contacts that act, and set what is integrated of them. No allocation.
+      subroutine evaluate_interface(self, motion, loads, integrands)
          import :: clearance_set_t, loads_t, motion_t, wp
          implicit none (type, external)
          class(clearance_set_t), intent(inout) :: self   !! the set
          type(motion_t), intent(in) :: motion            !! positions and velocities
          type(loads_t), intent(inout) :: loads           !! loads on the bodies, added to
-         real(wp), intent(inout), contiguous :: losses(:, :)  !! (2, all contacts) power lost by damping and friction, set here [W]
+         real(wp), intent(inout), contiguous :: integrands(:, :)  !! (3, all contacts) power lost by damping and by friction [W],
+                                                                  !! and normal force [N]: set here
       end subroutine evaluate_interface
 
       !> Penetration and its rate for all contacts, touching or not. No allocation.

@@ -15,7 +15,7 @@
 !> Source: Flores et al. (2008), section 4.3, corrected: signed penetration instead of (4.20), velocities of material points
 !> instead of (4.21), one common point of application instead of two. Limits: points have ends, circles have none.
 module flat_contacts
-   use clearance_set, only: loss_contact, loss_friction
+   use clearance_set, only: loss_contact, loss_friction, n_integrand, normal_impulse
    use contact_laws, only: press_in_course
    use contact_memory, only: contact_memory_t
    use kinds, only: wp
@@ -67,11 +67,11 @@ contains
    end subroutine make_planes
 
    !> Add the contact forces of the touching contacts.
-   subroutine flat_evaluate(self, motion, loads, losses)
+   subroutine flat_evaluate(self, motion, loads, integrands)
       class(flat_contacts_t), intent(inout) :: self         !! the set
       type(motion_t), intent(in) :: motion                  !! positions and velocities
       type(loads_t), intent(inout) :: loads                 !! loads on the bodies
-      real(wp), intent(inout), contiguous :: losses(:, :)   !! (2, all contacts) power lost [W]
+      real(wp), intent(inout), contiguous :: integrands(:, :)  !! (3, all contacts) power lost and normal force [W and N]
 
       include "point_way.inc"
    end subroutine flat_evaluate

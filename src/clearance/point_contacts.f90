@@ -1,4 +1,4 @@
-!> The one way of contacts at points: measure -> press -> rub -> loads and losses, and what is asked of them beside that.
+!> The one way of contacts at points: measure -> press -> rub -> loads and integrands, and what is asked of them beside that.
 !>
 !> A geometry measures: where its surfaces meet and how deep (`measure`), the second derivative of the penetration
 !> (`penetration_acceleration`), how its contacts lie (`lie`). The rest is here:

@@ -11,7 +11,7 @@
 !> that a spinning journal does not slide, and lets f_i act at Q_i and f_j at Q_j, (4.10)-(4.13), which leaves a couple delta F_T.
 !> `is_book` does as the book prints. Limits: both surfaces round; one contact per joint.
 module round_contacts
-   use clearance_set, only: loss_contact, loss_friction
+   use clearance_set, only: loss_contact, loss_friction, n_integrand, normal_impulse
    use contact_laws, only: press_in_course
    use contact_memory, only: contact_memory_t
    use film_law, only: film_motion_t
@@ -56,11 +56,11 @@ module round_contacts
 contains
 
    !> Add the contact forces of the touching contacts.
-   subroutine round_evaluate(self, motion, loads, losses)
+   subroutine round_evaluate(self, motion, loads, integrands)
       class(round_contacts_t), intent(inout) :: self        !! the set
       type(motion_t), intent(in) :: motion                  !! positions and velocities
       type(loads_t), intent(inout) :: loads                 !! loads on the bodies
-      real(wp), intent(inout), contiguous :: losses(:, :)   !! (2, all contacts) power lost [W]
+      real(wp), intent(inout), contiguous :: integrands(:, :)  !! (3, all contacts) power lost and normal force [W and N]
 
       include "point_way.inc"
    end subroutine round_evaluate

@@ -5,7 +5,7 @@
 !>
 !> Signs and forces: see `point_contacts`, `space_tangents`. Source: Flores et al. (2008), section 6.2. Limits: none.
 module spatial_contacts
-   use clearance_set, only: loss_contact, loss_friction
+   use clearance_set, only: loss_contact, loss_friction, n_integrand, normal_impulse
    use contact_laws, only: press_in_course
    use contact_memory, only: contact_memory_t
    use kinds, only: wp
@@ -40,11 +40,11 @@ module spatial_contacts
 contains
 
    !> Add the contact forces of the touching contacts.
-   subroutine spatial_evaluate(self, motion, loads, losses)
+   subroutine spatial_evaluate(self, motion, loads, integrands)
       class(spatial_contacts_t), intent(inout) :: self      !! the set
       type(motion_t), intent(in) :: motion                  !! positions and velocities
       type(loads_t), intent(inout) :: loads                 !! loads on the bodies
-      real(wp), intent(inout), contiguous :: losses(:, :)   !! (2, all contacts) power lost [W]
+      real(wp), intent(inout), contiguous :: integrands(:, :)  !! (3, all contacts) power lost and normal force [W and N]
 
       include "point_way.inc"
    end subroutine spatial_evaluate

@@ -346,21 +346,26 @@ contains
       end subroutine climb
 
       !> Narrow the bracket of an event; the event functions are at its upper end. Where several are positive, the first to become
-      !> so decides. By Newton's method, a little beyond the root so that the next place is on its other side, and by halves.
+      !> so decides. By Newton's method, a little beyond the root so that the next place is on its other side, and by halves where
+      !> it does not close in twice as fast.
       subroutine narrow(low, high)
          real(wp), intent(inout) :: low   !! place before the event [1]
          real(wp), intent(inout) :: high  !! place after it [1]
 
-         real(wp) :: beyond, place
+         real(wp) :: beyond, change, next, place
          integer :: i, k
 
          place = high
+         change = high - low
          do i = 1, n_narrow
             if (high - low <= narrow_enough) exit
             k = maxloc(g, dim=1)
             beyond = sign(0.4_wp*narrow_enough, -g(k))
-            if (mod(i, 4) > 0 .and. rate(k) > 0.0_wp) place = place - g(k)/(method%step%h*rate(k)) + beyond
-            if (mod(i, 4) == 0 .or. .not. (place > low .and. place < high)) place = 0.5_wp*(low + high)
+            next = 0.5_wp*(low + high)
+            if (abs(g(k)) < 0.5_wp*change*method%step%h*rate(k)) next = place - g(k)/(method%step%h*rate(k)) + beyond
+            if (.not. (next > low .and. next < high)) next = 0.5_wp*(low + high)
+            change = max(abs(next - place), narrow_enough)
+            place = next
             call values_at(place)
             if (any(g > 0.0_wp)) then
                high = place

@@ -1,17 +1,20 @@
 !> Where what belongs to a contact lies: its losses among the quadratures of the ledger, its functions among the event functions.
 !>
 !> Quadratures: the works and what dampers lose, then n_loss of each contact: lost by damping, lost by friction (`clearance_set`);
-!> then what friction in ideal joints takes, if any rub; last what lubricant films take, if there are any.
+!> then what friction in ideal joints takes, if any rub; last what lubricant films take, if there are any. The impulses of contacts
+!> follow, with a ledger or without one.
 !> Event functions come in blocks, each in the order of the contacts: one of every contact for its onset and end, one for slip and
 !> stick if any friction can stick, one for turns of the penetration if any normal law jumps there, one for the
 !> end of the transition from a film if any film has one.
 !>
 !> Contacts are counted through all sets. Limits: a block has a function for every contact, whether it needs one or not.
 module contact_places
-   use clearance_set, only: loss_contact, loss_friction
+   use clearance_set, only: loss_contact, loss_friction, n_integrand, normal_impulse
+   use kinds, only: wp
    implicit none (type, external)
    private
-   public :: event_functions_t, lost_damper, n_loss, n_quadratures, place_of_film_loss, place_of_joint_loss, place_of_loss
+   public :: event_functions_t, impulse_rates, lost_damper, n_loss, n_quadratures, place_of_film_loss, place_of_joint_loss
+   public :: place_of_loss
    public :: slip_function, touch_function, transition_function, turn_function, work_drive, work_load, work_stabilisation
 
    integer, parameter :: work_drive = 1          !! quadrature: work of the drivers
@@ -58,7 +61,7 @@ contains
       place = n_quadratures(n_contact) + 1
    end function place_of_joint_loss
 
-   !> Number of the quadrature of what films take, the last one, if there are any.
+   !> Number of the quadrature of what films take, the last one of the ledger, if there are any.
    pure integer function place_of_film_loss(n_contact, rubs) result(place)
       integer, intent(in) :: n_contact  !! contacts of all sets
       logical, intent(in) :: rubs       !! any ideal joint rubs
@@ -73,6 +76,20 @@ contains
 
       place = n_work + n_loss*(contact - 1) + loss
    end function place_of_loss
+
+   !> Rates of the impulses of contacts: their normal forces.
+   pure subroutine impulse_rates(n, integrands, rate)
+      integer, intent(in) :: n                             !! contacts whose impulses are integrated
+      real(wp), intent(in) :: integrands(n_integrand, n)   !! (3, n) what is integrated of them [W and N]
+      real(wp), intent(inout) :: rate(n)                   !! (n) rates, set [N]
+
+      integer :: k
+
+      !GCC$ novector
+      do k = 1, n
+         rate(k) = integrands(normal_impulse, k)
+      end do
+   end subroutine impulse_rates
 
    !> Add a block after those that are there.
    pure subroutine functions_add(self, kind)

@@ -179,7 +179,7 @@ module mechanism
       pure module subroutine ledger_rates(self, power)
          implicit none (type, external)
          class(mechanism_t), intent(in) :: self         !! the system
-         real(wp), intent(out), contiguous :: power(:)  !! (quadratures) powers [W]
+         real(wp), intent(out), contiguous :: power(:)  !! (quadratures) powers, those of the ledger are set [W]
       end subroutine ledger_rates
 
       !> Event functions: penetrations of free contacts, their negatives of touching ones.

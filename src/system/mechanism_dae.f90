@@ -5,6 +5,7 @@
 submodule(mechanism) mechanism_dae
    use, intrinsic :: ieee_arithmetic, only: ieee_is_finite
    use assembly_report, only: assembly_t
+   use contact_places, only: impulse_rates
    use dependent_rows, only: choose_dependent
    use rows, only: body_of_side, place_in_row, place_of_side, row_of_side, rows_t
    implicit none (type, external)
@@ -59,6 +60,7 @@ contains
             linkage%solution%lambda(:m) = lambda
             call self%ledger_rates(r_y(n_state + 1:))
          end if
+         call impulse_rates(self%n_impulse, self%loose%integrands, r_y(self%n - self%n_impulse + 1:))
          r_y = ydot - r_y
          r_lambda = linkage%solution%phi_dot(:m)
          r_mu = rows%phi(:m)

@@ -1,5 +1,6 @@
 !> The right-hand side: loads, rows, accelerations, and what is integrated besides.
 submodule(mechanism) mechanism_evaluation
+   use contact_places, only: impulse_rates
    use loading, only: start_loads
    use mechanism_parts, only: loose_t
    use motion, only: loads_t, motion_t
@@ -50,6 +51,9 @@ contains
       end associate
       if (self%friction%grips%n_bristle > 0) call self%bristle_rates(ydot)
       if (with_powers) call self%ledger_rates(ydot(self%n - self%n_quadrature + 1:))
+      if (self%traits%with_quadratures) then
+         call impulse_rates(self%n_impulse, self%loose%integrands, ydot(self%n - self%n_impulse + 1:))
+      end if
    end procedure mechanism_evaluate
 
    !> Loads and solved rows at the present motion. Status 1 if a known motion is not finite.
@@ -70,14 +74,13 @@ contains
       associate (loading => self%loading, motion => self%linkage%motion, n_body => self%linkage%bodies%n)
          if (.not. loading%loads%is_weight) then
             call start_loads(n_body, loading%weight, loading%loads%force, loading%loads%moment)
-            loading%loads%is_weight = size(loading%forces) + size(self%loose%sets) == 0  ! and stay so
          end if
          loading%power = 0.0_wp
          do k = 1, size(loading%forces)
             call loading%forces(k)%set%evaluate(inside, motion, loading%loads, loading%power)
          end do
          do k = 1, size(self%loose%sets)
-            call self%loose%sets(k)%set%evaluate(motion, loading%loads, self%loose%losses)
+            call self%loose%sets(k)%set%evaluate(motion, loading%loads, self%loose%integrands)
          end do
          if (self%loose%has_films) call evaluate_films(self%loose, motion, loading%loads)
          call self%linkage%coordinates%gather(n_body, self%linkage%mass, motion, loading%loads, loading%g)

@@ -104,7 +104,7 @@ contains
             force = tangent%f_t
             force(grips%at(c)%axis) = force(grips%at(c)%axis) + grips%force(c)
             call set%stick_with(k, force, is_driven)
-            self%loose%losses(loss_friction, set%before%contacts + k) = -dot_product(tangent%f_t, tangent%v)
+            self%loose%integrands(loss_friction, set%before%contacts + k) = -dot_product(tangent%f_t, tangent%v)
          end associate
       end associate
    end subroutine keep_force

@@ -16,7 +16,7 @@ module mechanism_parts
       integer :: n_contact = 0                         !! contacts of all of them
       logical :: has_films = .false.                   !! lubricant films act in some
       real(wp) :: film_clearance = huge(1.0_wp)        !! least clearance with a film [m]
-      real(wp), allocatable :: losses(:, :)            !! (2, contacts) power lost by contact and friction [W]
+      real(wp), allocatable :: integrands(:, :)        !! (3, contacts) power lost by contact and friction [W], normal force [N]
       type(event_functions_t) :: functions             !! which event functions their contacts have
    end type loose_t
 

@@ -31,8 +31,8 @@ contains
       end do
       place = place_of_loss(1, 0)
       do k = 1, self%loose%n_contact
-         power(place + loss_contact) = self%loose%losses(loss_contact, k)
-         power(place + loss_friction) = self%loose%losses(loss_friction, k)
+         power(place + loss_contact) = self%loose%integrands(loss_contact, k)
+         power(place + loss_friction) = self%loose%integrands(loss_friction, k)
          place = place + n_loss
       end do
       if (self%friction%rubbing%n > 0) power(place_of_joint_loss(self%loose%n_contact)) = self%friction%rubbing%power

@@ -104,10 +104,12 @@ contains
 
       integer :: k
 
+      !GCC$ novector
       do k = 1, n_turning
          position(k) = 1.0_wp
          speed(k) = rate
       end do
+      !GCC$ novector
       do k = n_turning + 1, n
          position(k) = length
          speed(k) = length*rate
@@ -129,9 +131,11 @@ contains
             do k = 1, known%n
                rate = max(rate, coordinates%rate_of(linkage%motion, known%held(k)%body, length))
             end do
+            !GCC$ novector
             do k = last + 1, last + guided%n_turning
                rate = max(rate, abs(y(k)))
             end do
+            !GCC$ novector
             do k = last + guided%n_turning + 1, last + guided%n
                rate = max(rate, abs(y(k))/length)
             end do

@@ -7,7 +7,7 @@ module clearance_bench
    use bodies, only: material_t, points_t
    use check, only: check_true
    use clearance_registry, only: n_clearance_kinds, new_clearance_set
-   use clearance_set, only: clearance_set_t
+   use clearance_set, only: clearance_set_t, n_integrand
    use clearance_translational, only: clearance_translational_t
    use contact_registry, only: n_friction_kinds, n_law_kinds, new_friction_law, new_normal_law
    use errors, only: error_t
@@ -341,16 +341,16 @@ contains
       call bench%set%gaps(bench%motion, delta, rate)
    end subroutine get_gaps
 
-   !> Loads and losses now; losses of other sets are left at -1.
-   subroutine evaluate_loads(bench, loads, losses)
+   !> Loads and integrands now; those of other sets are left at -1.
+   subroutine evaluate_loads(bench, loads, integrands)
       type(bench_t), intent(inout) :: bench      !! the set
       type(loads_t), intent(out) :: loads        !! loads on the bodies
-      real(wp), intent(out) :: losses(2, n_all)  !! (2, items of all sets) power lost [W]
+      real(wp), intent(out) :: integrands(n_integrand, n_all)  !! (3, items of all sets) power lost and normal force [W and N]
 
-      losses = -1.0_wp
+      integrands = -1.0_wp
       call new_loads(n_body, loads)
       call move_to(bench, 0.0_wp)
-      call bench%set%evaluate(bench%motion, loads, losses)
+      call bench%set%evaluate(bench%motion, loads, integrands)
    end subroutine evaluate_loads
 
 end module clearance_bench

@@ -4,6 +4,7 @@ module test_clearance_states
    use, intrinsic :: ieee_arithmetic, only: ieee_is_finite
    use check, only: check_close, check_equal, check_true, suite_t
    use clearance_bench, only: bench_t, claim_all, evaluate_loads, get_gaps, n_all, n_before, n_item
+   use clearance_set, only: n_integrand
    use contact_memory, only: contact_memory_t
    use errors, only: error_t
    use kind_info, only: kind_info_t
@@ -39,7 +40,7 @@ contains
       type(bench_t), intent(inout) :: bench               !! the combination
 
       type(loads_t) :: loads
-      real(wp) :: expected(n_all), losses(2, n_all), state(1, n_all)
+      real(wp) :: expected(n_all), integrands(n_integrand, n_all), state(1, n_all)
       type(event_t) :: event
       integer :: k
 
@@ -47,11 +48,11 @@ contains
          if (bench%set%item_of(bench%touching(k)) == 2) cycle
          call bench%set%end_contact(bench%touching(k), 0.1_wp, 0.0_wp, 0.0_wp, .true., event)
       end do
-      call evaluate_loads(bench, loads, losses)
+      call evaluate_loads(bench, loads, integrands)
       call check_close(error, sum(abs(loads%force(:, [1, 2, 4]))) + sum(abs(loads%moment(:, [1, 2, 4]))), 0.0_wp, 0.0_wp, &
                        bench%name//": loads on bodies that do not touch")
       call check_true(error, sum(abs(loads%force(:, 3))) > 100.0_wp, bench%name//": force on the one that does")
-      call check_close(error, losses(:, bench%first), [0.0_wp, 0.0_wp], 0.0_wp, bench%name//": losses")
+      call check_close(error, integrands(:, bench%first), [0.0_wp, 0.0_wp, 0.0_wp], 0.0_wp, bench%name//": what is integrated")
       state = -1.0_wp
       call read_loose(bench%set, "state", bench%motion, state)
       expected = -1.0_wp
@@ -65,8 +66,8 @@ contains
          call bench%set%end_contact(bench%touching(k), 0.1_wp, 0.0_wp, 0.0_wp, .true., event)
       end do
       call check_equal(error, bench%set%n_touching, 0, bench%name//": contacts touching")
-      call evaluate_loads(bench, loads, losses)
-      call check_close(error, sum(abs(loads%force)) + sum(abs(losses(:, bench%first:bench%last))), 0.0_wp, 0.0_wp, &
+      call evaluate_loads(bench, loads, integrands)
+      call check_close(error, sum(abs(loads%force)) + sum(abs(integrands(:, bench%first:bench%last))), 0.0_wp, 0.0_wp, &
                        bench%name//": all free")
    end subroutine free_items
 
@@ -83,7 +84,7 @@ contains
 
       type(kind_info_t) :: info
       type(loads_t) :: loads
-      real(wp) :: delta(n_all), losses(2, n_all), rate(n_all), speed(n_item), value(2, n_all)
+      real(wp) :: delta(n_all), integrands(n_integrand, n_all), rate(n_all), speed(n_item), value(2, n_all)
       integer :: attempt, k
 
       if (.not. bench%set%traits%is_round) return
@@ -101,7 +102,7 @@ contains
          end do
          call check_close(error, delta(n_before + 1:n_before + n_item), -bench%set%items%clearance, 0.0_wp, bench%name//": centred")
          call check_close(error, rate(n_before + 1:n_before + n_item), speed, 1.0e-14_wp, bench%name//": rate when centred")
-         call evaluate_loads(bench, loads, losses)
+         call evaluate_loads(bench, loads, integrands)
          call check_close(error, sum(abs(loads%force)), 0.0_wp, 0.0_wp, bench%name//": force when centred")
          do k = 1, size(info%channels)
             if (info%channels(k)%name == "p_v") cycle  ! of pins with a length
@@ -126,12 +127,12 @@ contains
 
       type(kind_info_t) :: info
       type(loads_t) :: loads
-      real(wp) :: anew(2, n_all), losses(2, n_all), taken(2, n_all)
+      real(wp) :: anew(2, n_all), integrands(n_integrand, n_all), taken(2, n_all)
       integer :: k
 
       info = bench%set%info()
       bench%motion%number = 1
-      call evaluate_loads(bench, loads, losses)
+      call evaluate_loads(bench, loads, integrands)
       do k = 1, size(info%channels)
          anew = 0.0_wp
          taken = 0.0_wp
@@ -161,11 +162,11 @@ contains
 
       type(loads_t) :: loads
       real(wp), dimension(2*n_all + 1) :: anew, taken
-      real(wp) :: losses(2, n_all), watched(4, 2)
+      real(wp) :: integrands(n_integrand, n_all), watched(4, 2)
       integer :: k
 
       bench%motion%number = 1
-      call evaluate_loads(bench, loads, losses)
+      call evaluate_loads(bench, loads, integrands)
       call look(2, anew)
       call look(1, taken)
       call check_close(error, taken, anew, 1.0e-14_wp*maxval(abs(anew)), bench%name//": gaps, rates, energy")
@@ -178,7 +179,7 @@ contains
          call watch(2, watched(:, 2))
          call watch(1, watched(:, 1))
          call check_true(error, all(abs(watched(:, 1) - watched(:, 2)) <= 0.0_wp), bench%name//": after a change")
-         call evaluate_loads(bench, loads, losses)
+         call evaluate_loads(bench, loads, integrands)
       end do
 
    contains
@@ -238,7 +239,7 @@ contains
       type(contact_memory_t), allocatable :: kept(:)
       type(loads_t) :: again, loads
       type(event_t) :: event
-      real(wp) :: losses(2, n_all), row(500)
+      real(wp) :: integrands(n_integrand, n_all), row(500)
       integer :: k, place
 
       associate (set => bench%set)
@@ -254,7 +255,7 @@ contains
             set%contact(k)%amends = k - 4.0_wp
          end do
          kept = set%contact
-         call evaluate_loads(bench, loads, losses)
+         call evaluate_loads(bench, loads, integrands)
          place = 7
          row = -99.0_wp
          call set%save(row, place)
@@ -276,7 +277,7 @@ contains
          call check_true(error, all(set%contact%is_cut_off .eqv. kept%is_cut_off), bench%name//": which are cut off")
          call check_close(error, set%contact%held, kept%held, 0.0_wp, bench%name//": held")
          call check_close(error, set%contact%amends, kept%amends, 0.0_wp, bench%name//": amends")
-         call evaluate_loads(bench, again, losses)
+         call evaluate_loads(bench, again, integrands)
          call check_true(error, all(abs(again%force - loads%force) <= 0.0_wp), bench%name//": the same forces")
       end associate
    end subroutine memory

@@ -2,7 +2,7 @@
 module test_clearances
    use check, only: check_close, check_true, suite_t
    use clearance_bench, only: bench_t, claim_all, evaluate_loads, get_gaps, move_to, n_all, n_before, n_body, n_item
-   use clearance_set, only: loss_contact, loss_friction
+   use clearance_set, only: loss_contact, loss_friction, n_integrand, normal_impulse
    use contact_memory, only: approaches, parts
    use differences, only: five_point, places, six_places, six_point
    use errors, only: error_t
@@ -66,10 +66,10 @@ contains
       type(bench_t), intent(inout) :: bench               !! the combination
 
       type(loads_t) :: loads
-      real(wp) :: couple, delta(n_all), friction(1, n_all), losses(2, n_all), moment, rate(n_all), scale
+      real(wp) :: couple, delta(n_all), friction(1, n_all), integrands(n_integrand, n_all), moment, rate(n_all), scale
       integer :: body
 
-      call evaluate_loads(bench, loads, losses)
+      call evaluate_loads(bench, loads, integrands)
       scale = sum(abs(loads%force))
       call check_true(error, scale > 1000.0_wp, bench%name//": there are forces")
       call check_close(error, sum(loads%force, dim=2), [0.0_wp, 0.0_wp, 0.0_wp], 1.0e-15_wp*scale, bench%name//": forces")
@@ -103,14 +103,14 @@ contains
 
       type(loads_t) :: loads
       real(wp), dimension(bench%set%n_contact) :: elastic, f
-      real(wp) :: delta(n_all), given, losses(2, n_all), rate(n_all), scale, stored
+      real(wp) :: delta(n_all), given, integrands(n_integrand, n_all), rate(n_all), scale, stored
       integer :: body
 
       call elastic_forces(bench, f, elastic)
       stored = face_energy_rate(bench)
       call get_gaps(bench, 0.0_wp, delta, rate)
       bench%set%contact%course = merge(approaches, parts, rate(bench%first:bench%last) >= 0.0_wp)
-      call evaluate_loads(bench, loads, losses)
+      call evaluate_loads(bench, loads, integrands)
       call get_gaps(bench, 0.0_wp, delta, rate)
       associate (set => bench%set, first => bench%first, last => bench%last)
          if (.not. bench%has_faces) stored = sum(elastic*rate(first:last))
@@ -120,22 +120,23 @@ contains
             given = given + dot_product(loads%force(:, body), bench%motion%v(:, body)) &
                     + dot_product(loads%moment(:, body), bench%motion%omega(:, body))
          end do
-         call check_close(error, given + sum(losses(:, first:last)) + stored, 0.0_wp, &
+         call check_close(error, given + sum(integrands([loss_contact, loss_friction], first:last)) + stored, 0.0_wp, &
                           merge(1.0e-10_wp, 1.0e-12_wp, bench%has_faces)*scale, bench%name//": power")
          if (.not. bench%has_faces) then
-            call check_close(error, losses(loss_contact, first:last), (f - elastic)*rate(first:last), 1.0e-13_wp*scale, &
+            call check_close(error, integrands(loss_contact, first:last), (f - elastic)*rate(first:last), 1.0e-13_wp*scale, &
                              bench%name//": lost in contact")
+            call check_close(error, integrands(normal_impulse, first:last), f, 1.0e-13_wp*sum(abs(f)), bench%name//": normal force")
          end if
          if (allocated(set%laws%friction)) then
-            call check_true(error, maxval(abs(losses(loss_friction, first:last))) > 1.0_wp, bench%name//": friction works")
+            call check_true(error, maxval(abs(integrands(loss_friction, first:last))) > 1.0_wp, bench%name//": friction works")
             if (.not. bench%is_book) then
-               call check_true(error, minval(losses(loss_friction, first:last)) >= 0.0_wp, bench%name//": friction only takes")
+               call check_true(error, minval(integrands(loss_friction, first:last)) >= 0.0_wp, bench%name//": friction only takes")
             end if
          else
-            call check_true(error, maxval(abs(losses(loss_friction, first:last))) <= 0.0_wp, bench%name//": no friction")
+            call check_true(error, maxval(abs(integrands(loss_friction, first:last))) <= 0.0_wp, bench%name//": no friction")
          end if
       end associate
-      call check_true(error, all(abs(losses(:, bench%others) + 1.0_wp) <= 0.0_wp), bench%name//": losses of others")
+      call check_true(error, all(abs(integrands(:, bench%others) + 1.0_wp) <= 0.0_wp), bench%name//": what is integrated of others")
    end subroutine power
 
    !> Normal forces of the touching contacts and their elastic parts, each by itself.

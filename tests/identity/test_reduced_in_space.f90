@@ -128,7 +128,7 @@ contains
          y(8:10) = y(8:10) + [0.3_wp, -0.2_wp, 0.1_wp]*k
          call compare_at(full, small, 0.0_wp, y, error)
          if (allocated(error)) return
-         call check_true(error, maxval(abs(small%loose%losses)) > 0.0_wp, "the contact loses energy")
+         call check_true(error, maxval(abs(small%loose%integrands)) > 0.0_wp, "the contact loses energy")
          call check_true(error, abs(small%linkage%solution%lambda(small%linkage%reduced%known%held(1)%row(6))) > 0.01_wp, &
                          "the driver carries it")
       end do

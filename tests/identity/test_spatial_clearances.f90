@@ -3,7 +3,7 @@
 module test_spatial_clearances
    use, intrinsic :: ieee_arithmetic, only: ieee_is_finite
    use check, only: check_close, check_true, suite_t
-   use clearance_set, only: loss_contact, loss_friction
+   use clearance_set, only: loss_contact, loss_friction, n_integrand
    use contact_grip, only: tangent_t
    use differences, only: five_point, places
    use errors, only: error_t
@@ -69,12 +69,12 @@ contains
       type(bench_t), intent(inout) :: bench               !! the combination
 
       type(loads_t) :: loads
-      real(wp) :: losses(2, most_of_item), moment(3), scale
+      real(wp) :: integrands(n_integrand, most_of_item), moment(3), scale
       integer :: k
 
       call new_loads(n_body, loads)
       bench%motion%number = 1
-      call bench%set%evaluate(bench%motion, loads, losses(:, :bench%set%n_contact))
+      call bench%set%evaluate(bench%motion, loads, integrands(:, :bench%set%n_contact))
       scale = sum(abs(loads%force))
       call check_true(error, scale > 100.0_wp, bench%name//": there are forces")
       if (allocated(error)) return
@@ -99,11 +99,11 @@ contains
       type(bench_t), intent(inout) :: bench               !! the combination
 
       type(loads_t) :: loads
-      real(wp) :: given, losses(2, most_of_item), scale, stored(4)
+      real(wp) :: given, integrands(n_integrand, most_of_item), scale, stored(4)
       integer :: k
 
       call new_loads(n_body, loads)
-      call bench%set%evaluate(bench%motion, loads, losses(:, :bench%set%n_contact))
+      call bench%set%evaluate(bench%motion, loads, integrands(:, :bench%set%n_contact))
       given = 0.0_wp
       do k = 1, n_body
          given = given + dot_product(loads%force(:, k), bench%motion%v(:, k)) &
@@ -115,11 +115,11 @@ contains
       end do
       call move(bench, 0.0_wp)
       scale = sum(abs(loads%force))  ! powers, at speeds of about 1 m/s
-      call check_close(error, given/scale, (-five_point(stored, tick) - sum(losses(loss_contact, :bench%set%n_contact)) &
-                                            - sum(losses(loss_friction, :bench%set%n_contact)))/scale, 1.0e-7_wp, &
+      call check_close(error, given/scale, (-five_point(stored, tick) - sum(integrands(loss_contact, :bench%set%n_contact)) &
+                                            - sum(integrands(loss_friction, :bench%set%n_contact)))/scale, 1.0e-7_wp, &
                        bench%name//": power")
       if (bench%set%grip%memory == memory_bristle) return  ! which may give back what they have stored
-      call check_true(error, all(losses(loss_friction, :bench%set%n_contact) >= 0.0_wp), bench%name//": friction takes")
+      call check_true(error, all(integrands(loss_friction, :bench%set%n_contact) >= 0.0_wp), bench%name//": friction takes")
    end subroutine power
 
    subroutine test_force_rate(error)
@@ -163,13 +163,13 @@ contains
 
       type(loads_t) :: loads
       real(wp), allocatable :: taken(:, :), values(:, :)
-      real(wp) :: losses(2, most_of_item), scale
+      real(wp) :: integrands(n_integrand, most_of_item), scale
       logical :: is_of_contact
       integer :: c
 
       call new_loads(n_body, loads)
       bench%motion%number = 1
-      call bench%set%evaluate(bench%motion, loads, losses(:, :bench%set%n_contact))
+      call bench%set%evaluate(bench%motion, loads, integrands(:, :bench%set%n_contact))
       scale = sum(abs(loads%force))
       do c = 1, size(bench%info%channels)
          associate (channel => bench%info%channels(c))

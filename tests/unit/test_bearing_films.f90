@@ -119,8 +119,8 @@ contains
                   call check_close(error, mass(1)*(q(1)*a(2) - q(2)*a(1)) + mass(2)*(q(4)*a(5) - q(5)*a(4)) + inertia(1)*a(3) &
                                    + inertia(2)*a(6), 0.0_wp, 1.0e-11_wp*scale, info%name//": moments")
                   call check_close(error, -(mass(1)*dot_product(a(1:2), v(1:2)) + mass(2)*dot_product(a(4:5), v(4:5)) &
-                                            + inertia(1)*a(3)*v(3) + inertia(2)*a(6)*v(6)), ydot(system%n), 1.0e-11_wp*scale, &
-                                   info%name//": power")
+                                            + inertia(1)*a(3)*v(3) + inertia(2)*a(6)*v(6)), ydot(system%place_of_impulse(0)), &
+                                   1.0e-11_wp*scale, info%name//": power")
                end associate
                call check_true(error, scale > 0.0_wp, info%name//" acts")
             end do

@@ -2,6 +2,7 @@
 module test_clearance_revolute
    use, intrinsic :: ieee_arithmetic, only: ieee_is_finite
    use check, only: check_close, check_equal, check_true, suite_t
+   use clearance_set, only: n_integrand
    use clearance_bench, only: bench_t, claim_all, evaluate_loads, make_bench, n_all, n_before, n_body, n_item
    use errors, only: error_t
    use friction_law, only: memory_bristle, memory_none
@@ -38,7 +39,8 @@ contains
 
       type(kind_info_t) :: info
       type(loads_t) :: loads
-      real(wp) :: losses(2, n_all), one(1), f(2), force(2, n_all), friction(1, n_all), normal(1, n_all), expected, sliding
+      real(wp) :: integrands(n_integrand, n_all), one(1), f(2), force(2, n_all), friction(1, n_all), normal(1, n_all)
+      real(wp) :: expected, sliding
       real(wp) :: e(2), e_dot(2), n(2), p(2, 2), s(2), t(2), v(2, 2), w(2)
       integer :: body, k, side
 
@@ -46,7 +48,7 @@ contains
       if (info%name /= "clearance.revolute") return
       ! a force that depends on a state, or always on material velocities: test_friction_memory
       if (bench%set%grip%memory == memory_bristle .or. (bench%is_book .and. bench%set%grip%memory /= memory_none)) return
-      call evaluate_loads(bench, loads, losses)
+      call evaluate_loads(bench, loads, integrands)
       force = 0.0_wp
       friction = 0.0_wp
       normal = 0.0_wp
