@@ -6,7 +6,7 @@
 module integrator
    use checkpoint, only: piece_t
    use integrator_controls, only: controls_t, norm_absolute, norm_euclidean, norm_mixed, norm_relative, onset_located
-   use interpolation, only: inner_places, interpolate, step_t
+   use interpolation, only: fit_inner, inner_places, interpolate, step_t
    use kind_info, only: kind_info_t
    use kinds, only: i8, wp
    use ode_system, only: ode_system_t
@@ -243,7 +243,7 @@ contains
          self%count%n_output_evaluations = self%count%n_output_evaluations + 1
          if (status /= 0) return
       end do
-      self%step%has_inner = .true.
+      call fit_inner(self%step, system%n_position, system%traits%n_turning, n)
    end subroutine integrator_prepare_output
 
    !> State at a time within the last step, by interpolation.

@@ -15,7 +15,7 @@ module interpolation
    use step_course, only: course_even
    implicit none (type, external)
    private
-   public :: inner_places, interpolate, step_t
+   public :: fit_inner, inner_places, interpolate, step_t
 
    real(wp), parameter :: inner_places(2) = [1.0_wp, 2.0_wp]/3.0_wp  !! (2) of the inner derivatives, as parts of the step [1]
 
@@ -28,10 +28,10 @@ module interpolation
       real(wp) :: t0 = 0.0_wp                      !! time at its start [s]
       real(wp) :: h = 0.0_wp                       !! its length [s]
       integer :: course = course_even              !! how time goes along it, see `step_course`
-      logical :: has_inner = .false.               !! whether `inner` holds the derivatives at the inner places
+      logical :: has_inner = .false.               !! whether there are terms of higher order; `inner` holds their factors
       real(wp), allocatable :: y0(:), y1(:)        !! (n) state at its ends [any]
       real(wp), allocatable :: f0(:), f1(:)        !! (n) derivative at its ends [any]
-      real(wp), allocatable :: inner(:, :)         !! (n, 2) derivatives at the inner places [any]
+      real(wp), allocatable :: inner(:, :)         !! (n, 2) derivatives at the inner places, then see `fit_inner` [any]
    end type step_t
 
 contains
@@ -63,8 +63,7 @@ contains
       real(wp), intent(in) :: s             !! place in the step, 0 to 1 [1]
       real(wp), intent(inout) :: y(:)       !! (n) state, positions and rates are set [any]
 
-      real(wp), parameter :: p = inner_places(1), q = inner_places(2)
-      real(wp) :: a_h2, c, cube, cube_rate, d, e, even, h, middle, odd, q1, r1, r2, u, v1
+      real(wp) :: a_h2, c, cube, cube_rate, d, e, h, middle, u
       integer :: k, v
 
       h = step%h
@@ -74,26 +73,133 @@ contains
       cube_rate = -6.0_wp*u*u*middle
       do k = first, first + n - 1
          v = first_rate + k - first
-         ! q(s) = q0 + s (h v0 + s (h^2 a0 / 2 + s (c + s (d + s e))))
-         a_h2 = h*h*step%f0(v)
-         q1 = step%y1(k) - step%y0(k) - h*step%y0(v) - 0.5_wp*a_h2
-         v1 = h*(step%y1(v) - step%y0(v)) - a_h2
-         c = h*h*step%f1(v) - a_h2
-         e = 6.0_wp*q1 - 3.0_wp*v1 + 0.5_wp*c
-         d = -15.0_wp*q1 + 7.0_wp*v1 - c
-         c = 10.0_wp*q1 - 4.0_wp*v1 + 0.5_wp*c
+         call find_pair(step, k, v, a_h2, c, d, e)
          y(k) = step%y0(k) + s*(h*step%y0(v) + s*(0.5_wp*a_h2 + s*(c + s*(d + s*e))))
          y(v) = step%y0(v) + s*(h*step%f0(v) + s*(3.0_wp*c + s*(4.0_wp*d + s*5.0_wp*e))/h)
          if (step%has_inner) then
-            r1 = h*h*step%inner(v, 1) - a_h2 - p*(6.0_wp*c + p*(12.0_wp*d + p*20.0_wp*e))
-            r2 = h*h*step%inner(v, 2) - a_h2 - q*(6.0_wp*c + q*(12.0_wp*d + q*20.0_wp*e))
-            even = 0.5_wp*(r1 + r2)/even_2
-            odd = 0.5_wp*(r1 - r2)/odd_2
-            y(k) = y(k) + cube*(even + odd*middle)
-            y(v) = y(v) + (cube_rate*(even + odd*middle) + cube*odd)/h
+            associate (even => step%inner(k, 1), odd => step%inner(k, 2))
+               y(k) = y(k) + cube*(even + odd*middle)
+               y(v) = y(v) + (cube_rate*(even + odd*middle) + cube*odd)/h
+            end associate
          end if
       end do
    end subroutine follow_pairs
+
+   !> The quintic of a position: q(s) = q0 + s (h v0 + s (h^2 a0 / 2 + s (c + s (d + s e)))).
+   pure subroutine find_pair(step, k, v, a_h2, c, d, e)
+      type(step_t), intent(in) :: step      !! the step
+      integer, intent(in) :: k              !! place of the position
+      integer, intent(in) :: v              !! place of its rate
+      real(wp), intent(out) :: a_h2         !! h^2 a0 [any]
+      real(wp), intent(out) :: c, d, e      !! factors of the powers 3, 4 and 5 [any]
+
+      a_h2 = step%h*step%h*step%f0(v)
+      call find_quintic(step%y1(k) - step%y0(k) - step%h*step%y0(v) - 0.5_wp*a_h2, &
+                        step%h*(step%y1(v) - step%y0(v)) - a_h2, step%h*step%h*step%f1(v) - a_h2, c, d, e)
+   end subroutine find_pair
+
+   !> Factors of a quintic, from what a parabola through the start of the step misses at its end.
+   elemental subroutine find_quintic(rest, rate_rest, bend_rest, c, d, e)
+      real(wp), intent(in) :: rest          !! of the position [any]
+      real(wp), intent(in) :: rate_rest     !! of its rate, times h [any]
+      real(wp), intent(in) :: bend_rest     !! of its second derivative, times h^2 [any]
+      real(wp), intent(out) :: c, d, e      !! factors of the powers 3, 4 and 5 [any]
+
+      c = 10.0_wp*rest - 4.0_wp*rate_rest + 0.5_wp*bend_rest
+      d = -15.0_wp*rest + 7.0_wp*rate_rest - bend_rest
+      e = 6.0_wp*rest - 3.0_wp*rate_rest + 0.5_wp*bend_rest
+   end subroutine find_quintic
+
+   !> What the second derivative of a quintic misses at an inner place, times h^2.
+   elemental real(wp) function missing(bend, a_h2, c, d, e, z)
+      real(wp), intent(in) :: bend          !! second derivative there, times h^2 [any]
+      real(wp), intent(in) :: a_h2          !! that at the start of the step, times h^2 [any]
+      real(wp), intent(in) :: c, d, e       !! factors of the quintic [any]
+      real(wp), intent(in) :: z             !! the place [1]
+
+      missing = bend - a_h2 - z*(6.0_wp*c + z*(12.0_wp*d + z*20.0_wp*e))
+   end function missing
+
+   !> Fit the terms of higher order to the derivatives at the inner places: their factors take the place of these, of positions in
+   !> the entries of the positions.
+   pure subroutine fit_inner(step, n_position, n_turning, n)
+      type(step_t), intent(inout) :: step   !! the step, `inner` the derivatives; then `has_inner`
+      integer, intent(in) :: n_position     !! leading entries that are positions
+      integer, intent(in) :: n_turning      !! bodies that turn in space, the first ones
+      integer, intent(in) :: n              !! entries that are fitted
+
+      integer :: body
+
+      do body = 1, n_turning
+         call fit_pairs(step, 7*body - 6, n_position + 6*body - 5, 3)
+         call fit_turn(step, 7*body - 3, n_position + 6*body - 2)
+      end do
+      call fit_pairs(step, 7*n_turning + 1, n_position + 6*n_turning + 1, n_position - 7*n_turning)
+      call fit_others(step, 2*n_position - n_turning + 1, n)
+      step%has_inner = .true.
+   end subroutine fit_inner
+
+   !> Positions whose derivatives are rates.
+   pure subroutine fit_pairs(step, first, first_rate, n)
+      type(step_t), intent(inout) :: step   !! the step
+      integer, intent(in) :: first          !! place of the first position
+      integer, intent(in) :: first_rate     !! place of its rate
+      integer, intent(in) :: n              !! how many
+
+      real(wp) :: a_h2, c, d, e, r(2)
+      integer :: k, v
+
+      do k = first, first + n - 1
+         v = first_rate + k - first
+         call find_pair(step, k, v, a_h2, c, d, e)
+         r = missing(step%h*step%h*step%inner(v, :), a_h2, c, d, e, inner_places)
+         step%inner(k, :) = 0.5_wp*[r(1) + r(2), r(1) - r(2)]/[even_2, odd_2]
+      end do
+   end subroutine fit_pairs
+
+   !> Euler parameters and the angular velocity of a body.
+   pure subroutine fit_turn(step, first, first_rate)
+      type(step_t), intent(inout) :: step   !! the step
+      integer, intent(in) :: first          !! place of the first Euler parameter
+      integer, intent(in) :: first_rate     !! place of the first angular velocity
+
+      real(wp) :: a0(4), at(4), at_rate(4), c(4), d(4), e(4), r(4, 2), v0(4)
+      integer :: k
+
+      call find_turn(step, first, first_rate, v0, a0, c, d, e)
+      do k = 1, size(inner_places)
+         associate (z => inner_places(k), p0 => step%y0(first:first + 3))
+            at = p0 + z*(v0 + z*(0.5_wp*a0 + z*(c + z*(d + z*e))))
+            at_rate = (v0 + z*(a0 + z*(3.0_wp*c + z*(4.0_wp*d + z*5.0_wp*e))))/step%h
+            r(:, k) = missing(step%h*step%h*second_rate_of_parameters(at, spin_of(at, at_rate), &
+                                                                      step%inner(first_rate:first_rate + 2, k)), a0, c, d, e, z)
+         end associate
+      end do
+      step%inner(first:first + 3, 1) = 0.5_wp*(r(:, 1) + r(:, 2))/even_2
+      step%inner(first:first + 3, 2) = 0.5_wp*(r(:, 1) - r(:, 2))/odd_2
+   end subroutine fit_turn
+
+   !> The quintics of a body's Euler parameters.
+   pure subroutine find_turn(step, first, first_rate, v0, a0, c, d, e)
+      type(step_t), intent(in) :: step      !! the step
+      integer, intent(in) :: first          !! place of the first Euler parameter
+      integer, intent(in) :: first_rate     !! place of the first angular velocity
+      real(wp), intent(out) :: v0(4)        !! (4) rates at the start, times h [1]
+      real(wp), intent(out) :: a0(4)        !! (4) second derivatives there, times h^2 [1]
+      real(wp), dimension(4), intent(out) :: c, d, e  !! (4) factors of the powers 3, 4 and 5 [1]
+
+      real(wp) :: a1(4), h, v1(4)
+
+      h = step%h
+      associate (p0 => step%y0(first:first + 3), p1 => step%y1(first:first + 3), &
+                 w0 => step%y0(first_rate:first_rate + 2), w1 => step%y1(first_rate:first_rate + 2))
+         v0 = h*rate_of_parameters(p0, w0)
+         v1 = h*rate_of_parameters(p1, w1)
+         a0 = h*h*second_rate_of_parameters(p0, w0, step%f0(first_rate:first_rate + 2))
+         a1 = h*h*second_rate_of_parameters(p1, w1, step%f1(first_rate:first_rate + 2))
+         call find_quintic(p1 - p0 - v0 - 0.5_wp*a0, v1 - v0 - a0, a1 - a0, c, d, e)
+      end associate
+   end subroutine find_turn
 
    !> Euler parameters and the angular velocity of a body.
    pure subroutine follow_turn(step, first, first_rate, s, y)
@@ -103,57 +209,23 @@ contains
       real(wp), intent(in) :: s             !! place in the step, 0 to 1 [1]
       real(wp), intent(inout) :: y(:)       !! (n) state, these are set [any]
 
-      real(wp), dimension(4) :: a0, a1, c, d, e, even, odd, p0, p1, q1, r1, r2, v0, v1, value, rate
-      real(wp) :: cube, h, middle, u
+      real(wp), dimension(4) :: a0, c, d, e, value, rate, v0
+      real(wp) :: cube, middle, u
 
-      h = step%h
-      associate (w0 => step%y0(first_rate:first_rate + 2), w1 => step%y1(first_rate:first_rate + 2))
-         p0 = step%y0(first:first + 3)
-         p1 = step%y1(first:first + 3)
-         v0 = h*rate_of_parameters(p0, w0)
-         v1 = h*rate_of_parameters(p1, w1)
-         a0 = h*h*second_rate_of_parameters(p0, w0, step%f0(first_rate:first_rate + 2))
-         a1 = h*h*second_rate_of_parameters(p1, w1, step%f1(first_rate:first_rate + 2))
-      end associate
-      q1 = p1 - p0 - v0 - 0.5_wp*a0
-      v1 = v1 - v0 - a0
-      a1 = a1 - a0
-      c = 10.0_wp*q1 - 4.0_wp*v1 + 0.5_wp*a1
-      d = -15.0_wp*q1 + 7.0_wp*v1 - a1
-      e = 6.0_wp*q1 - 3.0_wp*v1 + 0.5_wp*a1
-      value = p0 + s*(v0 + s*(0.5_wp*a0 + s*(c + s*(d + s*e))))
+      call find_turn(step, first, first_rate, v0, a0, c, d, e)
+      value = step%y0(first:first + 3) + s*(v0 + s*(0.5_wp*a0 + s*(c + s*(d + s*e))))
       rate = v0 + s*(a0 + s*(3.0_wp*c + s*(4.0_wp*d + s*5.0_wp*e)))
       if (step%has_inner) then
-         r1 = missing(1)
-         r2 = missing(2)
-         even = 0.5_wp*(r1 + r2)/even_2
-         odd = 0.5_wp*(r1 - r2)/odd_2
          u = s*(1.0_wp - s)
          middle = s - 0.5_wp
          cube = u*u*u
-         value = value + cube*(even + odd*middle)
-         rate = rate - 6.0_wp*u*u*middle*(even + odd*middle) + cube*odd
+         associate (even => step%inner(first:first + 3, 1), odd => step%inner(first:first + 3, 2))
+            value = value + cube*(even + odd*middle)
+            rate = rate - 6.0_wp*u*u*middle*(even + odd*middle) + cube*odd
+         end associate
       end if
       y(first:first + 3) = value
-      y(first_rate:first_rate + 2) = spin_of(value, rate/h)
-
-   contains
-
-      !> What the second derivative of the quintic misses at an inner place, whose state came from the quintic.
-      pure function missing(k) result(r)
-         integer, intent(in) :: k   !! number of the place
-         real(wp) :: r(4)           !! (4) missing, times h^2 [1]
-
-         real(wp) :: at(4), at_rate(4)
-
-         associate (z => inner_places(k))
-            at = p0 + z*(v0 + z*(0.5_wp*a0 + z*(c + z*(d + z*e))))
-            at_rate = (v0 + z*(a0 + z*(3.0_wp*c + z*(4.0_wp*d + z*5.0_wp*e))))/h
-            r = h*h*second_rate_of_parameters(at, spin_of(at, at_rate), step%inner(first_rate:first_rate + 2, k)) &
-                - a0 - z*(6.0_wp*c + z*(12.0_wp*d + z*20.0_wp*e))
-         end associate
-      end function missing
-
+      y(first_rate:first_rate + 2) = spin_of(value, rate/step%h)
    end subroutine follow_turn
 
    !> States and quadratures.
@@ -163,26 +235,45 @@ contains
       real(wp), intent(in) :: s             !! place in the step, 0 to 1 [1]
       real(wp), intent(inout) :: y(:)       !! (n) state, they are set [any]
 
-      real(wp), parameter :: p = inner_places(1), q = inner_places(2)
-      real(wp) :: c, d, even, h, middle, odd, q1, r1, r2, square
+      real(wp) :: c, d, middle, square
       integer :: k
 
-      h = step%h
       square = (s*(1.0_wp - s))**2
       middle = s - 0.5_wp
       do k = first, size(y)
-         q1 = step%y1(k) - step%y0(k) - h*step%f0(k)
-         c = 3.0_wp*q1 - h*(step%f1(k) - step%f0(k))
-         d = -2.0_wp*q1 + h*(step%f1(k) - step%f0(k))
-         y(k) = step%y0(k) + s*(h*step%f0(k) + s*(c + s*d))
-         if (step%has_inner) then
-            r1 = h*(step%inner(k, 1) - step%f0(k)) - p*(2.0_wp*c + p*3.0_wp*d)
-            r2 = h*(step%inner(k, 2) - step%f0(k)) - q*(2.0_wp*c + q*3.0_wp*d)
-            even = 0.5_wp*(r1 - r2)/even_1
-            odd = 0.5_wp*(r1 + r2)/odd_1
-            y(k) = y(k) + square*(even + odd*middle)
-         end if
+         call find_cubic(step, k, c, d)
+         y(k) = step%y0(k) + s*(step%h*step%f0(k) + s*(c + s*d))
+         if (step%has_inner) y(k) = y(k) + square*(step%inner(k, 1) + step%inner(k, 2)*middle)
       end do
    end subroutine follow_others
+
+   !> The same: terms of higher order.
+   pure subroutine fit_others(step, first, last)
+      type(step_t), intent(inout) :: step   !! the step
+      integer, intent(in) :: first          !! place of the first
+      integer, intent(in) :: last           !! place of the last
+
+      real(wp) :: c, d, r(2)
+      integer :: k
+
+      do k = first, last
+         call find_cubic(step, k, c, d)
+         r = step%h*(step%inner(k, :) - step%f0(k)) - inner_places*(2.0_wp*c + inner_places*3.0_wp*d)
+         step%inner(k, :) = 0.5_wp*[r(1) - r(2), r(1) + r(2)]/[even_1, odd_1]
+      end do
+   end subroutine fit_others
+
+   !> The cubic of a state: y(s) = y0 + s (h f0 + s (c + s d)).
+   pure subroutine find_cubic(step, k, c, d)
+      type(step_t), intent(in) :: step      !! the step
+      integer, intent(in) :: k              !! place of the state
+      real(wp), intent(out) :: c, d         !! factors of the powers 2 and 3 [any]
+
+      real(wp) :: q1
+
+      q1 = step%y1(k) - step%y0(k) - step%h*step%f0(k)
+      c = 3.0_wp*q1 - step%h*(step%f1(k) - step%f0(k))
+      d = -2.0_wp*q1 + step%h*(step%f1(k) - step%f0(k))
+   end subroutine find_cubic
 
 end module interpolation
