@@ -18,7 +18,7 @@ module hold_partitioning
    use kinds, only: wp
    use lapack, only: dgels, dgeqp3, dgeqrf
    use memory, only: get, put
-   use rows, only: body_of_side, place_in_row, place_of_side, row_of_side
+   use rows, only: before_side, body_of_side, row_of_side
    use linkage, only: linkage_t
    implicit none (type, external)
    private
@@ -184,7 +184,7 @@ contains
             body = body_of_side(rows, rows%side(k))
             do c = 1, n_v
                column = position(place(body) + c)
-               self%jac(row, column) = rows%jac(place_in_row(n_v, row, place_of_side(n_v, rows%side(k))) + c, row) &
+               self%jac(row, column) = rows%jac(before_side(n_v, rows%side(k)) + c, row) &
                                        *linkage%solution%row_weight(row)*merge(1.0_wp, linkage%scales%length, is_turn(c))
             end do
          end do

@@ -10,7 +10,7 @@ module free_directions
    use kinds, only: wp
    use lapack, only: dgeqp3, dormqr
    use linkage, only: linkage_t
-   use rows, only: body_of_side, place_in_row, place_of_side, row_of_side
+   use rows, only: before_side, body_of_side, row_of_side
    implicit none (type, external)
    private
    public :: find_free_directions
@@ -81,7 +81,7 @@ contains
          end do
          do side = 1, linkage%rows%n_side
             associate (row => row_of_side(linkage%rows%side(side)), body => body_of_side(linkage%rows, linkage%rows%side(side)))
-               place = place_in_row(n_v, row, place_of_side(n_v, linkage%rows%side(side)))
+               place = before_side(n_v, linkage%rows%side(side))
                call linkage%coordinates%to_local(1, y(n_q*(number(body) - 1) + 1:), nothing, &
                                                  linkage%rows%jac(place + 1:place + n_v, row), unused, along)
                k = n_v*(number(body) - 1)

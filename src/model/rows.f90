@@ -7,8 +7,8 @@ module rows
    use kinds, only: wp
    implicit none (type, external)
    private
-   public :: body_of_side, coordinate_place, list_sides, n_v_planar, n_v_spatial, new_rows, place_in_row, place_of_side
-   public :: row_of_side, rows_t, side_place
+   public :: before_side, body_of_side, coordinate_place, list_sides, n_v_planar, n_v_spatial, new_rows, place_in_row
+   public :: place_of_side, row_of_side, rows_t, side_place
 
    integer, parameter :: n_v_planar = 3    !! rates of a body in the plane
    integer, parameter :: n_v_spatial = 6   !! rates of a body in space
@@ -144,6 +144,14 @@ contains
 
       place = n_v*side
    end function place_of_side
+
+   !> Entries of its row before those of a side, from its number.
+   elemental integer function before_side(n_v, side) result(before)
+      integer, intent(in) :: n_v    !! rates of a body
+      integer, intent(in) :: side   !! its number in `rows%side`
+
+      before = n_v*iand(side, 1)
+   end function before_side
 
    !> Entries of a row before those of one of its sides, from its place among all.
    elemental integer function place_in_row(n_v, row, place) result(before)

@@ -9,7 +9,7 @@
 !> Source: Flores et al. (2008), eq. (2.15). Cost: of order (n_v unknown bodies + rows)^3, n_v rates a body.
 module augmented_dense
    use augmented, only: direct_t
-   use rows, only: body_of_side, coordinate_place, place_in_row, place_of_side, row_of_side, rows_t
+   use rows, only: before_side, body_of_side, coordinate_place, row_of_side, rows_t
    use kinds, only: wp
    implicit none (type, external)
    private
@@ -85,7 +85,7 @@ contains
       end do
       do k = 1, rows%n_side
          row = row_of_side(rows%side(k))
-         side = place_in_row(n_v, row, place_of_side(n_v, rows%side(k)))
+         side = before_side(n_v, rows%side(k))
          body = body_of_side(rows, rows%side(k))
          i = self%place(body)
          self%matrix(i + 1:i + n_v, nq + row) = rows%jac(side + 1:side + n_v, row)*sqrt(inverse_mass(:, body))
