@@ -4,8 +4,8 @@
 !> estimate; only the last one before a stop or an event is shorter.
 !>
 !> Events: the bracket from the interpolant is closed in on by Newton's iteration on the length of
-!> the step, each time by the method itself, so that the event function is zero to round-off and the
-!> time of the event is as accurate as the step. Onsets of contacts may be met in other ways: `onset_control`.
+!> the step, each time by the method itself or, for what little is left, by few stages, so that the event function is zero to
+!> round-off and the time of the event is as accurate as the step. Onsets of contacts may be met in other ways: `onset_control`.
 module one_step
    use event_location, only: find_first_event
    use event_prediction, only: foretell_event

@@ -1,11 +1,13 @@
 !> Events of one-step methods: a step is shortened by re-stepping until it ends at its first event.
 submodule(one_step) one_step_events
    use event_location, only: dismiss_event, first_of, note_events, time_resolution
+   use ode_system, only: contact_onset
    implicit none (type, external)
 
    real(wp), parameter :: near = 1.0e-9_wp   !! of a step: corrections below it may be noise [1]
    real(wp), parameter :: zero = 0.25_wp     !! of a function's noise: what is below is zero [1]
-   real(wp), parameter :: straight = 1.0e-3_wp !! of the tolerance: what a path may bend on the rest of the way to an event [1]
+   real(wp), parameter :: missed = 1.0e-3_wp   !! of the tolerance: what the rest of the way to an event may miss [1]
+   integer, parameter :: n_rest = 3            !! times that a rest of the way is gone without the method
    integer, parameter :: n_newton = 16       !! re-steps towards an event
    integer, parameter :: n_halving = 60      !! halvings if these do not converge
 
@@ -47,8 +49,8 @@ contains
    end subroutine step_by
 
    !> Newton's iteration on the length of the step towards an event, its tangent bent as the cubic of Hermite through the start of
-   !> the step is: from a place that the interpolant foretold the first correction is the last one, and often so small that the
-   !> derivative leads there. Where another function has clearly been above its threshold for longer, it goes on towards that one.
+   !> the step is: from a place that the interpolant foretold the first correction is the last one, and so small that few stages
+   !> lead there. Where another function has clearly been above its threshold for longer, it goes on towards that one.
    subroutine close_in(self, system, event, low, high, h, is_found, status)
       class(one_step_t), intent(inout) :: self      !! the integrator
       class(ode_system_t), intent(inout) :: system  !! the system
@@ -60,7 +62,7 @@ contains
       integer, intent(out) :: status                !! of the evaluations
 
       real(wp) :: before, full, h_before, h_new, resolution
-      integer :: earlier, i
+      integer :: earlier, i, k, n_stage
 
       full = self%step%h
       resolution = time_resolution(self, full)
@@ -82,13 +84,16 @@ contains
          is_found = abs(h_new - h) <= near*full .and. abs(self%events%g(event)) >= 0.25_wp*before
          is_found = is_found .or. abs(self%events%g(event)) <= zero*self%events%noise(event)
          is_found = is_found .or. abs(h_new - h) <= eps*h
-         if (.not. is_found .and. is_straight(self, system, event, h, h_new)) then
-            call go_straight(self, system, h, h_new, status)
+         do k = 1, n_rest
+            n_stage = stages_to(self, system, event, h, h_new)
+            if (is_found .or. n_stage == 0) exit
+            call go_on(self, system, n_stage, h, h_new, status)
             if (status /= 0) exit
             h = h_new
             is_found = abs(self%events%g(event)) <= self%events%noise(event)
             if (.not. is_found) h_new = h + correction(self, event, h)
-         end if
+         end do
+         if (status /= 0) exit
          if (is_found .or. h_new <= 0.0_wp .or. h_new > 1.5_wp*full) exit
          before = abs(self%events%g(event))
          h_before = h
@@ -105,32 +110,67 @@ contains
                                                 [(i /= event, i=1, size(self%events%g))])
    end subroutine close_in
 
-   !> Whether the derivative leads on to where the event is. Only of functions with known noise it can be told that it did.
-   pure logical function is_straight(self, system, event, h, h_new)
+   !> Stages that lead from the end of a part on to where the event is: one, along the derivative, where the path does not bend so
+   !> far; four of the classical method of Runge and Kutta before a contact begins, where forces are smooth; 0: the method itself is
+   !> asked. Only of functions with known noise it can be told that they did.
+   integer function stages_to(self, system, event, h, h_new) result(n)
       class(one_step_t), intent(in) :: self      !! the integrator
       class(ode_system_t), intent(in) :: system  !! the system
       integer, intent(in) :: event               !! the event function
       real(wp), intent(in) :: h                  !! length of the part [s]
       real(wp), intent(in) :: h_new              !! length up to the event [s]
 
-      is_straight = self%controls%fixed_step <= 0.0_wp .and. .not. system%holds .and. self%events%noise(event) > 0.0_wp
-      is_straight = is_straight .and. (h_new - h)**2 <= straight*self%controls%tolerance*h*h
-   end function is_straight
+      real(wp) :: rest
 
-   !> From the end of a part of a step on to where the event is, along the derivative: by so little that the path does not bend.
-   subroutine go_straight(self, system, h, h_new, status)
+      n = 0
+      if (self%controls%fixed_step > 0.0_wp .or. system%holds .or. .not. self%events%noise(event) > 0.0_wp) return
+      rest = abs(h_new - h)/h
+      if (rest**2 <= missed*self%controls%tolerance) then
+         n = 1
+      else if (rest**5 <= missed*self%controls%tolerance) then
+         if (system%contact_change(event) == contact_onset) n = 4
+      end if
+   end function stages_to
+
+   !> From the end of a part of a step on to where the event is.
+   subroutine go_on(self, system, n_stage, h, h_new, status)
       class(one_step_t), intent(inout) :: self      !! the integrator, `trial` at the end of the part; then at the event
       class(ode_system_t), intent(inout) :: system  !! the system
+      integer, intent(in) :: n_stage                !! stages, 1 or 4
       real(wp), intent(in) :: h                     !! length of the part [s]
       real(wp), intent(in) :: h_new                 !! length up to the event [s]
-      integer, intent(out) :: status                !! of the evaluation
+      integer, intent(out) :: status                !! of the evaluations
 
-      call system%evaluate(self%step%t0 + h, self%trial, self%scratch, status)
-      self%count%n_evaluations = self%count%n_evaluations + 1
+      real(wp) :: sum(size(self%trial)), rest
+      integer :: stage
+
+      rest = h_new - h
+      call derive(h, self%trial)
+      sum = self%scratch
+      if (n_stage == 4) then
+         do stage = 2, 4
+            if (status == 0) call derive(h + merge(rest, 0.5_wp*rest, stage == 4), &
+                                         self%trial + merge(rest, 0.5_wp*rest, stage == 4)*self%scratch)
+            sum = sum + merge(1.0_wp, 2.0_wp, stage == 4)*self%scratch
+         end do
+         sum = sum/6.0_wp
+      end if
       if (status /= 0) return
-      self%trial = self%trial + (h_new - h)*self%scratch
+      self%trial = self%trial + rest*sum
       call self%look_at_events(system, self%step%t0 + h_new, self%trial, self%events%g, self%events%rate)
-   end subroutine go_straight
+
+   contains
+
+      !> The derivative at a state, into `scratch`.
+      subroutine derive(after, y)
+         real(wp), intent(in) :: after   !! how long after the start of the step [s]
+         real(wp), intent(in) :: y(:)    !! (n) the state [any]
+
+         call system%evaluate(self%step%t0 + after, y, self%scratch, status)
+         self%count%n_evaluations = self%count%n_evaluations + 1
+      end subroutine derive
+
+   end subroutine go_on
 
    !> What is left to the zero of an event function at the end of a step, to second order: g + g' d + g'' d^2/2 = 0.
    pure real(wp) function correction(self, event, h) result(d)
