@@ -129,8 +129,9 @@ contains
                           .and. greater + 2.0_wp*rise < value)
    end function may_exceed
 
-   !> Maximum of the normal force within the last step, on its interpolant as good as it gets. Where it is far above the ends, see
-   !> `find_penetration_peak`, the place that was found, and others if it is not the one, are reached by the method itself.
+   !> Maximum of the normal force within the last step, on its interpolant. That of an explicit method is as good as its steps but
+   !> where the maximum is far above their ends, see `find_penetration_peak`. Else the place that was found, and others if it is not
+   !> the one, are reached by the method itself.
    subroutine find_force_peak(system, method, slot, item, left, right, y, ydot, peak)
       type(mechanism_t), intent(inout) :: system    !! the system
       class(integrator_t), intent(inout) :: method      !! the integrator, after a step
@@ -148,7 +149,8 @@ contains
       integer :: k, status
 
       peak%force = -1.0_wp
-      call method%prepare_output(system, status)
+      status = 0
+      if (method%is_explicit()) call method%prepare_output(system, status)
       if (status /= 0) return
       bracket = bracket_t(h=method%step%h, a=left, b=right)
       do k = 1, n_search
@@ -160,7 +162,7 @@ contains
          if (missing(here, bracket) <= near_force*abs(here%value)) exit
          call narrow(place, here, bracket)
       end do
-      if (peak%force <= (1.0_wp + close_by)*max(left%value, right%value)) return
+      if (method%is_explicit() .and. peak%force <= (1.0_wp + close_by)*max(left%value, right%value)) return
       peak%force = -1.0_wp
       bend = bend_of(bracket)
       bracket = bracket_t(h=method%step%h, a=left, b=right)
