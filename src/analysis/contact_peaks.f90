@@ -5,7 +5,7 @@
 !> not smooth.
 module contact_peaks
    use integrator, only: integrator_t
-   use kinds, only: wp
+   use kinds, only: i8, wp
    use mechanism, only: mechanism_t
    implicit none (type, external)
    private
@@ -146,11 +146,16 @@ contains
       type(bracket_t) :: bracket
       type(trend_t) :: here
       real(wp) :: bend, place
+      integer(i8) :: n_output
       integer :: k, status
 
       peak%force = -1.0_wp
       status = 0
-      if (method%is_explicit()) call method%prepare_output(system, status)
+      if (method%is_explicit()) then
+         n_output = method%count%n_output_evaluations  ! these are made whether there is output or not
+         call method%prepare_output(system, status)
+         method%count%n_output_evaluations = n_output
+      end if
       if (status /= 0) return
       bracket = bracket_t(h=method%step%h, a=left, b=right)
       do k = 1, n_search
@@ -198,7 +203,7 @@ contains
 
       !> Keep the force at the place if it is the greatest so far.
       subroutine keep_greater()
-         if (here%value <= peak%force) return
+         if (.not. here%value > peak%force) return
          peak%t = method%step%t0 + place*method%step%h
          peak%force = here%value
          peak%y = y

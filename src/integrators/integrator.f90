@@ -224,7 +224,7 @@ module integrator
 contains
 
    !> Evaluate the right-hand side at the inner places of the last step, so that `state_at` gains two orders: for the whole step
-   !> with quadratures, or without.
+   !> with quadratures, or without: these are not fitted later on, so who wants them asks before who does not.
    subroutine integrator_prepare_output(self, system, status)
       class(integrator_t), intent(inout) :: self    !! the integrator
       class(ode_system_t), intent(inout) :: system  !! the system

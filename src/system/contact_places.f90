@@ -1,4 +1,5 @@
 !> Where what belongs to a contact lies: its losses among the quadratures of the ledger, its functions among the event functions.
+!> (Its impulse is behind these quadratures: `place_of_impulse`.)
 !>
 !> Quadratures: the works and what dampers lose, then n_loss of each contact: lost by damping, lost by friction (`clearance_set`);
 !> then what friction in ideal joints takes, if any rub; last what lubricant films take, if there are any. The impulses of contacts
@@ -47,7 +48,7 @@ module contact_places
 
 contains
 
-   !> Number of quadratures with a ledger.
+   !> Number of the ledger's quadratures before those of joints that rub and of films.
    pure integer function n_quadratures(n_contact) result(n)
       integer, intent(in) :: n_contact  !! contacts of all sets
 

@@ -1,6 +1,6 @@
 !> A scene as a system of ordinary differential equations with events.
 !>
-!> y = ( q, v, z ), see `mechanism_state`: coordinates, rates, quadratures of the energy ledger. Accelerations come from the
+!> y = ( q, v, z ), see `mechanism_state`: coordinates, rates, quadratures of the energy ledger and of impulses. Accelerations come from the
 !> augmented equations with Baumgarte's stabilisation, b = gamma - 2 alpha Phi' - beta^2 Phi,  Phi' = Phi_q v + Phi_t,  less
 !> Phi_q a of the bodies whose motion is known.
 !>
