@@ -143,8 +143,7 @@ module clearance_set
          class(clearance_set_t), intent(inout) :: self   !! the set
          type(motion_t), intent(in) :: motion            !! positions and velocities
          type(loads_t), intent(inout) :: loads           !! loads on the bodies, added to
-         real(wp), intent(inout), contiguous :: integrands(:, :)  !! (3, all contacts) power lost by damping and by friction [W],
-                                                                  !! and normal force [N]: set here
+         real(wp), intent(inout), contiguous :: integrands(:, :)  !! (3, all contacts) power lost, normal force: set here [W and N]
       end subroutine evaluate_interface
 
       !> Penetration and its rate for all contacts, touching or not. No allocation.

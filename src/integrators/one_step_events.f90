@@ -111,8 +111,8 @@ contains
    end subroutine close_in
 
    !> Stages that lead from the end of a part on to where the event is: one, along the derivative, where the path does not bend so
-   !> far; four of the classical method of Runge and Kutta before a contact begins, where forces are smooth, but for methods for stiff
-   !> forces; 0: the method itself is asked. Only of functions with known noise it can be told that they did.
+   !> far; four of the classical method of Runge and Kutta before a contact begins, where forces are smooth, but not with methods
+   !> for stiff ones; 0: the method itself is asked. Only of functions with known noise it can be told that they did.
    integer function stages_to(self, system, event, h, h_new) result(n)
       class(one_step_t), intent(in) :: self      !! the integrator
       class(ode_system_t), intent(in) :: system  !! the system

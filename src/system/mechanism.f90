@@ -1,8 +1,8 @@
 !> A scene as a system of ordinary differential equations with events.
 !>
-!> y = ( q, v, z ), see `mechanism_state`: coordinates, rates, quadratures of the energy ledger and of impulses. Accelerations come from the
-!> augmented equations with Baumgarte's stabilisation, b = gamma - 2 alpha Phi' - beta^2 Phi,  Phi' = Phi_q v + Phi_t,  less
-!> Phi_q a of the bodies whose motion is known.
+!> y = ( q, v, z ), see `mechanism_state`: coordinates, rates, quadratures of the energy ledger and of impulses. Accelerations come
+!> from the augmented equations with Baumgarte's stabilisation, b = gamma - 2 alpha Phi' - beta^2 Phi,  Phi' = Phi_q v + Phi_t,
+!> less Phi_q a of the bodies whose motion is known.
 !>
 !> Ledger: z = ( drive work, load work, stabilisation work, lost in dampers; per contact: lost by damping, lost by
 !> friction; lost by friction in ideal joints, if any rub; taken by films, if there are any ), with the powers lambda^T Phi_t, f .
