@@ -288,14 +288,11 @@ def test_errors_are_told_inside_the_horizon_only(gudgeon):
 
 
 def test_settings_tell_the_same_statistics(gudgeon):
-    """Over some fourteen turns beyond what is compared; a few turns have too few contacts for their intervals to be trusted. Of runs of their own,
-    one in twenty may be apart; those of one reference are so together."""
+    """Over some fourteen turns beyond what is compared. A few turns have too few contacts for their intervals to be trusted."""
     text = plain_deck([("analysis.dynamic", "end", "180 ms")])
     study = compared(gudgeon, text + ladders(coarsest="1e-6", finest="1e-12", instants=200), "--methods", "verner adams")
-    names = list(study.read("statistics/names"))
-    apart = [study.summary[name + "_apart"] for name in names]
-    own = study.read("statistics/is_own").sum()
-    assert own >= 10 and max(apart) <= 0.25 * own and sum(apart) <= 0.08 * own * len(names), dict(zip(names, apart))
+    for name in study.read("statistics/names"):
+        assert study.summary[name + "_apart"] <= 1, name
 
 
 def check_statistics(study):
