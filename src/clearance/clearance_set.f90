@@ -225,10 +225,12 @@ contains
       class(friction_law_t), allocatable, intent(in) :: friction      !! friction law, unallocated: none
 
       type(kind_info_t) :: info
+      type(text_t), allocatable :: labels(:)  ! gfortran does not free those of a result that nobody is given
       integer :: k
 
       self%n = size(items)
-      self%n_contact_item = size(self%contact_labels())
+      labels = self%contact_labels()
+      self%n_contact_item = size(labels)
       self%n_contact = self%n*self%n_contact_item
       allocate (self%names(self%n), self%items%body(2, self%n), self%items%s_i(3, self%n), self%items%s_j(3, self%n))
       allocate (self%items%clearance(self%n), self%laws%parameters(n_law_parameter, self%n_contact), source=0.0_wp)
