@@ -221,6 +221,7 @@ def main():
     options.add_argument("--budget", type=float, default=10.0, help="seconds of a run after which its ladder ends")
     given = options.parse_args()
     results = given.build / "bench" / "peers"
+    results.mkdir(parents=True, exist_ok=True)
     everything, reasons = [], []
     with tempfile.TemporaryDirectory(prefix="gudgeon_peers_") as temporary:
         programs = Programs(given.build, pathlib.Path(temporary), 6*given.budget)

@@ -2,9 +2,9 @@
 # Gets the programs that peers.py compares with, as far as they can be had: Simbody from Debian's packages, MuJoCo and Exudyn from PyPI
 # in a virtual environment. set_up.sh DIRECTORY; says what is missing, and fails only if nothing is there.
 set -u
+mkdir -p "$1"
+directory=$(cd "$1" && pwd)
 cd "$(dirname "$0")"
-directory=$1
-mkdir -p "$directory"
 there=""
 
 say() { printf 'bench-peers: %s\n' "$*"; }
