@@ -257,7 +257,7 @@ contains
       real(wp), intent(in) :: t                    !! the time [s]
       logical, intent(in) :: at_peak               !! that of a peak at just this time, if there is one
       real(wp), intent(in) :: shift                !! so much beyond it along the motion, if the step ends there [s]
-      real(wp), intent(inout) :: y(:)              !! (n) the state [any]
+      real(wp), intent(inout) :: y(part%system%n)  !! (n) the state [any]
 
       integer :: k
 

@@ -29,86 +29,143 @@ contains
 
    !> Values that are read: those of the contacts and the force on j here, others as the geometry has them.
    module procedure point_report
-      type(point_contact_t) :: contacts(1)
-
       if (self%n_contact_item == 1) then  ! nothing is made ready for sixteen
-         call report_items(self, readings, motion, 1, contacts, values)
+         call report_single(self, readings, motion, values)
       else
          call report_several(self, readings, motion, values)
       end if
    end procedure point_report
 
+   !> Items of one contact. A contact that the evaluation found is told from there.
+   subroutine report_single(self, readings, motion, values)
+      class(point_contacts_t), intent(in) :: self       !! the set
+      type(readings_t), intent(in) :: readings          !! channels that are read
+      type(motion_t), intent(in) :: motion              !! positions and velocities
+      real(wp), intent(inout), contiguous :: values(:)  !! (any) of the catalogue, those that are read are set [any]
+
+      type(point_contact_t) :: contacts(1)
+      real(wp) :: f_elastic(most_of_item), f_n(most_of_item), f_t(most_of_item)
+      integer :: item
+      logical :: takes_over
+
+      takes_over = is_evaluated(self, readings, motion)
+      do item = 1, self%n
+         if (takes_over .and. (self%contact(item)%is_touching .or. self%laws%normal%acts_apart)) then
+            associate (work => self%work)
+               call report_item(self, readings, motion, item, 1, work%contacts(item), work%f_n(item), work%f_t(item), &
+                                work%f_elastic(item), values)
+            end associate
+         else
+            call find_item(self, readings, takes_over, item, 1, motion, contacts, f_n, f_t, f_elastic)
+            call report_item(self, readings, motion, item, 1, contacts, f_n, f_t, f_elastic, values)
+         end if
+      end do
+   end subroutine report_single
+
    !> Items of several contacts.
    subroutine report_several(self, readings, motion, values)
-      class(point_contacts_t), intent(in) :: self  !! the set
-      type(readings_t), intent(in) :: readings     !! channels that are read
-      type(motion_t), intent(in) :: motion         !! positions and velocities
+      class(point_contacts_t), intent(in) :: self       !! the set
+      type(readings_t), intent(in) :: readings          !! channels that are read
+      type(motion_t), intent(in) :: motion              !! positions and velocities
       real(wp), intent(inout), contiguous :: values(:)  !! (any) of the catalogue, those that are read are set [any]
 
       type(point_contact_t) :: contacts(most_of_item)
+      real(wp) :: f_elastic(most_of_item), f_n(most_of_item), f_t(most_of_item)
+      integer :: item
+      logical :: takes_over
 
-      call report_items(self, readings, motion, self%n_contact_item, contacts, values)
+      takes_over = is_evaluated(self, readings, motion)
+      do item = 1, self%n
+         call find_item(self, readings, takes_over, item, self%n_contact_item, motion, contacts, f_n, f_t, f_elastic)
+         call report_item(self, readings, motion, item, self%n_contact_item, contacts, f_n, f_t, f_elastic, values)
+      end do
    end subroutine report_several
 
-   !> Values of all items.
-   subroutine report_items(self, readings, motion, n, contacts, values)
+   !> Whether the last evaluation found what is read of contacts at this motion. Not for friction that contacts remember: it may be
+   !> found with the accelerations.
+   pure logical function is_evaluated(self, readings, motion)
+      class(point_contacts_t), intent(in) :: self  !! the set
+      type(readings_t), intent(in) :: readings     !! channels that are read
+      type(motion_t), intent(in) :: motion         !! positions and velocities
+
+      is_evaluated = self%evaluated_at == motion%number .and. motion%number > 0 .and. self%grip%memory == memory_none
+      if (readings%most >= of_sliding_speed .and. .not. allocated(self%laws%friction)) is_evaluated = .false.
+   end function is_evaluated
+
+   !> Kinematics and forces of the contacts of an item, if something that is read needs them.
+   subroutine find_item(self, readings, takes_over, item, n, motion, contacts, f_n, f_t, f_elastic)
+      class(point_contacts_t), intent(in) :: self           !! the set
+      type(readings_t), intent(in) :: readings              !! channels that are read
+      logical, intent(in) :: takes_over                     !! as the last evaluation found them
+      integer, intent(in) :: item                           !! the item
+      integer, intent(in) :: n                              !! contacts of an item
+      type(motion_t), intent(in) :: motion                  !! positions and velocities
+      type(point_contact_t), intent(inout) :: contacts(n)   !! (n) kinematics
+      real(wp), intent(out) :: f_n(n)                       !! (n) normal forces [N]
+      real(wp), intent(out) :: f_t(n)                       !! (n) friction forces on j along t [N]
+      real(wp), intent(out) :: f_elastic(n)                 !! (n) elastic parts of the normal forces [N]
+
+      integer :: m
+
+      do m = 1, readings%n
+         associate (code => readings%of(m)%code)
+            if (code <= of_contact_point .or. code == of_moment .or. code >= of_contact_angle) exit
+         end associate
+      end do
+      if (m > readings%n) return
+      if (takes_over) then
+         call take_evaluated(self, (item - 1)*n, n, motion, contacts, f_n, f_t, f_elastic)
+      else
+         call find_forces(self, item, n, motion, contacts, f_n, f_t, f_elastic, readings%most >= of_sliding_speed)
+      end if
+   end subroutine find_item
+
+   !> Values of an item.
+   subroutine report_item(self, readings, motion, item, n, contacts, f_n, f_t, f_elastic, values)
       class(point_contacts_t), intent(in) :: self           !! the set
       type(readings_t), intent(in) :: readings              !! channels that are read
       type(motion_t), intent(in) :: motion                  !! positions and velocities
+      integer, intent(in) :: item                           !! the item
       integer, intent(in) :: n                              !! contacts of an item
-      type(point_contact_t), intent(inout) :: contacts(n)   !! (n) scratch
-      real(wp), intent(inout), contiguous :: values(:)  !! (any) of the catalogue, those that are read are set [any]
+      type(point_contact_t), intent(in) :: contacts(n)      !! (n) kinematics
+      real(wp), intent(in) :: f_n(n)                        !! (n) normal forces [N]
+      real(wp), intent(in) :: f_t(n)                        !! (n) friction forces on j along t [N]
+      real(wp), intent(in) :: f_elastic(n)                  !! (n) elastic parts of the normal forces [N]
+      real(wp), intent(inout), contiguous :: values(:)      !! (any) of the catalogue, those that are read are set [any]
 
-      real(wp) :: depth, f_elastic(most_of_item), f_n(most_of_item), f_t(most_of_item), rate
-      integer :: at, c, code, column, first, item, m, width
-      logical :: is_found, takes_over, with_sliding
+      real(wp) :: depth, rate
+      integer :: at, c, code, column, first, m, width
 
-      with_sliding = readings%most >= of_sliding_speed
-      takes_over = self%evaluated_at == motion%number .and. motion%number > 0 .and. self%grip%memory == memory_none
-      if (with_sliding .and. .not. allocated(self%laws%friction)) takes_over = .false.
-      do item = 1, self%n
-         first = (item - 1)*n
-         column = self%before%contacts + first
-         is_found = .false.
-         do m = 1, readings%n
-            code = readings%code(m)
-            if (.not. is_found) then
-               if (code <= of_contact_point .or. code == of_moment .or. code >= of_contact_angle) then
-                  if (takes_over) then
-                     call take_evaluated(self, first, n, motion, contacts, f_n, f_t, f_elastic)
-                  else
-                     call find_forces(self, item, n, motion, contacts, f_n, f_t, f_elastic, with_sliding)
-                  end if
-                  is_found = .true.
-               end if
-            end if
-            if (code >= of_penetration .and. code <= of_state) then
-               at = readings%place(m) + column
-               do c = 1, n
-                  values(at + c) = value_of_contact(code, self%contact(first + c)%is_touching, contacts(c)%delta, &
-                                                    contacts(c)%rate, f_n(c), f_t(c))
-                  if (code /= of_penetration .or. self%contact(first + c)%is_touching .or. contacts(c)%delta <= 0.0_wp) cycle
-                  depth = contacts(c)%delta
-                  rate = contacts(c)%rate
-                  call self%cut_at_ends(first + c, motion, contacts(c), depth, rate)  ! beyond its end a surface is not there
-                  values(at + c) = max(0.0_wp, depth)
-               end do
-            else if (code == of_contact_point .or. code >= of_contact_angle) then
-               width = readings%width(m)
-               at = readings%place(m) + width*column
-               call report_course(self, code, item, n, motion, contacts, f_n, f_t, f_elastic, width, values(at + 1:at + width*n))
+      first = (item - 1)*n
+      column = self%before%contacts + first
+      do m = 1, readings%n
+         code = readings%of(m)%code
+         if (code >= of_penetration .and. code <= of_state) then
+            at = readings%of(m)%place + column
+            do c = 1, n
+               values(at + c) = value_of_contact(code, self%contact(first + c)%is_touching, contacts(c)%delta, &
+                                                 contacts(c)%rate, f_n(c), f_t(c))
+               if (code /= of_penetration .or. self%contact(first + c)%is_touching .or. contacts(c)%delta <= 0.0_wp) cycle
+               depth = contacts(c)%delta
+               rate = contacts(c)%rate
+               call self%cut_at_ends(first + c, motion, contacts(c), depth, rate)  ! beyond its end a surface is not there
+               values(at + c) = max(0.0_wp, depth)
+            end do
+         else if (code == of_contact_point .or. code >= of_contact_angle) then
+            width = readings%of(m)%width
+            at = readings%of(m)%place + width*column
+            call report_course(self, code, item, n, motion, contacts, f_n, f_t, f_elastic, width, values(at + 1:at + width*n))
+         else
+            width = readings%of(m)%width
+            at = readings%of(m)%place + width*(self%before%items + item - 1)
+            if (code == of_force) then
+               call report_force(self, n, contacts, f_n, f_t, width, values(at + 1:at + width))
             else
-               width = readings%width(m)
-               at = readings%place(m) + width*(self%before%items + item - 1)
-               if (code == of_force) then
-                  call report_force(self, n, contacts, f_n, f_t, width, values(at + 1:at + width))
-               else
-                  call self%report_item(code, item, motion, contacts, f_n, f_t, values(at + 1:at + width))
-               end if
+               call self%report_item(code, item, motion, contacts, f_n, f_t, values(at + 1:at + width))
             end if
-         end do
+         end if
       end do
-   end subroutine report_items
+   end subroutine report_item
 
    !> Where the contacts of an item are, or how they rub: values of a channel.
    subroutine report_course(self, code, item, n, motion, contacts, f_n, f_t, f_elastic, width, values)
@@ -270,6 +327,7 @@ contains
 
       force = 0.0_wp
       do c = 1, n
+         if (.not. (f_n(c) > 0.0_wp .or. abs(f_t(c)) > 0.0_wp)) cycle
          force = force + self%force_on_j(contacts(c), f_n(c), f_t(c))
       end do
       do c = 1, n_axis
@@ -278,7 +336,7 @@ contains
    end subroutine report_force
 
    !> Kinematics and forces of the contacts of an item as the last evaluation found them, at this motion: sliding velocities where
-   !> there is friction. Not for friction that contacts remember: it may be found with the accelerations.
+   !> there is friction.
    subroutine take_evaluated(self, first, n, motion, contacts, f_n, f_t, f_elastic)
       class(point_contacts_t), intent(in) :: self           !! the set, evaluated
       integer, intent(in) :: first                          !! contacts before those of the item

@@ -267,16 +267,16 @@ contains
          film = self%laws%films%motion_of(k, self%items%body(:, k), self%items%s_i(:, k), self%items%s_j(:, k), motion)
          has_state = .false.
          do m = 1, readings%n
-            select case (readings%code(m))
+            select case (readings%of(m)%code)
             case (of_force, of_state, of_film_force, of_film_torque, of_drag_journal:of_temperature_rise)
                if (.not. has_state) state = self%laws%films%state_of(k, self%items%body(:, k), film, motion)
                has_state = .true.
             end select
-            if (readings%code(m) == of_state) then
-               call add_film_state(state, values(readings%place(m) + self%before%contacts + k))
+            if (readings%of(m)%code == of_state) then
+               call add_film_state(state, values(readings%of(m)%place + self%before%contacts + k))
             else
-               at = readings%place(m) + readings%width(m)*(self%before%items + k - 1)
-               call report_film(self, readings%code(m), k, film, state, values(at + 1:at + readings%width(m)))
+               at = readings%of(m)%place + readings%of(m)%width*(self%before%items + k - 1)
+               call report_film(self, readings%of(m)%code, k, film, state, values(at + 1:at + readings%of(m)%width))
             end if
          end do
       end do

@@ -89,12 +89,12 @@ contains
          film = self%laws%films%motion_of(k, self%items%body(:, k), self%items%s_i(:, k), self%items%s_j(:, k), motion)
          state = self%laws%films%state_of(k, self%items%body(:, k), film, motion)
          do m = 1, readings%n
-            if (readings%code(m) == of_state) then
-               at = readings%place(m) + self%before%contacts + (k - 1)*self%n_contact_item
+            if (readings%of(m)%code == of_state) then
+               at = readings%of(m)%place + self%before%contacts + (k - 1)*self%n_contact_item
                if (state%share > 0.0_wp) call add_film_state(values(at + 1:at + self%n_contact_item))
             else
-               at = readings%place(m) + readings%width(m)*(self%before%items + k - 1)
-               call report_film(self, readings%code(m), k, film, state, values(at + 1:at + readings%width(m)))
+               at = readings%of(m)%place + readings%of(m)%width*(self%before%items + k - 1)
+               call report_film(self, readings%of(m)%code, k, film, state, values(at + 1:at + readings%of(m)%width))
             end if
          end do
       end do

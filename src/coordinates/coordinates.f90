@@ -229,9 +229,9 @@ module coordinates
 
       !> Force and moment about the centre of mass that a load on the rates of a body is.
       pure subroutine split_interface(load, motion, body, force, moment)
-         import :: motion_t, wp
+         import :: most_rates, motion_t, wp
          implicit none (type, external)
-         real(wp), intent(in) :: load(:)            !! (n_v) load on the rates [N or N.m]
+         real(wp), intent(in) :: load(most_rates)   !! (n_v) first: load on the rates [N or N.m]
          type(motion_t), intent(in) :: motion       !! the motion
          integer, intent(in) :: body                !! the body
          real(wp), intent(out) :: force(3)          !! (3) force, world frame [N]

@@ -7,10 +7,10 @@ module planar_coordinates
    use, intrinsic :: ieee_arithmetic, only: ieee_is_finite
    use bodies, only: bodies_info, bodies_t, of_acceleration, of_angle, of_angular_acceleration, of_angular_velocity, &
       of_position, of_velocity
-   use coordinates, only: coordinates_t
+   use coordinates, only: coordinates_t, most_rates
    use kinds, only: wp
    use motion, only: loads_t, motion_t
-   use readings, only: readings_t
+   use readings, only: reading_t, readings_t
    implicit none (type, external)
    private
    public :: new_planar_coordinates, planar_coordinates_t, set_planar_motion
@@ -354,7 +354,7 @@ contains
 
    !> Two forces and a moment.
    pure subroutine planar_split_load(load, motion, body, force, moment)
-      real(wp), intent(in) :: load(:)        !! (3) load on x, y, angle [N, N, N.m]
+      real(wp), intent(in) :: load(most_rates)  !! (3) first: load on x, y, angle [N, N, N.m]
       type(motion_t), intent(in) :: motion   !! the motion
       integer, intent(in) :: body            !! the body
       real(wp), intent(out) :: force(3)      !! (3) force, world frame [N]

@@ -17,8 +17,8 @@ contains
 
    !> Values that are read, body by body.
    module procedure planar_report
-      call report_bodies(readings%n, readings%code, readings%item, readings%place, ubound(motion%angle, 1), motion%r, motion%v, &
-                         motion%a, motion%angle, motion%omega, motion%alpha, size(values), values)
+      call report_bodies(readings%n, readings%of, ubound(motion%angle, 1), motion%r, motion%v, motion%a, motion%angle, &
+                         motion%omega, motion%alpha, size(values), values)
    end procedure planar_report
 
    !> Two vectors for each body, turned by its angle or back.
@@ -43,11 +43,9 @@ contains
    end subroutine turn
 
    !> The same on plain arrays.
-   pure subroutine report_bodies(n, code, item, place, n_body, r, v, a, angle, omega, alpha, n_value, values)
+   pure subroutine report_bodies(n, reading, n_body, r, v, a, angle, omega, alpha, n_value, values)
       integer, intent(in) :: n                         !! channels that are read
-      integer, intent(in) :: code(n)                   !! (n) the channels
-      integer, intent(in) :: item(n)                   !! (n) the bodies
-      integer, intent(in) :: place(n)                  !! (n) values before those that are read
+      type(reading_t), intent(in) :: reading(n)        !! (n) the channels of the bodies
       integer, intent(in) :: n_body                    !! number of bodies
       real(wp), intent(in) :: r(3, 0:n_body)           !! (3, 0:bodies) centres of mass [m]
       real(wp), intent(in) :: v(3, 0:n_body)           !! (3, 0:bodies) velocities [m/s]
@@ -61,9 +59,9 @@ contains
       integer :: at, k, m
 
       do m = 1, n
-         at = place(m)
-         k = item(m)
-         select case (code(m))
+         at = reading(m)%place
+         k = reading(m)%item
+         select case (reading(m)%code)
          case (of_position)
             values(at + 1) = r(1, k)
             values(at + 2) = r(2, k)

@@ -10,7 +10,7 @@
 module spatial_coordinates
    use, intrinsic :: ieee_arithmetic, only: ieee_is_finite
    use bodies, only: bodies_t, of_acceleration, of_angular_acceleration, of_angular_velocity, of_position, of_velocity
-   use coordinates, only: coordinates_t
+   use coordinates, only: coordinates_t, most_rates
    use kinds, only: wp
    use motion, only: cross, loads_t, motion_t
    use readings, only: readings_t
@@ -346,7 +346,7 @@ contains
 
    !> The force, and the moment turned to the world's axes.
    pure subroutine spatial_split_load(load, motion, body, force, moment)
-      real(wp), intent(in) :: load(:)        !! (6) load on the rates [N and N.m]
+      real(wp), intent(in) :: load(most_rates)  !! (6) load on the rates [N and N.m]
       type(motion_t), intent(in) :: motion   !! the motion
       integer, intent(in) :: body            !! the body
       real(wp), intent(out) :: force(3)      !! (3) force, world frame [N]

@@ -38,9 +38,9 @@ contains
       integer :: at, k, m
 
       do m = 1, readings%n
-         at = readings%place(m)
-         k = readings%item(m)
-         select case (readings%code(m))
+         at = readings%of(m)%place
+         k = readings%of(m)%item
+         select case (readings%of(m)%code)
          case (of_position)
             values(at + 1:at + 3) = motion%r(:, k)
          case (of_velocity)

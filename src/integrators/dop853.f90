@@ -330,23 +330,36 @@ contains
       class(dop853_t), intent(in) :: self        !! the integrator
       class(ode_system_t), intent(in) :: system  !! the system
       real(wp), intent(in) :: s                  !! place in the step, 0 to 1 [1]
-      real(wp), intent(inout) :: y(:)            !! (n) state [any]
+      real(wp), intent(inout) :: y(system%n)     !! (n) state [any]
 
-      real(wp) :: factor, u
-      integer :: j
+      integer :: n
 
-      if (.not. self%step%has_inner) then
-         call interpolate(self%step, system%n_position, system%traits%n_turning, s, y)
-         return
+      n = system%n
+      if (.not. system%traits%with_quadratures) n = n - system%n_quadrature
+      if (self%step%has_inner) then
+         call sum_terms(n, system%n, parameter_of(self%step%course, s), self%step%y0, self%term, y)
+      else
+         call interpolate(self%step, system%n_position, system%traits%n_turning, s, n, y)
       end if
-      u = parameter_of(self%step%course, s)
-      y = self%term(:, n_term)
-      do j = n_term, 1, -1
-         factor = merge(u, 1.0_wp - u, modulo(j, 2) == 1)
-         y = factor*y
-         if (j > 1) y = y + self%term(:, j - 1)
-      end do
-      y = self%step%y0 + y
    end subroutine dop853_within
+
+   !> The interpolant of order 7.
+   pure subroutine sum_terms(n, n_all, u, y0, term, y)
+      integer, intent(in) :: n                     !! entries that are wanted
+      integer, intent(in) :: n_all                 !! entries of the state
+      real(wp), intent(in) :: u                    !! parameter of the place in the step, 0 to 1 [1]
+      real(wp), intent(in) :: y0(n_all)            !! (n_all) state at its start [any]
+      real(wp), intent(in) :: term(n_all, n_term)  !! (n_all, 7) terms [any]
+      real(wp), intent(inout) :: y(n_all)          !! (n_all) state, n entries are set [any]
+
+      real(wp) :: w
+      integer :: i
+
+      w = 1.0_wp - u
+      do i = 1, n
+         y(i) = y0(i) + u*(term(i, 1) + w*(term(i, 2) + u*(term(i, 3) + w*(term(i, 4) + u*(term(i, 5) + w*(term(i, 6) &
+                                                                                                   + u*term(i, 7)))))))
+      end do
+   end subroutine sum_terms
 
 end module dop853

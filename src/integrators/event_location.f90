@@ -75,7 +75,7 @@ contains
       class(ode_system_t), intent(inout) :: system  !! the system
       class(integrator_t), intent(in) :: method     !! the integrator, after a step
       real(wp), intent(in) :: s                     !! the place [1]
-      real(wp), intent(inout) :: y(:)               !! (n) the state [any]
+      real(wp), intent(inout) :: y(system%n)        !! (n) the state [any]
 
       system%traits%with_quadratures = .false.
       call method%within(system, s, y)

@@ -96,7 +96,7 @@ module integrator
       procedure, nopass :: begins_anew => integrator_begins_anew
       procedure :: prepare_output => integrator_prepare_output
       procedure :: within => integrator_within
-      procedure :: state_at => integrator_state_at
+      procedure, non_overridable :: state_at => integrator_state_at
       procedure :: reach => integrator_reach
       procedure :: list_memory => integrator_list_memory
       procedure, nopass :: memory_version => integrator_memory_version
@@ -237,7 +237,7 @@ contains
       if (.not. system%traits%with_quadratures) n = n - system%n_quadrature
       if (self%step%has_inner .or. self%step%h <= 0.0_wp) return
       do k = 1, size(inner_places)
-         call interpolate(self%step, system%n_position, system%traits%n_turning, inner_places(k), self%scratch(:n))
+         call interpolate(self%step, system%n_position, system%traits%n_turning, inner_places(k), n, self%scratch)
          call system%evaluate(self%step%t0 + inner_places(k)*self%step%h, self%scratch, self%step%inner(:, k), status)
          self%count%n_evaluations = self%count%n_evaluations + 1
          self%count%n_output_evaluations = self%count%n_output_evaluations + 1
@@ -251,7 +251,7 @@ contains
       class(integrator_t), intent(in) :: self    !! the integrator
       class(ode_system_t), intent(in) :: system  !! the system
       real(wp), intent(in) :: t                  !! time [s]
-      real(wp), intent(inout) :: y(:)            !! (n) state [any]
+      real(wp), intent(inout) :: y(system%n)     !! (n) state [any]
 
       if (t >= self%t .or. self%step%h <= 0.0_wp) then
          y = self%step%y1
@@ -266,11 +266,11 @@ contains
       class(integrator_t), intent(inout) :: self    !! the integrator
       class(ode_system_t), intent(inout) :: system  !! the system
       real(wp), intent(in) :: t                     !! time [s]
-      real(wp), intent(inout) :: y(:)               !! (n) state [any]
+      real(wp), intent(inout) :: y(system%n)        !! (n) state [any]
 
       integer :: status
 
-      if (t < self%t) call self%prepare_output(system, status)
+      if (t < self%t .and. .not. self%step%has_inner) call self%prepare_output(system, status)
       call self%state_at(system, t, y)
    end subroutine integrator_reach
 
@@ -279,13 +279,13 @@ contains
       class(integrator_t), intent(in) :: self    !! the integrator
       class(ode_system_t), intent(in) :: system  !! the system
       real(wp), intent(in) :: s                  !! place in the step, 0 to 1 [1]
-      real(wp), intent(inout) :: y(:)            !! (n) state [any]
+      real(wp), intent(inout) :: y(system%n)     !! (n) state [any]
 
       integer :: n
 
-      n = size(y)
+      n = system%n
       if (.not. system%traits%with_quadratures) n = n - system%n_quadrature
-      call interpolate(self%step, system%n_position, system%traits%n_turning, s, y(:n))
+      call interpolate(self%step, system%n_position, system%traits%n_turning, s, n, y)
    end subroutine integrator_within
 
    !> Whether what decays fast keeps the steps short, however little it moves; a method for stiff equations overrides this.

@@ -37,65 +37,82 @@ module interpolation
 contains
 
    !> State at t0 + s h.
-   pure subroutine interpolate(step, n_position, n_turning, s, y)
+   pure subroutine interpolate(step, n_position, n_turning, s, n, y)
       type(step_t), intent(in) :: step    !! the step
       integer, intent(in) :: n_position   !! leading entries that are positions
       integer, intent(in) :: n_turning    !! bodies that turn in space, the first ones
       real(wp), intent(in) :: s           !! place in the step, 0 to 1 [1]
-      real(wp), intent(out) :: y(:)       !! (n) state [any]
+      integer, intent(in) :: n            !! entries that are wanted, positions and rates among them
+      real(wp), intent(inout) :: y(n)     !! (n) state, set [any]
 
       integer :: body
 
       do body = 1, n_turning
-         call follow_pairs(step, 7*body - 6, n_position + 6*body - 5, 3, s, y)
-         call follow_turn(step, 7*body - 3, n_position + 6*body - 2, s, y)
+         call follow(step, 7*body - 6, n_position + 6*body - 5, 3, s, n, y)
+         call follow_turn(step, 7*body - 3, n_position + 6*body - 2, s, n, y)
       end do
-      call follow_pairs(step, 7*n_turning + 1, n_position + 6*n_turning + 1, n_position - 7*n_turning, s, y)
-      call follow_others(step, 2*n_position - n_turning + 1, s, y)
+      call follow(step, 7*n_turning + 1, n_position + 6*n_turning + 1, n_position - 7*n_turning, s, n, y)
+      if (2*n_position - n_turning < n) call follow_others(step, 2*n_position - n_turning + 1, s, n, y)
    end subroutine interpolate
 
-   !> Positions whose derivatives are rates.
-   pure subroutine follow_pairs(step, first, first_rate, n, s, y)
-      type(step_t), intent(in) :: step      !! the step
-      integer, intent(in) :: first          !! place of the first position
-      integer, intent(in) :: first_rate     !! place of its rate
+   !> Positions whose derivatives are rates, from a place on.
+   pure subroutine follow(step, k, v, n_pair, s, n, y)
+      type(step_t), intent(in) :: step  !! the step
+      integer, intent(in) :: k          !! place of the first position
+      integer, intent(in) :: v          !! place of its rate
+      integer, intent(in) :: n_pair     !! how many
+      real(wp), intent(in) :: s         !! place in the step, 0 to 1 [1]
+      integer, intent(in) :: n          !! entries of the state
+      real(wp), intent(inout) :: y(n)   !! (n) state, these are set [any]
+
+      if (n_pair == 0) return
+      call follow_pairs(n_pair, step%h, s, step%has_inner, step%y0(k), step%y1(k), step%y0(v), step%y1(v), step%f0(v), &
+                        step%f1(v), step%inner(k, 1), step%inner(k, 2), y(k), y(v))
+   end subroutine follow
+
+   !> The same on plain arrays.
+   pure subroutine follow_pairs(n, h, s, has_inner, q0, q1, v0, v1, a0, a1, even, odd, q, v)
       integer, intent(in) :: n              !! how many
+      real(wp), intent(in) :: h             !! length of the step [s]
       real(wp), intent(in) :: s             !! place in the step, 0 to 1 [1]
-      real(wp), intent(inout) :: y(:)       !! (n) state, positions and rates are set [any]
+      logical, intent(in) :: has_inner      !! there are terms of higher order
+      real(wp), intent(in) :: q0(n), q1(n)  !! (n) positions at the ends of the step [any]
+      real(wp), intent(in) :: v0(n), v1(n)  !! (n) rates [any]
+      real(wp), intent(in) :: a0(n), a1(n)  !! (n) their derivatives [any]
+      real(wp), intent(in) :: even(n)       !! (n) factors of s^3 (1-s)^3 [any]
+      real(wp), intent(in) :: odd(n)        !! (n) factors of s^3 (1-s)^3 (s - 1/2) [any]
+      real(wp), intent(inout) :: q(n)       !! (n) positions, set [any]
+      real(wp), intent(inout) :: v(n)       !! (n) rates, set [any]
 
-      real(wp) :: a_h2, c, cube, cube_rate, d, e, h, middle, u
-      integer :: k, v
+      real(wp) :: a_h2, c, cube, cube_rate, d, e, middle, u
+      integer :: k
 
-      h = step%h
       u = s*(1.0_wp - s)
       middle = s - 0.5_wp
       cube = u*u*u
       cube_rate = -6.0_wp*u*u*middle
-      do k = first, first + n - 1
-         v = first_rate + k - first
-         call find_pair(step, k, v, a_h2, c, d, e)
-         y(k) = step%y0(k) + s*(h*step%y0(v) + s*(0.5_wp*a_h2 + s*(c + s*(d + s*e))))
-         y(v) = step%y0(v) + s*(h*step%f0(v) + s*(3.0_wp*c + s*(4.0_wp*d + s*5.0_wp*e))/h)
-         if (step%has_inner) then
-            associate (even => step%inner(k, 1), odd => step%inner(k, 2))
-               y(k) = y(k) + cube*(even + odd*middle)
-               y(v) = y(v) + (cube_rate*(even + odd*middle) + cube*odd)/h
-            end associate
+      do k = 1, n
+         call find_pair(h, q0(k), q1(k), v0(k), v1(k), a0(k), a1(k), a_h2, c, d, e)
+         q(k) = q0(k) + s*(h*v0(k) + s*(0.5_wp*a_h2 + s*(c + s*(d + s*e))))
+         v(k) = v0(k) + s*(h*a0(k) + s*(3.0_wp*c + s*(4.0_wp*d + s*5.0_wp*e))/h)
+         if (has_inner) then
+            q(k) = q(k) + cube*(even(k) + odd(k)*middle)
+            v(k) = v(k) + (cube_rate*(even(k) + odd(k)*middle) + cube*odd(k))/h
          end if
       end do
    end subroutine follow_pairs
 
    !> The quintic of a position: q(s) = q0 + s (h v0 + s (h^2 a0 / 2 + s (c + s (d + s e)))).
-   pure subroutine find_pair(step, k, v, a_h2, c, d, e)
-      type(step_t), intent(in) :: step      !! the step
-      integer, intent(in) :: k              !! place of the position
-      integer, intent(in) :: v              !! place of its rate
-      real(wp), intent(out) :: a_h2         !! h^2 a0 [any]
-      real(wp), intent(out) :: c, d, e      !! factors of the powers 3, 4 and 5 [any]
+   elemental subroutine find_pair(h, q0, q1, v0, v1, a0, a1, a_h2, c, d, e)
+      real(wp), intent(in) :: h         !! length of the step [s]
+      real(wp), intent(in) :: q0, q1    !! position at its ends [any]
+      real(wp), intent(in) :: v0, v1    !! its rate [any]
+      real(wp), intent(in) :: a0, a1    !! its second derivative [any]
+      real(wp), intent(out) :: a_h2     !! h^2 a0 [any]
+      real(wp), intent(out) :: c, d, e  !! factors of the powers 3, 4 and 5 [any]
 
-      a_h2 = step%h*step%h*step%f0(v)
-      call find_quintic(step%y1(k) - step%y0(k) - step%h*step%y0(v) - 0.5_wp*a_h2, &
-                        step%h*(step%y1(v) - step%y0(v)) - a_h2, step%h*step%h*step%f1(v) - a_h2, c, d, e)
+      a_h2 = h*h*a0
+      call find_quintic(q1 - q0 - h*v0 - 0.5_wp*a_h2, h*(v1 - v0) - a_h2, h*h*a1 - a_h2, c, d, e)
    end subroutine find_pair
 
    !> Factors of a quintic, from what a parabola through the start of the step misses at its end.
@@ -151,7 +168,7 @@ contains
 
       do k = first, first + n - 1
          v = first_rate + k - first
-         call find_pair(step, k, v, a_h2, c, d, e)
+         call find_pair(step%h, step%y0(k), step%y1(k), step%y0(v), step%y1(v), step%f0(v), step%f1(v), a_h2, c, d, e)
          r = missing(step%h*step%h*step%inner(v, :), a_h2, c, d, e, inner_places)
          step%inner(k, :) = 0.5_wp*[r(1) + r(2), r(1) - r(2)]/[even_2, odd_2]
       end do
@@ -202,12 +219,13 @@ contains
    end subroutine find_turn
 
    !> Euler parameters and the angular velocity of a body.
-   pure subroutine follow_turn(step, first, first_rate, s, y)
+   pure subroutine follow_turn(step, first, first_rate, s, n, y)
       type(step_t), intent(in) :: step      !! the step
       integer, intent(in) :: first          !! place of the first Euler parameter
       integer, intent(in) :: first_rate     !! place of the first angular velocity
       real(wp), intent(in) :: s             !! place in the step, 0 to 1 [1]
-      real(wp), intent(inout) :: y(:)       !! (n) state, these are set [any]
+      integer, intent(in) :: n              !! entries of the state
+      real(wp), intent(inout) :: y(n)       !! (n) state, these are set [any]
 
       real(wp), dimension(4) :: a0, c, d, e, value, rate, v0
       real(wp) :: cube, middle, u
@@ -229,18 +247,19 @@ contains
    end subroutine follow_turn
 
    !> States and quadratures.
-   pure subroutine follow_others(step, first, s, y)
+   pure subroutine follow_others(step, first, s, n, y)
       type(step_t), intent(in) :: step      !! the step
       integer, intent(in) :: first          !! place of the first
       real(wp), intent(in) :: s             !! place in the step, 0 to 1 [1]
-      real(wp), intent(inout) :: y(:)       !! (n) state, they are set [any]
+      integer, intent(in) :: n              !! entries of the state, the last
+      real(wp), intent(inout) :: y(n)       !! (n) state, they are set [any]
 
       real(wp) :: c, d, middle, square
       integer :: k
 
       square = (s*(1.0_wp - s))**2
       middle = s - 0.5_wp
-      do k = first, size(y)
+      do k = first, n
          call find_cubic(step, k, c, d)
          y(k) = step%y0(k) + s*(step%h*step%f0(k) + s*(c + s*d))
          if (step%has_inner) y(k) = y(k) + square*(step%inner(k, 1) + step%inner(k, 2)*middle)

@@ -307,12 +307,12 @@ contains
       class(multistep_t), intent(in) :: self     !! the integrator
       class(ode_system_t), intent(in) :: system  !! the system
       real(wp), intent(in) :: s                  !! place in the step, 0 to 1 [1]
-      real(wp), intent(inout) :: y(:)            !! (n) state [any]
+      real(wp), intent(inout) :: y(system%n)     !! (n) state [any]
 
       real(wp) :: part
 
       if (.not. self%last%has_polynomial) then
-         call interpolate(self%step, system%n_position, system%traits%n_turning, s, y)
+         call interpolate(self%step, system%n_position, system%traits%n_turning, s, system%n, y)
          return
       end if
       part = s*self%step%h/self%last%h_whole

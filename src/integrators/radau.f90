@@ -144,7 +144,7 @@ module radau
          class(radau_t), intent(inout) :: self         !! the integrator
          class(ode_system_t), intent(inout) :: system  !! the system
          real(wp), intent(in) :: t                     !! time [s]
-         real(wp), intent(inout) :: y(:)               !! (n) state [any]
+         real(wp), intent(inout) :: y(system%n)        !! (n) state [any]
       end subroutine radau_reach
 
       !> State at a place of the last step, by interpolation.
@@ -153,7 +153,7 @@ module radau
          class(radau_t), intent(in) :: self         !! the integrator
          class(ode_system_t), intent(in) :: system  !! the system
          real(wp), intent(in) :: s                  !! place in the step, 0 to 1 [1]
-         real(wp), intent(inout) :: y(:)            !! (n) state [any]
+         real(wp), intent(inout) :: y(system%n)     !! (n) state [any]
       end subroutine radau_within
    end interface
 

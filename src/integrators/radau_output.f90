@@ -46,9 +46,9 @@ contains
       real(wp) :: p(0:3), q(3)
       integer :: first, i, n
 
-      n = size(y)
+      n = system%n
       if (.not. system%traits%with_quadratures) n = n - system%n_quadrature
-      call interpolate(self%step, system%n_position, system%traits%n_turning, s, y(:n))
+      call interpolate(self%step, system%n_position, system%traits%n_turning, s, n, y)
       if (.not. has_stages(self)) return
       p = integrals(s)
       first = 2*system%n_position - system%traits%n_turning + 1

@@ -23,26 +23,27 @@ contains
    !> Values that are read. What is read often is found here, all else by a call.
    module procedure joint_report
       real(wp) :: force(3), load(most_rates), moment(3), rate
-      integer :: at, i, k, m
+      integer :: at, before, i, m
 
       do m = 1, readings%n
-         k = readings%item(m)
-         at = readings%place(m)
-         if (self%is_driver .and. readings%code(m) <= of_moment) then
-            values(at + 1) = -lambda(self%first_row + (k - 1)*self%n_row_item + 1)
-         else if (readings%code(m) == of_force) then
-            call find_load(self%n_row_item, self%first_row + (k - 1)*self%n_row_item, 0, coordinates%n_v, rows%n, rows%jac, &
-                           lambda, load)
-            call coordinates%split_load(load(:coordinates%n_v), motion, self%body(1, k), force, moment)
-            do i = 1, readings%width(m)
-               values(at + i) = force(i)
-            end do
-         else if (readings%code(m) == of_coordinate) then
-            call self%coordinate(k, motion, values(at + 1), rate)
-         else
-            call report_other(self, readings%code(m), k, motion, coordinates, rows, lambda, phi_dot, &
-                              values(at + 1:at + readings%width(m)))
-         end if
+         associate (reading => readings%of(m))
+            at = reading%place
+            before = self%first_row + (reading%item - 1)*self%n_row_item
+            if (self%is_driver .and. reading%code <= of_moment) then
+               values(at + 1) = -lambda(before + 1)
+            else if (reading%code == of_force) then
+               call find_load(self%n_row_item, before, 0, coordinates%n_v, rows%n, rows%jac, lambda, load)
+               call coordinates%split_load(load, motion, self%body(1, reading%item), force, moment)
+               do i = 1, reading%width
+                  values(at + i) = force(i)
+               end do
+            else if (reading%code == of_coordinate) then
+               call self%coordinate(reading%item, motion, values(at + 1), rate)
+            else
+               call report_other(self, reading%code, reading%item, motion, coordinates, rows, lambda, phi_dot, &
+                                 values(at + 1:at + reading%width))
+            end if
+         end associate
       end do
    end procedure joint_report
 
@@ -94,7 +95,7 @@ contains
       body = self%body(merge(2, 1, before > 0), item)
       call find_load(self%n_row_item, self%first_row + (item - 1)*self%n_row_item, before, coordinates%n_v, rows%n, rows%jac, &
                      lambda, load)
-      call coordinates%split_load(load(:coordinates%n_v), motion, body, force, moment)
+      call coordinates%split_load(load, motion, body, force, moment)
       moment = moment - cross(self%reaction_point(item, motion) - motion%r(:, body), force)
    end procedure joint_reaction
 

@@ -123,8 +123,8 @@ module joint_set
          type(motion_t), intent(in) :: motion             !! positions and velocities
          class(coordinates_t), intent(in) :: coordinates  !! what loads on the rates are
          type(rows_t), intent(in) :: rows                 !! rows at the motion
-         real(wp), intent(in), contiguous :: lambda(:)    !! (rows) multipliers [N or N.m]
-         real(wp), intent(in), contiguous :: phi_dot(:)   !! (rows) rates of the violations [m/s or rad/s]
+         real(wp), intent(in) :: lambda(rows%n)           !! (rows) multipliers [N or N.m]
+         real(wp), intent(in) :: phi_dot(rows%n)          !! (rows) rates of the violations [m/s or rad/s]
          real(wp), intent(inout), contiguous :: values(:)  !! (any) of the catalogue, those that are read are set [any]
       end subroutine joint_report
 

@@ -76,7 +76,7 @@ module linkage
          implicit none (type, external)
          class(linkage_t), intent(inout) :: self        !! the linkage
          real(wp), intent(in) :: t                      !! time [s]
-         real(wp), intent(in), contiguous :: g(:, 0:)   !! (n_v, 0:bodies) loads [N or N.m]
+         real(wp), intent(in) :: g(self%coordinates%n_v, 0:self%bodies%n)  !! (n_v, 0:bodies) loads [N or N.m]
          type(wanted_rows_t), intent(in) :: wanted      !! which of them
       end subroutine linkage_find_reactions
 
@@ -177,8 +177,8 @@ contains
    subroutine linkage_set_state(self, t, y, ydot)
       class(linkage_t), intent(inout) :: self        !! the linkage
       real(wp), intent(in) :: t                      !! time [s]
-      real(wp), intent(in), contiguous :: y(:)       !! (positions + rates or more) state [any]
-      real(wp), intent(in), contiguous :: ydot(:)    !! (positions + rates or more) its derivative [any]
+      real(wp), intent(in) :: y(self%n_position + self%n_rate)     !! (positions + rates) the first of a state [any]
+      real(wp), intent(in) :: ydot(self%n_position + self%n_rate)  !! (positions + rates) their derivatives [any]
 
       call self%set_motion(t, y)
       call self%set_acceleration(ydot)
@@ -186,8 +186,8 @@ contains
 
    !> Accelerations of the unknown bodies from the derivative of a state.
    subroutine linkage_set_acceleration(self, ydot)
-      class(linkage_t), intent(inout) :: self        !! the linkage, its motion set
-      real(wp), intent(in), contiguous :: ydot(:)    !! (positions + rates or more) derivative of a state [any]
+      class(linkage_t), intent(inout) :: self                      !! the linkage, its motion set
+      real(wp), intent(in) :: ydot(self%n_position + self%n_rate)  !! (positions + rates) derivatives of the first of a state [any]
 
       associate (n => self%rows%n_unknown, nq => self%n_position, guided => self%reduced%guided)
          if (n > 0) call self%coordinates%accelerate(n, self%rows%unknown, ydot(nq + 1:), self%motion)

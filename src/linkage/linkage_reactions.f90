@@ -72,7 +72,10 @@ contains
          do k = 1, size(wanted%guided)
             call copy(guided%held(wanted%guided(k))%body)
          end do
-         call guided%find_multipliers(wanted%guided, self%rows, self%mass, g, solution%a, solution%lambda)
+         if (size(wanted%guided) > 0) then
+            call guided%find_multipliers(size(wanted%guided), wanted%guided, self%coordinates%n_v, self%bodies%n, self%rows, &
+                                         self%mass, g, solution%a, solution%lambda)
+         end if
          if (.not. wanted%has_known) return
          do k = 1, known%n
             call copy(known%held(k)%body)

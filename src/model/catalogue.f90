@@ -195,7 +195,7 @@ contains
       if (present(columns)) n = size(columns)
       call readings%start(n*offer%n)
       do k = 1, offer%n
-         associate (this => self%groups(offer%group(k)))
+         associate (this => self%groups(offer%of(k)%group))
             if (present(columns)) then
                do i = 1, n
                   if (this%has(columns(i)) .and. this%is_wanted(columns(i))) call add(columns(i), i, readings)
@@ -214,8 +214,8 @@ contains
          integer, intent(in) :: item             !! item of the set, 0: all
          type(readings_t), intent(inout) :: list !! what is read
 
-         associate (group => offer%group(k))
-            call list%add(offer%code(k), group, item, self%place(group, 0, column), self%groups(group)%channel%components)
+         associate (group => offer%of(k)%group)
+            call list%add(offer%of(k)%code, group, item, self%place(group, 0, column), self%groups(group)%channel%components)
          end associate
       end subroutine add
 

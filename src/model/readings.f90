@@ -5,17 +5,22 @@
 module readings
    implicit none (type, external)
    private
-   public :: reading_offer_t, reading_plan_t, readings_t, wanted_rows_t
+   public :: reading_offer_t, reading_plan_t, reading_t, readings_t, wanted_rows_t
+
+   !> One channel that is read.
+   type :: reading_t
+      integer :: code = 0    !! the channel, as `info()` of the set numbers it
+      integer :: group = 0   !! group of the catalogue that its values go to
+      integer :: item = 0    !! the item of the set, 0: all
+      integer :: place = 0   !! values before that of the item, or of the room's first
+      integer :: width = 0   !! numbers that a value has
+   end type reading_t
 
    !> Channels that are read of one set.
    type :: readings_t
       integer :: n = 0                    !! number of channels
       integer :: most = 0                 !! greatest number of a channel
-      integer, allocatable :: code(:)     !! (n or more) the channels, as `info()` of the set numbers them
-      integer, allocatable :: group(:)    !! (n or more) groups of the catalogue that their values go to
-      integer, allocatable :: item(:)     !! (n or more) the item of the set, 0: all
-      integer, allocatable :: place(:)    !! (n or more) values before that of the item, or of the room's first
-      integer, allocatable :: width(:)    !! (n or more) numbers that a value has
+      type(reading_t), allocatable :: of(:)  !! (n or more) the channels
    contains
       procedure :: start => readings_start
       procedure :: add => readings_add
@@ -44,6 +49,8 @@ module readings
    !> Those that are read.
    type, extends(reading_offer_t) :: reading_plan_t
       type(wanted_rows_t) :: rows                  !! what they need of rows that are not solved for
+      integer, allocatable :: of_joints(:)         !! (any) sets of joints and drivers of which something is read
+      integer, allocatable :: of_loose(:)          !! (any) sets of joints with clearance of which something is read
    end type reading_plan_t
 
 contains
@@ -55,8 +62,8 @@ contains
 
       self%n = 0
       self%most = 0
-      if (allocated(self%code)) deallocate (self%code, self%group, self%item, self%place, self%width)
-      allocate (self%code(most), self%group(most), self%item(most), self%place(most), self%width(most), source=0)
+      if (allocated(self%of)) deallocate (self%of)
+      allocate (self%of(most))
    end subroutine readings_start
 
    !> Add a channel; there is room for it.
@@ -70,11 +77,7 @@ contains
 
       self%n = self%n + 1
       self%most = max(self%most, code)
-      self%code(self%n) = code
-      self%group(self%n) = group
-      self%item(self%n) = item
-      self%place(self%n) = place
-      self%width(self%n) = width
+      self%of(self%n) = reading_t(code, group, item, place, width)
    end subroutine readings_add
 
 end module readings

@@ -310,27 +310,30 @@ contains
    end subroutine planar_read_coordinates
 
    !> Multipliers of the rows of guided bodies' joints, which are evaluated.
-   subroutine planar_find_multipliers(self, which, rows, mass, g, a, lambda)
+   subroutine planar_find_multipliers(self, n_which, which, n_v, n_body, rows, mass, g, a, lambda)
       class(planar_guided_t), intent(in) :: self          !! the bodies
-      integer, intent(in) :: which(:)                     !! (any) numbers of those that are meant
+      integer, intent(in) :: n_which                      !! how many are meant
+      integer, intent(in) :: which(n_which)               !! (n_which) their numbers
+      integer, intent(in) :: n_v                          !! rates of a body
+      integer, intent(in) :: n_body                       !! number of bodies
       type(rows_t), intent(in) :: rows                    !! all rows
-      real(wp), intent(in), contiguous :: mass(:, :)      !! (3, bodies) masses [kg, kg, kg.m^2]
-      real(wp), intent(in), contiguous :: g(:, 0:)        !! (3, 0:bodies) applied loads [N, N, N.m]
-      real(wp), intent(in), contiguous :: a(:, 0:)        !! (3, 0:bodies) accelerations [m/s^2, m/s^2, rad/s^2]
-      real(wp), intent(inout), contiguous :: lambda(:)    !! (rows) multipliers; those of the joints' rows are set [N or N.m]
+      real(wp), intent(in) :: mass(n_v, n_body)           !! (3, bodies) masses [kg, kg, kg.m^2]
+      real(wp), intent(in) :: g(n_v, 0:n_body)            !! (3, 0:bodies) applied loads [N, N, N.m]
+      real(wp), intent(in) :: a(n_v, 0:n_body)            !! (3, 0:bodies) accelerations [m/s^2, m/s^2, rad/s^2]
+      real(wp), intent(inout) :: lambda(rows%n)           !! (rows) multipliers; those of the joints' rows are set [N or N.m]
 
       real(wp) :: determinant, p(3), q(3), rest(3), s(3), x(2)
       integer :: b, k, place
 
-      do k = 1, size(which)
+      do k = 1, n_which
          associate (held => self%held(which(k)))
             b = held%body
             place = 3*(held%side - 1)
             p = rows%jac(place + 1:place + 3, held%row(1))
             q = rows%jac(place + 1:place + 3, held%row(2))
-            rest = g(:, b)/mass(:, b) - a(:, b)
+            rest = g(1:3, b)/mass(1:3, b) - a(1:3, b)
             x = [dot_product(p, rest), dot_product(q, rest)]
-            s = [dot_product(p, p/mass(:, b)), dot_product(p, q/mass(:, b)), dot_product(q, q/mass(:, b))]
+            s = [dot_product(p, p/mass(1:3, b)), dot_product(p, q/mass(1:3, b)), dot_product(q, q/mass(1:3, b))]
             determinant = s(1)*s(3) - s(2)**2
             lambda(held%row(1)) = (s(3)*x(1) - s(2)*x(2))/determinant
             lambda(held%row(2)) = (s(1)*x(2) - s(2)*x(1))/determinant

@@ -159,16 +159,19 @@ module reduced_bodies
       end subroutine guided_coordinates_interface
 
       !> Multipliers of the rows of guided bodies' joints, which are evaluated.
-      subroutine guided_multipliers_interface(self, which, rows, mass, g, a, lambda)
+      subroutine guided_multipliers_interface(self, n_which, which, n_v, n_body, rows, mass, g, a, lambda)
          import :: guided_bodies_t, rows_t, wp
          implicit none (type, external)
          class(guided_bodies_t), intent(in) :: self          !! the bodies
-         integer, intent(in) :: which(:)                     !! (any) numbers of those that are meant
+         integer, intent(in) :: n_which                      !! how many are meant
+         integer, intent(in) :: which(n_which)               !! (n_which) their numbers
+         integer, intent(in) :: n_v                          !! rates of a body
+         integer, intent(in) :: n_body                       !! number of bodies
          type(rows_t), intent(in) :: rows                    !! all rows
-         real(wp), intent(in), contiguous :: mass(:, :)      !! (n_v, bodies) masses [kg or kg.m^2]
-         real(wp), intent(in), contiguous :: g(:, 0:)        !! (n_v, 0:bodies) applied loads [N or N.m]
-         real(wp), intent(in), contiguous :: a(:, 0:)        !! (n_v, 0:bodies) accelerations of the rates [m/s^2 or rad/s^2]
-         real(wp), intent(inout), contiguous :: lambda(:)    !! (rows) multipliers; those of the joints are set [N or N.m]
+         real(wp), intent(in) :: mass(n_v, n_body)           !! (n_v, bodies) masses [kg or kg.m^2]
+         real(wp), intent(in) :: g(n_v, 0:n_body)            !! (n_v, 0:bodies) applied loads [N or N.m]
+         real(wp), intent(in) :: a(n_v, 0:n_body)            !! (n_v, 0:bodies) accelerations of the rates [m/s^2 or rad/s^2]
+         real(wp), intent(inout) :: lambda(rows%n)           !! (rows) multipliers; those of the joints are set [N or N.m]
       end subroutine guided_multipliers_interface
    end interface
 

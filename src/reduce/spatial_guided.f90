@@ -299,29 +299,32 @@ contains
    end subroutine spatial_read_coordinates
 
    !> Multipliers of the rows of guided bodies' joints, which are evaluated.
-   subroutine spatial_find_multipliers(self, which, rows, mass, g, a, lambda)
+   subroutine spatial_find_multipliers(self, n_which, which, n_v, n_body, rows, mass, g, a, lambda)
       class(spatial_guided_t), intent(in) :: self         !! the bodies
-      integer, intent(in) :: which(:)                     !! (any) numbers of those that are meant
+      integer, intent(in) :: n_which                      !! how many are meant
+      integer, intent(in) :: which(n_which)               !! (n_which) their numbers
+      integer, intent(in) :: n_v                          !! rates of a body
+      integer, intent(in) :: n_body                       !! number of bodies
       type(rows_t), intent(in) :: rows                    !! all rows
-      real(wp), intent(in), contiguous :: mass(:, :)      !! (6, bodies) masses [kg and kg.m^2]
-      real(wp), intent(in), contiguous :: g(:, 0:)        !! (6, 0:bodies) applied loads [N and N.m]
-      real(wp), intent(in), contiguous :: a(:, 0:)        !! (6, 0:bodies) accelerations of the rates [m/s^2 and rad/s^2]
-      real(wp), intent(inout), contiguous :: lambda(:)    !! (rows) multipliers; those of the joints' rows are set [N or N.m]
+      real(wp), intent(in) :: mass(n_v, n_body)           !! (6, bodies) masses [kg and kg.m^2]
+      real(wp), intent(in) :: g(n_v, 0:n_body)            !! (6, 0:bodies) applied loads [N and N.m]
+      real(wp), intent(in) :: a(n_v, 0:n_body)            !! (6, 0:bodies) accelerations of the rates [m/s^2 and rad/s^2]
+      real(wp), intent(inout) :: lambda(rows%n)           !! (rows) multipliers; those of the joints' rows are set [N or N.m]
 
       real(wp) :: columns(6, n_held), matrix(n_held, n_held), rest(6), x(n_held)
       integer :: b, i, info, k, m, pivots(n_held), place
 
-      do m = 1, size(which)
+      do m = 1, n_which
          k = which(m)
          b = self%held(k)%body
          place = 6*(self%held(k)%side - 1)
-         rest = g(:, b)/mass(:, b) - a(:, b)
+         rest = g(1:6, b)/mass(1:6, b) - a(1:6, b)
          do i = 1, n_held
             columns(:, i) = rows%jac(place + 1:place + 6, self%held(k)%row(i))
          end do
          do i = 1, n_held
             x(i) = dot_product(columns(:, i), rest)
-            matrix(:, i) = matmul(columns(:, i)/mass(:, b), columns)
+            matrix(:, i) = matmul(columns(:, i)/mass(1:6, b), columns)
          end do
          call dgetrf(n_held, n_held, matrix, n_held, pivots, info)
          call dgetrs("N", n_held, 1, matrix, n_held, pivots, x, n_held, info)

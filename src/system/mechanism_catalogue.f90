@@ -147,6 +147,8 @@ contains
          do k = 1, size(plan%forces)
             call catalogue%bind(offer%forces(k), plan%forces(k))
          end do
+         plan%of_joints = pack([(k, k=1, size(plan%joints))], plan%joints%n > 0)
+         plan%of_loose = pack([(k, k=1, size(plan%loose))], plan%loose%n > 0)
       end associate
    end subroutine bind_channels
 
@@ -162,11 +164,11 @@ contains
       associate (joints => system%linkage%joints)
          do k = 1, size(joints)
             do m = 1, plan%joints(k)%n
-               if (plan%joints(k)%code(m) /= of_coordinate) call mark(joints(k)%set, plan%joints(k)%item(m))
+               if (plan%joints(k)%of(m)%code /= of_coordinate) call mark(joints(k)%set, plan%joints(k)%of(m)%item)
             end do
          end do
          do m = 1, plan%reactions%n
-            associate (reaction => system%requests%reactions(plan%reactions%item(m)))
+            associate (reaction => system%requests%reactions(plan%reactions%of(m)%item))
                if (reaction%source == source_joint) call mark(joints(reaction%slot)%set, reaction%item)
             end associate
          end do

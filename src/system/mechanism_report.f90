@@ -21,8 +21,8 @@ contains
    subroutine report_state(system, t, y, ydot, residual, catalogue, status)
       class(mechanism_t), intent(inout) :: system   !! the system
       real(wp), intent(in) :: t                     !! time [s]
-      real(wp), intent(in), contiguous :: y(:)      !! (n) state [any]
-      real(wp), intent(inout), contiguous :: ydot(:)  !! (n) its derivative; of quadratures where they are wanted [any]
+      real(wp), intent(in) :: y(system%n)           !! (n) state [any]
+      real(wp), intent(inout) :: ydot(system%n)     !! (n) its derivative; of quadratures where they are wanted [any]
       real(wp), intent(in) :: residual              !! of the ledger at the last step [J]
       type(catalogue_t), intent(inout) :: catalogue !! values
       integer, intent(out) :: status                !! of the evaluation
@@ -49,30 +49,43 @@ contains
       real(wp), intent(in) :: residual               !! of the ledger at the last step [J]
       type(catalogue_t), intent(inout) :: catalogue  !! values
 
-      type(energy_t) :: energy
       integer :: k, m
 
       associate (linkage => system%linkage, plan => catalogue%readings, values => catalogue%values)
          if (plan%bodies%n > 0) call linkage%coordinates%report(plan%bodies, linkage%motion, values)
-         do k = 1, size(plan%joints)
-            if (plan%joints(k)%n == 0) cycle
+         do m = 1, size(plan%of_joints)
+            k = plan%of_joints(m)
             call linkage%joints(k)%set%report(plan%joints(k), linkage%motion, linkage%coordinates, linkage%rows, &
                                               linkage%solution%lambda, linkage%solution%phi_dot, values)
          end do
-         do k = 1, size(plan%loose)
-            if (plan%loose(k)%n == 0) cycle
+         do m = 1, size(plan%of_loose)
+            k = plan%of_loose(m)
             call system%loose%sets(k)%set%report(plan%loose(k), linkage%motion, values)
          end do
          if (size(plan%ideal) > 0) call report_ideal(system, plan%ideal, values)
          if (size(plan%forces) > 0) call report_forces(system, t, plan%forces, values)
          call report_requests(system, t, plan, values)
-         if (plan%energy%n > 0) energy = energy_of(system, y)
-         do m = 1, plan%energy%n
-            values(plan%energy%place(m) + 1) = energy_value(energy, plan%energy%code(m), residual)
-         end do
+         if (plan%energy%n > 0) call report_energy(system, y, residual, plan%energy, values)
       end associate
       call catalogue%work_out(t)
    end subroutine fill_catalogue
+
+   !> Values of the ledger.
+   subroutine report_energy(system, y, residual, readings, values)
+      class(mechanism_t), intent(in) :: system          !! the system
+      real(wp), intent(in) :: y(:)                      !! (n) state; without a ledger positions and velocities suffice [any]
+      real(wp), intent(in) :: residual                  !! of the ledger at the last step [J]
+      type(readings_t), intent(in) :: readings          !! what is read of it
+      real(wp), intent(inout), contiguous :: values(:)  !! (any) of the catalogue, those that are read are set [any]
+
+      type(energy_t) :: energy
+      integer :: m
+
+      energy = energy_of(system, y)
+      do m = 1, readings%n
+         values(readings%of(m)%place + 1) = energy_value(energy, readings%of(m)%code, residual)
+      end do
+   end subroutine report_energy
 
    !> Values of the joints with clearance that are taken as ideal; they stand behind the loose ones.
    subroutine report_ideal(system, readings, values)
@@ -89,9 +102,9 @@ contains
             do i = 1, linkage%ideal(k)%set%n
                n = n + 1
                do m = 1, readings(k)%n
-                  associate (width => readings(k)%width(m))
-                     at = readings(k)%place(m) + width*(n - 1)
-                     if (readings(k)%code(m) == of_force) then
+                  associate (width => readings(k)%of(m)%width)
+                     at = readings(k)%of(m)%place + width*(n - 1)
+                     if (readings(k)%of(m)%code == of_force) then
                         call linkage%ideal(k)%set%reaction(i, linkage%motion, linkage%coordinates, linkage%rows, &
                                                            linkage%solution%lambda, force, moment)
                         values(at + 1:at + width) = -force(:width)
@@ -118,10 +131,10 @@ contains
       do k = 1, size(readings)
          associate (set => system%loading%forces(k)%set)
             do m = 1, readings(k)%n
-               associate (width => readings(k)%width(m))
-                  at = readings(k)%place(m) + width*column
-                  call report_set(set, readings(k)%code(m), system%linkage%piece%inside(t), system%linkage%motion, width, set%n, &
-                                  values(at + 1:at + width*set%n))
+               associate (width => readings(k)%of(m)%width)
+                  at = readings(k)%of(m)%place + width*column
+                  call report_set(set, readings(k)%of(m)%code, system%linkage%piece%inside(t), system%linkage%motion, width, &
+                                  set%n, values(at + 1:at + width*set%n))
                end associate
             end do
             column = column + set%n

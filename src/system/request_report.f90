@@ -122,15 +122,15 @@ contains
       integer :: m
 
       do m = 1, plan%points%n
-         call report_place(system, system%requests%places(plan%points%item(m)), plan%points, m, values)
+         call report_place(system, system%requests%places(plan%points%of(m)%item), plan%points, m, values)
       end do
       do m = 1, plan%motions%n
-         call report_place(system, system%requests%motions(plan%motions%item(m))%place, plan%motions, m, values)
+         call report_place(system, system%requests%motions(plan%motions%of(m)%item)%place, plan%motions, m, values)
       end do
       do m = 1, plan%reactions%n
-         associate (at => plan%reactions%place(m), width => plan%reactions%width(m))
-            call find_reaction(system, t, system%requests%reactions(plan%reactions%item(m)), force, moment)
-            if (plan%reactions%code(m) == of_reaction_force) then
+         associate (at => plan%reactions%of(m)%place, width => plan%reactions%of(m)%width)
+            call find_reaction(system, t, system%requests%reactions(plan%reactions%of(m)%item), force, moment)
+            if (plan%reactions%of(m)%code == of_reaction_force) then
                values(at + 1:at + width) = force(:width)
             else
                values(at + 1:at + width) = moment(merge(3, 1, width == 1):)
@@ -149,8 +149,8 @@ contains
 
       real(wp) :: x(3)
 
-      x = place_values(place, readings%code(m), system%linkage%motion)
-      associate (at => readings%place(m), width => readings%width(m))
+      x = place_values(place, readings%of(m)%code, system%linkage%motion)
+      associate (at => readings%of(m)%place, width => readings%of(m)%width)
          values(at + 1:at + width) = x(:width)
       end associate
    end subroutine report_place

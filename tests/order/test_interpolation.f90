@@ -91,20 +91,20 @@ contains
       inner = step%inner
       do k = 0, 1
          if (k == 1) call fit_inner(step, 1, 0, 3)
-         call interpolate(step, 1, 0, 0.0_wp, y)
+         call interpolate(step, 1, 0, 0.0_wp, size(y), y)
          call check_close(error, y, step%y0, 0.0_wp, "state at the start")
-         call interpolate(step, 1, 0, 1.0_wp, y)
+         call interpolate(step, 1, 0, 1.0_wp, size(y), y)
          call check_close(error, y, step%y1, 4.0_wp*eps, "state at the end")
-         call interpolate(step, 1, 0, -ds, before)
-         call interpolate(step, 1, 0, ds, after)
+         call interpolate(step, 1, 0, -ds, size(before), before)
+         call interpolate(step, 1, 0, ds, size(after), after)
          call check_close(error, (after - before)/(2.0_wp*ds*h), step%f0, 1.0e-8_wp, "derivative at the start")
-         call interpolate(step, 1, 0, 1.0_wp - ds, before)
-         call interpolate(step, 1, 0, 1.0_wp + ds, after)
+         call interpolate(step, 1, 0, 1.0_wp - ds, size(before), before)
+         call interpolate(step, 1, 0, 1.0_wp + ds, size(after), after)
          call check_close(error, (after - before)/(2.0_wp*ds*h), step%f1, 1.0e-8_wp, "derivative at the end")
       end do
       do k = 1, 2
-         call interpolate(step, 1, 0, inner_places(k) - ds, before)
-         call interpolate(step, 1, 0, inner_places(k) + ds, after)
+         call interpolate(step, 1, 0, inner_places(k) - ds, size(before), before)
+         call interpolate(step, 1, 0, inner_places(k) + ds, size(after), after)
          call check_close(error, (after(2:3) - before(2:3))/(2.0_wp*ds*h), inner(2:3, k), 1.0e-8_wp, "inner derivative")
       end do
    end subroutine test_ends
@@ -144,7 +144,7 @@ contains
          deviation = 0.0_wp
          do k = 0, n_place
             exact = power_of(p, 0.4_wp + 0.9_wp*k/n_place)
-            call interpolate(step, 1, 0, real(k, wp)/n_place, y)
+            call interpolate(step, 1, 0, real(k, wp)/n_place, size(y), y)
             deviation = max(deviation, abs(y - exact(:, 1))/1.3_wp**p)
          end do
       end subroutine deviate
@@ -169,7 +169,7 @@ contains
          errors(:, level) = 0.0_wp
          do k = 0, n_place
             exact = wave_of(0.1_wp + h*k/n_place)
-            call interpolate(step, 1, 0, real(k, wp)/n_place, y)
+            call interpolate(step, 1, 0, real(k, wp)/n_place, size(y), y)
             errors(:, level) = max(errors(:, level), abs(y - exact(:, 1)))
          end do
       end do
