@@ -29,7 +29,7 @@ import h5py
 import numpy as np
 
 FORMAT = 2
-ROOMS = ("bodies", "joints", "drivers", "clearances", "forces")
+ROOMS = ("bodies", "joints", "drivers", "clearances", "forces", "points", "motions", "reactions")
 COMPONENTS = {2: "xy", 3: "xyz", 4: ("e0", "e1", "e2", "e3")}
 
 
@@ -64,8 +64,9 @@ class Run(dict):
                 joints, labels = (file[f"clearances/contact_{word}"][()] for word in ("joint", "label"))
                 names = [".".join(filter(None, (plain(j), plain(k)))) for j, k in zip(joints, labels)]
                 self._take_room(file["clearances/contacts"], names)
-            for quantity, data in file.get("energy", {}).items():
-                self._put(f"energy.{quantity}", data, data[:n])
+            for room, word in (("energy", "energy"), ("requests", "request")):
+                for quantity, data in file.get(room, {}).items():
+                    self._put(f"{word}.{quantity}", data, data[:n])
 
     def _put(self, name, data, values):
         """Keep a channel; one without any number was not recorded of its item."""

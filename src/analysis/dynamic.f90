@@ -8,10 +8,10 @@ module dynamic
    use contact_watch, only: close_open
    use cpu_budget, only: cpu_budget_t
    use errors, only: error_t, exit_integration, exit_stopped, set_error
-   use integrator, only: advance_event, advance_failed_evaluation, integrator_t
+   use integrator, only: advance_event, advance_failed_evaluation, advance_step, integrator_t
    use kinds, only: i8, wp
    use mechanism, only: mechanism_t
-   use moving_part, only: advance_part, begin_part, handle_part_events, pass_part_instant
+   use moving_part, only: begin_part, handle_part_events, make_step, pass_part_instant, see_step
    use recorder, only: event_t, recorder_t, status_stopped, summary_t
    use run_audit, only: limits_t
    use run_failure, only: describe_failure, guard_reached, stopped_words, time_used_up
@@ -115,7 +115,7 @@ contains
       call begin(run, y, plan, recorder, error)
       if (allocated(error)) return
       if (run%sampler%films%has_least) call look_at_films(run)
-      call look_for_stop(run, error)
+      call look_for_stop(run, plan, error)
       if (allocated(error)) return
       if (present(saved)) then
          if (allocated(saved)) call go_on(run, saved, recorder, error)
@@ -127,8 +127,7 @@ contains
       do while (run%whole%t < plan%end .and. run%stop%met == 0 .and. .not. (run%is_stopped .or. allocated(error)))
          call step(run, plan, error)
          if (allocated(error)) return
-         call look_for_stop(run, error)
-         if (.not. allocated(error)) call run%sampler%take(run%whole, plan, run%tally%residual, recorder, error)
+         call run%sampler%take(run%whole, plan, run%tally%residual, recorder, error)
          if (.not. allocated(error)) call look_at_guards(run, error)
          if (run%stop%met == 0 .and. .not. allocated(error)) call handle_events(run, plan, recorder, error)
          if (run%stop%met == 0 .and. .not. allocated(error)) call pass_instants(run, plan, recorder, error)
@@ -245,7 +244,9 @@ contains
          do k = 1, whole%n_front
             associate (part => whole%parts(whole%front(k)))
                part%method%events%look = merge(plan%every, huge(1.0_wp), part%method%t >= plan%first_output)
-               call advance_part(part, run%tally, error, merge(run%next_checkpoint, huge(1.0_wp), run%is_scheduled))
+               call make_step(part, error, merge(run%next_checkpoint, huge(1.0_wp), run%is_scheduled))
+               if (.not. allocated(error)) call look_for_stop(run, plan, error)
+               if (.not. allocated(error)) call see_step(part, run%tally, error)
                if (.not. allocated(error) .and. run%budget%is_spent()) then
                   call describe_failure(part%system, part%method, time_used_up, error)
                end if
@@ -274,9 +275,10 @@ contains
       end do
    end subroutine look_at_guards
 
-   !> Whether a condition ends the run within the last step. The mechanism is one part then.
-   subroutine look_for_stop(run, error)
+   !> Whether a condition ends the run within the last step, which then ends there. The mechanism is one part then.
+   subroutine look_for_stop(run, plan, error)
       type(run_t), intent(inout) :: run                   !! state of the run
+      type(time_plan_t), intent(in) :: plan               !! times
       type(error_t), allocatable, intent(out) :: error    !! the equations cannot be solved there
 
       integer :: status
@@ -284,8 +286,13 @@ contains
       if (run%stop%n == 0) return
       call run%tally%aside%leave()
       associate (part => run%whole%parts(1))
-         call run%stop%look(part%system, part%method, run%tally%residual, run%sampler%catalogue, status)
-         if (run%stop%met > 0) run%sampler%until = run%stop%t
+         call run%stop%look(part%system, part%method, run%tally%residual, run%sampler%catalogue, [plan%first_output, plan%every], &
+                            status)
+         if (run%stop%met > 0) then
+            run%sampler%until = run%stop%t
+            part%status = advance_step
+            if (status == 0 .and. run%stop%t < part%method%t) call part%method%cut(part%system, run%stop%t, status)
+         end if
          if (status /= 0) call describe_failure(part%system, part%method, advance_failed_evaluation, error)
       end associate
       call run%tally%aside%come_back()

@@ -3,7 +3,10 @@
 !> The expressions of loads and drivers are searched as the motion goes on (`root_scan`, `pace_scan`). An instant ends a step
 !> exactly; up to it the system evaluates all functions on their left side, then on their right one, and the integrator
 !> restarts (`smooth_piece`). Between instants a step is not longer than the functions' pace, nor than a quarter of a turn of
-!> any body that a contact may touch, unless the user has set a greatest or fixed step.
+!> any body that a contact may touch, unless the user has set a greatest or fixed step. A body whose motion is known has no error
+!> that would keep steps short where it does work on what cannot move: in a step it turns by 8 tolerance^(1/7) rad at most (unless
+!> the method has a history that ends of steps disturb), and by 5 tolerance^(1/6) rad, as an integral over the angle allows, where
+!> nothing else can move.
 !>
 !> Limits: laws of springs and contacts, and what loads see of the motion, are functions of the state; their kinks are left to the
 !> control of the step. Of a load that sees the motion the parts that are functions of the time are watched.
@@ -25,6 +28,9 @@ module instants
 
    real(wp), parameter :: one = 16.0_wp*eps     !! of the time: instants closer than this are one [1]
    real(wp), parameter :: turn = 0.5_wp*pi      !! greatest turn of a body with contacts in a step [rad]
+   ! greatest turn of a body of known motion at a tolerance of one, and the root of the tolerance that it falls with [rad, 1]
+   real(wp), parameter :: beside(2) = [8.0_wp, 7.0_wp]  !! others that can move
+   real(wp), parameter :: alone(2) = [5.0_wp, 6.0_wp]   !! none that can
 
    !> A cell of the deck whose expression is watched.
    type :: watched_t
@@ -42,6 +48,8 @@ module instants
       real(wp) :: end = 0.0_wp                   !! end of the motion [s]
       logical :: paces = .false.                 !! some function limits the step
       real(wp) :: omega = 0.0_wp                 !! greatest angular speed of a body that a contact may touch [rad/s]
+      real(wp) :: known_omega = 0.0_wp           !! greatest one of a body whose motion is known [rad/s]
+      logical :: is_still = .false.              !! whether nothing else can move
    contains
       procedure :: begin => instants_begin
       procedure :: is_at => instants_is_at
@@ -238,7 +246,7 @@ contains
       end do
    end subroutine find_next
 
-   !> Note how fast the bodies of contacts turn: it limits the next step.
+   !> Note how fast the bodies of contacts turn, and those of known motion: it limits the next step.
    pure subroutine instants_note_turning(self, system)
       class(instants_t), intent(inout) :: self   !! the instants
       type(mechanism_t), intent(in) :: system    !! the system, its motion that of the beginning of the next step
@@ -246,6 +254,13 @@ contains
       integer :: k
 
       self%omega = 0.0_wp
+      self%known_omega = 0.0_wp
+      associate (linkage => system%linkage, known => system%linkage%reduced%known, omega => system%linkage%motion%omega)
+         do k = 1, known%n
+            self%known_omega = max(self%known_omega, maxval(abs(omega(:, known%held(k)%body))))
+         end do
+         self%is_still = linkage%n_rate <= linkage%rows%n_solve .and. .not. linkage%solution%is_redundant
+      end associate
       do k = 1, size(system%loose%sets)
          associate (set => system%loose%sets(k)%set, linkage => system%linkage)
             self%omega = max(self%omega, fastest(set%n, set%items%body, linkage%bodies%n, linkage%motion%omega))
@@ -279,7 +294,7 @@ contains
       real(wp), intent(out) :: stop                  !! its latest end [s]
 
       type(ieee_status_type) :: status
-      real(wp) :: latest
+      real(wp) :: known_turn, latest
       integer :: i
 
       stop = min(self%end, self%next%at)
@@ -295,6 +310,13 @@ contains
          call ieee_set_status(status)
       end if
       if (self%omega*(stop - method%t) > turn) stop = method%t + turn/self%omega
+      if (self%known_omega > 0.0_wp .and. (self%is_still .or. .not. method%begins_anew())) then
+         associate (tolerance => method%controls%tolerance)
+            known_turn = merge(alone(1)*tolerance**(1.0_wp/alone(2)), beside(1)*tolerance**(1.0_wp/beside(2)), self%is_still)
+         end associate
+         known_turn = min(turn, known_turn)
+         if (self%known_omega*(stop - method%t) > known_turn) stop = method%t + known_turn/self%known_omega
+      end if
    end subroutine instants_stop_after
 
 end module instants

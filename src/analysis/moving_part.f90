@@ -22,7 +22,7 @@ module moving_part
    use velocity_jumps, only: velocity_jumps_t
    implicit none (type, external)
    private
-   public :: advance_part, begin_part, handle_part_events, moving_part_t, new_part, pass_part_instant
+   public :: advance_part, begin_part, handle_part_events, make_step, moving_part_t, new_part, pass_part_instant, see_step
 
    integer, parameter :: most_idle = 1000          !! events that may follow one another while hardly any time passes
    integer, parameter :: idle_each = 10            !! and so many more for each event function
@@ -114,6 +114,16 @@ contains
       type(error_t), allocatable, intent(out) :: error    !! the integration failed
       real(wp), intent(in), optional :: until             !! a time that the step must not pass [s]
 
+      call make_step(part, error, until)
+      if (.not. allocated(error)) call see_step(part, tally, error)
+   end subroutine advance_part
+
+   !> One step.
+   subroutine make_step(part, error, until)
+      type(moving_part_t), intent(inout) :: part          !! the part
+      type(error_t), allocatable, intent(out) :: error    !! the integration failed
+      real(wp), intent(in), optional :: until             !! a time that the step must not pass [s]
+
       real(wp) :: t_stop
 
       associate (system => part%system, method => part%method)
@@ -128,6 +138,16 @@ contains
             call system%linkage%set_motion(method%t, method%step%y1)
             call follow_motion(system)
          end if
+      end associate
+   end subroutine make_step
+
+   !> What is seen at the end of a step; the system is there.
+   subroutine see_step(part, tally, error)
+      type(moving_part_t), intent(inout) :: part          !! the part
+      type(run_tally_t), intent(inout) :: tally           !! of the run
+      type(error_t), allocatable, intent(out) :: error    !! the constraints are lost
+
+      associate (system => part%system, method => part%method)
          call look_at_step(part, tally)
          if (part%is_lost) then
             call describe_failure(system, method, constraints_lost, error)
@@ -137,7 +157,7 @@ contains
          call look_at_energy(part, tally)
          call part%guards%look(system, method%t)
       end associate
-   end subroutine advance_part
+   end subroutine see_step
 
    !> Handle the events at the end of the last step, and go on from there.
    subroutine handle_part_events(part, tally, recorder, error)

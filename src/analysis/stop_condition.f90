@@ -1,9 +1,12 @@
 !> Conditions on channels that end a run: `stop = gudgeon.penetration > 0.1mm`.
 !>
 !> After each step every channel is looked at in its middle and at its end; where the parabola through these and the value at
-!> its start has a maximum beyond the limit, there too. The time is located by halving on the interpolant of the step. A channel
-!> that jumps is met at the jump. Limits: a channel that passes its limit and comes back twice within one step.
+!> its start has a maximum beyond the limit, there too. A step with output instants in it, or in which a body turns far, is
+!> looked at in so many parts, so that no row of the run is beyond a limit before its end. The time is located by halving on the
+!> interpolant of the step. A channel that jumps is met at the jump; what is no number meets nothing. Limits: a channel that
+!> passes its limit and comes back twice between two output instants, with no body turning, within one step.
 module stop_condition
+   use, intrinsic :: ieee_arithmetic, only: ieee_is_nan
    use catalogue, only: catalogue_t
    use integrator, only: integrator_t
    use kinds, only: wp
@@ -15,7 +18,9 @@ module stop_condition
    private
    public :: stop_t
 
-   integer, parameter :: n_halving = 50  !! halvings of a step
+   integer, parameter :: n_halving = 50        !! halvings of a step
+   real(wp), parameter :: most_turn = 0.2_wp   !! of a body between places that are looked at [rad]
+   real(wp), parameter :: greatest = 1.0e150_wp  !! numbers beyond it have no square [any]
 
    !> One condition.
    type :: condition_t
@@ -32,6 +37,7 @@ module stop_condition
       integer :: n = 0                           !! number of conditions
       type(condition_t), allocatable :: list(:)  !! (n) the conditions
       real(wp), allocatable :: before(:)         !! (n) how far beyond the limit at the start of the step [any]
+      real(wp) :: turning = 0.0_wp               !! greatest angular speed of a body there [rad/s]
       real(wp) :: t = 0.0_wp                     !! when the run ended [s]
       integer :: met = 0                         !! the condition that ended it, 0: none
    contains
@@ -74,69 +80,115 @@ contains
       if (self%n > 0) wants = any(self%list%group == group .and. self%list%item == item)
    end function stop_wants
 
-   !> After a step; before the first one, a condition that is met already ends the run there.
-   subroutine stop_look(self, system, method, residual, catalogue, status)
+   !> After a step; before the first one, a condition that is met already ends the run there. If none is met the system is left
+   !> at the end of the step.
+   subroutine stop_look(self, system, method, residual, catalogue, rows, status)
       class(stop_t), intent(inout) :: self              !! the conditions
-      type(mechanism_t), intent(inout) :: system    !! the system
+      type(mechanism_t), intent(inout) :: system        !! the system
       class(integrator_t), intent(inout) :: method      !! the integrator, after a step or at the start
       real(wp), intent(in) :: residual                  !! of the ledger [J]
       type(catalogue_t), intent(inout) :: catalogue     !! what is reported
+      real(wp), intent(in) :: rows(2)                   !! (2) first output instant, time between two [s]
       integer, intent(out) :: status                    !! 0: looked at
 
-      real(wp), dimension(self%n) :: at_end, here, middle
-      real(wp), dimension(system%n) :: y, ydot
-      real(wp) :: bend, high, low, place, slope
-      integer :: i, k
+      real(wp), dimension(self%n) :: at_end, before
+      real(wp) :: left, right, turning
 
       if (.not. allocated(self%before)) then
-         call values_at(1.0_wp, here)
-         self%before = here
-         if (.not. any(here > 0.0_wp)) return
-         self%met = maxloc(here, dim=1)
+         call values_at(1.0_wp, before)
+         self%before = before
+         self%turning = greatest_turning()
+         if (.not. any(before > 0.0_wp)) return
+         self%met = maxloc(before, dim=1)
          self%t = method%t
          return
       end if
       call method%prepare_output(system, status)
-      if (status == 0) call values_at(0.5_wp, middle)
       if (status == 0) call values_at(1.0_wp, at_end)
       if (status /= 0) return
-      low = 0.0_wp
-      high = 2.0_wp
-      if (any(at_end > 0.0_wp)) high = 1.0_wp
-      if (any(middle > 0.0_wp)) high = 0.5_wp
-      do k = 1, self%n
-         slope = 4.0_wp*middle(k) - 3.0_wp*self%before(k) - at_end(k)
-         bend = 2.0_wp*(self%before(k) + at_end(k)) - 4.0_wp*middle(k)
-         if (.not. bend < 0.0_wp) cycle
-         place = -0.5_wp*slope/bend
-         if (place <= 0.0_wp .or. place >= min(high, 1.0_wp) .or. self%before(k) - 0.25_wp*slope**2/bend <= 0.0_wp) cycle
-         call values_at(place, here)
-         if (status /= 0) return
-         if (any(here > 0.0_wp)) high = place
+      turning = max(self%turning, greatest_turning())
+      self%turning = greatest_turning()
+      before = self%before
+      left = 0.0_wp
+      do while (left < 1.0_wp)
+         right = min(left + 1.0_wp/real(max(1, ceiling(turning*method%step%h/most_turn)), wp), next_row(left))
+         if (right > 1.0_wp - epsilon(1.0_wp)) right = 1.0_wp
+         call look_between(left, right, before, status)
+         if (status /= 0 .or. self%met > 0) return
+         left = right
       end do
-      self%before = at_end
-      if (high > 1.0_wp) return
-      do i = 1, n_halving
-         place = 0.5_wp*(low + high)
-         call values_at(place, here)
-         if (status /= 0) return
-         if (any(here > 0.0_wp)) then
-            high = place
-         else
-            low = place
-         end if
-      end do
-      call values_at(high, here)
-      self%met = maxloc(here, dim=1)
-      self%t = method%step%t0 + high*method%step%h
+      self%before = before
+      call values_at(1.0_wp, at_end)
 
    contains
+
+      !> Greatest angular speed of a body at the motion that is set [rad/s].
+      pure real(wp) function greatest_turning()
+         greatest_turning = sqrt(maxval(sum(system%linkage%motion%omega**2, dim=1)))
+      end function greatest_turning
+
+      !> Place of the first output instant after another place.
+      pure real(wp) function next_row(place)
+         real(wp), intent(in) :: place   !! place in the step [1]
+
+         associate (after => (method%step%t0 + place*method%step%h - rows(1))/rows(2))
+            next_row = rows(1) + max(0.0_wp, aint(max(after, -1.0_wp) + 1.0_wp + 1.0e-9_wp))*rows(2)
+            next_row = (next_row - method%step%t0)/method%step%h
+         end associate
+         if (next_row <= place + 1.0e-9_wp) next_row = huge(1.0_wp)
+      end function next_row
+
+      !> Look between two places of the step.
+      subroutine look_between(left, right, before, status)
+         real(wp), intent(in) :: left          !! the first [1]
+         real(wp), intent(in) :: right         !! the second [1]
+         real(wp), intent(inout) :: before(:)  !! (n) how far each channel is beyond its limit at the first, then the second [any]
+         integer, intent(out) :: status        !! 0: looked at
+
+         real(wp), dimension(self%n) :: at_right, here, middle
+         real(wp) :: bend, high, low, place, slope
+         integer :: i, k
+
+         call values_at(0.5_wp*(left + right), middle)
+         if (status == 0) call values_at(right, at_right)
+         if (status /= 0) return
+         high = huge(1.0_wp)
+         if (any(at_right > 0.0_wp)) high = right
+         if (any(middle > 0.0_wp)) high = 0.5_wp*(left + right)
+         do k = 1, self%n
+            slope = 4.0_wp*middle(k) - 3.0_wp*before(k) - at_right(k)
+            bend = 2.0_wp*(before(k) + at_right(k)) - 4.0_wp*middle(k)
+            if (.not. bend < 0.0_wp) cycle
+            place = left - 0.5_wp*(right - left)*slope/bend
+            if (place <= left .or. place >= min(high, right) .or. before(k) - 0.25_wp*slope**2/bend <= 0.0_wp) cycle
+            call values_at(place, here)
+            if (status /= 0) return
+            if (any(here > 0.0_wp)) high = place
+         end do
+         before = at_right
+         if (high > right) return
+         low = left
+         do i = 1, n_halving
+            place = 0.5_wp*(low + high)
+            call values_at(place, here)
+            if (status /= 0) return
+            if (any(here > 0.0_wp)) then
+               high = place
+            else
+               low = place
+            end if
+         end do
+         call values_at(high, here)
+         self%met = maxloc(here, dim=1)
+         self%t = merge(method%t, method%step%t0 + high*method%step%h, high >= 1.0_wp)
+      end subroutine look_between
 
       !> How far each channel is beyond its limit at a place of the step.
       subroutine values_at(place, values)
          real(wp), intent(in) :: place         !! place in the step [1]
          real(wp), intent(out) :: values(:)    !! (n) positive: met [any]
 
+         real(wp), dimension(system%n) :: y, ydot
          real(wp) :: t
 
          t = merge(method%t, method%step%t0 + place*method%step%h, place >= 1.0_wp)
@@ -157,7 +209,11 @@ contains
 
       do k = 1, self%n
          associate (condition => self%list(k))
-            values(k) = catalogue%values(catalogue%place(condition%group, condition%component, condition%item)) - condition%limit
+            values(k) = -1.0_wp
+            associate (x => catalogue%values(catalogue%place(condition%group, condition%component, condition%item)))
+               if (ieee_is_nan(x)) cycle
+               values(k) = min(max(x, -greatest), greatest) - condition%limit
+            end associate
             if (.not. condition%is_above) values(k) = -values(k)
          end associate
       end do
@@ -176,7 +232,7 @@ contains
       class(stop_t), intent(in) :: self     !! the conditions, none of them met
       type(tape_t), intent(inout) :: tape   !! what is remembered
 
-      if (self%n > 0) call tape%put(self%before)
+      if (self%n > 0) call tape%put([self%turning, self%before])
    end subroutine stop_save
 
    !> Take it back.
@@ -184,7 +240,9 @@ contains
       class(stop_t), intent(inout) :: self  !! the conditions, looked at at the start
       type(tape_t), intent(inout) :: tape   !! what was remembered
 
-      if (self%n > 0) call tape%get(self%before)
+      if (self%n == 0) return
+      call tape%get(self%turning)
+      call tape%get(self%before)
    end subroutine stop_load
 
 end module stop_condition

@@ -152,9 +152,9 @@ contains
          allocate (plan%strobes(64), source=0.0_wp)
          do k = 0, most
             t = period_start(period, k, system, slot, item)
-            if (t < 0.0_wp) call report_turns(period, diagnostics)
-            if (t < 0.0_wp) return
-            if (t > plan%end*(1.0_wp + 1.0e-12_wp)) exit
+            if (t < 0.0_wp .and. k < 2) call report_turns(period, diagnostics)
+            if (t < 0.0_wp .and. k < 2) return
+            if (t < 0.0_wp .or. t > plan%end*(1.0_wp + 1.0e-12_wp)) exit  ! a driver that turns back never makes more
             if (t >= plan%after*(1.0_wp - 1.0e-12_wp)) then
                if (n == size(plan%strobes)) then
                   allocate (longer(2*n), source=0.0_wp)

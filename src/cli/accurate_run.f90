@@ -119,7 +119,12 @@ contains
       call find_accuracy(job, budget, loaded%scene%settings%dynamic%word("method"), asked, stride, display, plan%accuracy)
       call display%finish()
       if (plan%accuracy%end <= 0.0_wp) then
-         call set_error(error, exit_integration, "no run came to its end: "//plan%accuracy%reason)
+         if (len(plan%accuracy%reason) == 0) then
+            call set_error(error, exit_integration, "--accuracy has nothing to look at: the run ends as it begins, by a "// &
+                           "condition of 'stop'")
+         else
+            call set_error(error, exit_integration, "no run came to its end: "//plan%accuracy%reason)
+         end if
          return
       end if
       do k = 1, size(plan%accuracy%extremes)

@@ -28,6 +28,7 @@ module motion_run
    use run_plan, only: make_plan
    use run_recorder, only: run_recorder_t
    use saved_run, only: saved_run_t
+   use scene, only: analysis_dynamic, analysis_names
    use scene_echo, only: echo_scene
    use scene_method, only: new_method
    use setting_run, only: first_line, job_t
@@ -38,7 +39,7 @@ module motion_run
    use twin_run, only: run_twin
    implicit none (type, external)
    private
-   public :: end_as_asked, run_motion
+   public :: check_member, end_as_asked, run_motion
 
 contains
 
@@ -143,9 +144,9 @@ contains
       type(ideal_start_t), intent(out) :: ideal            !! that with ideal joints, if it was needed
       type(error_t), allocatable, intent(out) :: error     !! there is no ensemble, or no start
 
+      call check_member(options, loaded, error)
+      if (allocated(error)) return
       if (options%change%member > 0) then
-         call check_member(options, loaded, error)
-         if (allocated(error)) return
          call find_start(loaded%scene, levels_as_written, loaded%system, y, assembly, error, &
                          new_shift(loaded%scene, loaded%system%linkage%coordinates, options%change%member), ideal=ideal)
       else
@@ -153,7 +154,7 @@ contains
       end if
    end subroutine begin_motion
 
-   !> A run of an ensemble needs one.
+   !> A run of an ensemble needs one, and a motion whose start can be perturbed.
    subroutine check_member(options, loaded, error)
       type(options_t), intent(in) :: options               !! the command line
       type(loaded_t), intent(in) :: loaded                 !! the deck
@@ -161,6 +162,12 @@ contains
 
       integer :: n
 
+      if (options%change%member == 0) return
+      if (loaded%scene%analysis /= analysis_dynamic) then
+         call set_error(error, exit_usage, "option --member is for a motion in time, not for a "// &
+                        trim(analysis_names(loaded%scene%analysis))//" analysis")
+         return
+      end if
       if (.not. loaded%scene%settings%ensemble%is_present) then
          call set_error(error, exit_usage, "option --member is for a deck with a section [ensemble]")
          return

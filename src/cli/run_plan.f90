@@ -78,6 +78,7 @@ contains
       is_drawn = plan%with%motion
       if (allocated(plan%looks%frames%wanted)) is_drawn = is_drawn .or. size(plan%looks%frames%wanted) > 0
       if (is_drawn) call drawing_of_scene(loaded%scene, plan%looks%drawing)
+      call tell_left_out(options, loaded, plan%warnings)
       if (loaded%sweep%is_present .and. options%write == "all") then
          call append_text(plan%warnings, "the deck has a sweep of "//to_text(loaded%sweep%n_cases())// &
                           " cases; this is the deck's own case ('gudgeon sweep' runs them)")
@@ -89,6 +90,30 @@ contains
          if (.not. options%is_json) plan%show = show_nothing
       end if
    end subroutine make_plan
+
+   !> What is asked for and has no place in this run.
+   subroutine tell_left_out(options, loaded, warnings)
+      type(options_t), intent(in) :: options                    !! the command line
+      type(loaded_t), intent(in) :: loaded                      !! the deck
+      type(text_t), allocatable, intent(inout) :: warnings(:)   !! (any) grows
+
+      character(:), allocatable :: motion, reason
+
+      associate (settings => loaded%scene%settings)
+         if (options%write /= "all" .and. .not. options%runs%is_member) then
+            reason = " left out: --write "//options%write
+            motion = settings%output%word("motion")
+            if (motion /= "off") call append_text(warnings, "motion = "//motion//reason)
+            if (options%is_csv .or. settings%output%flag("csv")) call append_text(warnings, "csv"//reason)
+            if (settings%output%flag("report")) call append_text(warnings, "report"//reason)
+         end if
+         if (loaded%scene%analysis == analysis_dynamic) return
+         reason = " left out: not known to a "//trim(analysis_names(loaded%scene%analysis))//" analysis"
+         if (settings%statistics%is_present) call append_text(warnings, "section [statistics]"//reason)
+         if (settings%guards%is_present) call append_text(warnings, "section [guards]"//reason)
+         if (settings%ensemble%is_present) call append_text(warnings, "section [ensemble]"//reason)
+      end associate
+   end subroutine tell_left_out
 
    !> Which deck, program and command the results are of.
    subroutine tell_origin(options, loaded, plan)

@@ -4,7 +4,7 @@ submodule(verb_run) verb_run_at_rest
    use kinematic, only: run_kinematic
    use kinematic_start, only: find_kinematic_start
    use mobility, only: mobility_t
-   use motion_run, only: end_as_asked
+   use motion_run, only: check_member, end_as_asked
    use output_directory, only: output_directory_t
    use output_plan, only: output_plan_t
    use prescribed_motion, only: newton_t
@@ -29,6 +29,8 @@ contains
       real(wp), allocatable :: q(:)
       real(wp) :: limit_cpu
 
+      call check_member(options, loaded, error)
+      if (allocated(error)) return
       associate (settings => loaded%scene%settings%kinematic)
          newton%tolerance = settings%number("tolerance")
          newton%most = nint(settings%number("maximum_iterations"))
@@ -56,6 +58,8 @@ contains
       type(summary_t) :: summary
       real(wp), allocatable :: q(:), v(:)
 
+      call check_member(options, loaded, error)
+      if (allocated(error)) return
       call loaded%system%linkage%deck_state(q, v)
       call find_equilibrium(loaded%scene, loaded%system, q, assembly, equilibrium, error)
       if (allocated(error)) return

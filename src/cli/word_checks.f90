@@ -7,7 +7,7 @@ module word_checks
    use figure_words, only: check_figures, draws_mechanism, figure_bifurcation, figure_film, figure_portrait, figure_section, &
       figure_statistics, figure_t
    use film_figures, only: check_film_figures
-   use item, only: location_of, place_of
+   use item, only: location_of, place_of, value_t
    use kinds, only: wp
    use scene, only: scene_t
    use spelling, only: nearest_word
@@ -27,30 +27,60 @@ contains
       type(catalogue_t), intent(in) :: catalogue      !! what it can report
       type(diagnostics_t), intent(inout) :: mistakes  !! mistakes found
 
-      type(figure_t), allocatable :: figures(:)
-      type(selection_t) :: selection
-      character(:), allocatable :: hint, message, part
-      integer :: bad, k
+      integer :: k
 
-      associate (value => scene%settings%output%values(place_of(scene%settings%output, "channels")))
-         call select_channels(value%words, catalogue, selection, bad, message, hint)
-         if (bad > 0) call mistakes%add(location_of(value, bad), message, "no channel of this deck", hint)
-      end associate
+      call check_channels(scene%settings%output%values(place_of(scene%settings%output, "channels")), catalogue, mistakes)
       associate (value => scene%settings%output%values(place_of(scene%settings%output, "figures")))
-         call check_figures(value%words, catalogue, bad, message, hint, part, figures)
-         if (bad == 0) call check_statistics_figures(value%words, figures, scene, catalogue, bad, message, hint)
-         if (bad == 0) call check_film_figures(value%words, figures, scene, end, bad, message, hint)
-         if (bad > 0) call mistakes%add(place_of_part(deck, location_of(value, bad), part), message, "no figure of this deck", hint)
+         do k = 1, size(value%words)
+            call check_figure(deck, scene, end, catalogue, value, k, mistakes)
+         end do
       end associate
       if (.not. scene%settings%statistics%is_present) return
       do k = 1, size(scene%settings%statistics%values)
-         associate (value => scene%settings%statistics%values(k))
-            if (size(value%words) == 0) cycle
-            call select_channels(value%words, catalogue, selection, bad, message, hint)
-            if (bad > 0) call mistakes%add(location_of(value, bad), message, "no channel of this deck", hint)
-         end associate
+         call check_channels(scene%settings%statistics%values(k), catalogue, mistakes)
       end do
    end subroutine check_words
+
+   !> The channels of a key: each wrong one is a mistake.
+   subroutine check_channels(value, catalogue, mistakes)
+      type(value_t), intent(in) :: value              !! of the key, perhaps without words
+      type(catalogue_t), intent(in) :: catalogue      !! what can be reported
+      type(diagnostics_t), intent(inout) :: mistakes  !! mistakes found
+
+      type(selection_t) :: selection
+      character(:), allocatable :: hint, message
+      integer :: bad, before
+
+      before = 0
+      do while (before < size(value%words))  ! those after a wrong one are looked at too
+         call select_channels(value%words(before + 1:), catalogue, selection, bad, message, hint)
+         if (bad == 0) return
+         call mistakes%add(location_of(value, before + bad), message, "no channel of this deck", hint)
+         before = before + bad
+      end do
+   end subroutine check_channels
+
+   !> A figure of the list.
+   subroutine check_figure(deck, scene, end, catalogue, value, k, mistakes)
+      type(deck_t), intent(in) :: deck                !! the deck, for the place of a mistake
+      type(scene_t), intent(in) :: scene              !! the scene
+      real(wp), intent(in) :: end                     !! of the run; 0: it has none [s]
+      type(catalogue_t), intent(in) :: catalogue      !! what it can report
+      type(value_t), intent(in) :: value              !! of the key `figures`
+      integer, intent(in) :: k                        !! which of its words
+      type(diagnostics_t), intent(inout) :: mistakes  !! mistakes found
+
+      type(figure_t), allocatable :: figures(:)
+      character(:), allocatable :: hint, message, part
+      integer :: bad
+
+      associate (words => value%words(k:k))
+         call check_figures(words, catalogue, bad, message, hint, part, figures)
+         if (bad == 0) call check_statistics_figures(words, figures, scene, catalogue, bad, message, hint)
+         if (bad == 0) call check_film_figures(words, figures, scene, end, bad, message, hint)
+      end associate
+      if (bad > 0) call mistakes%add(place_of_part(deck, location_of(value, k), part), message, "no figure of this deck", hint)
+   end subroutine check_figure
 
    !> Figures of statistics need a section [statistics], some a period, and numbers that there are.
    subroutine check_statistics_figures(words, figures, scene, catalogue, bad, message, hint)

@@ -27,8 +27,10 @@ contains
       type(history_t), intent(out) :: history             !! the columns
       type(error_t), allocatable, intent(out) :: error    !! no such column or channel, or a unit that does not fit
 
+      character(*), parameter :: row_kind = "row_kind"  ! of the text files of a run
       character(:), allocatable :: base
       type(spec_t) :: spec
+      real(wp), allocatable :: kinds(:)
       integer :: k
 
       history%path = path
@@ -39,6 +41,12 @@ contains
       if (allocated(error)) return
       history%time = time%scale*history%time + time%offset
       allocate (history%is_output(size(history%time)), source=.true.)
+      if (find_column_of(table, row_kind) > 0) then  ! of a run: some rows are of contacts
+         spec = spec_t()
+         call take_column(table, spec, row_kind, "1", kinds, error)
+         if (allocated(error)) return
+         history%is_output = kinds < 0.5_wp
+      end if
       do k = 2, size(history%time)
          if (history%time(k) < history%time(k - 1)) call set_error(error, exit_usage, "the time of "//path//" falls at row "// &
                to_text(k))

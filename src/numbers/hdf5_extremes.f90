@@ -2,7 +2,7 @@
 module hdf5_extremes
    use catalogue, only: catalogue_t
    use channel_names, only: scalar_name
-   use extremes, only: extremes_t, joint_extremes_t
+   use extremes, only: extreme_t, extremes_t, joint_extremes_t
    use hdf5, only: hid_t
    use hdf5_datasets, only: integer_dataset, real_dataset, text_dataset
    use kinds, only: i8, wp
@@ -33,20 +33,22 @@ contains
 
       type(text_t) :: names(size(extremes%channels)), units(size(extremes%channels))
       type(text_t) :: of_joints(size(joints))
+      type(extreme_t) :: one(size(extremes%channels))
       integer :: k, n
 
       n = size(extremes%channels)
       if (n > 0) then
+         one = [(extremes%told(k), k=1, n)]
          do k = 1, n
             names(k)%s = scalar_name(catalogue, extremes%channels(k))
             units(k)%s = catalogue%groups(extremes%channels(k)%group)%channel%unit
          end do
          call text_dataset(file, "extremes/channels/name", names, .false., "names of the numbers", status)
          call text_dataset(file, "extremes/channels/unit", units, .false., "their units", status)
-         call put("channels/least", extremes%of%least, "list", "least value of all rows")
-         call put("channels/least_time", extremes%of%least_time, "s", "when it was first there")
-         call put("channels/greatest", extremes%of%greatest, "list", "greatest value of all rows")
-         call put("channels/greatest_time", extremes%of%greatest_time, "s", "when it was first there")
+         call put("channels/least", one%least, "list", "least value of all rows")
+         call put("channels/least_time", one%least_time, "s", "when it was first there")
+         call put("channels/greatest", one%greatest, "list", "greatest value of all rows")
+         call put("channels/greatest_time", one%greatest_time, "s", "when it was first there")
          call put("channels/mean", [(extremes%mean(k), k=1, n)], "list", "mean over the time")
          call put("channels/rms", [(extremes%rms(k), k=1, n)], "list", "root mean square over the time")
       end if

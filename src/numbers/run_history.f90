@@ -20,7 +20,8 @@ module run_history
    private
    public :: read_run
 
-   character(10), parameter :: rooms(6) = [character(10) :: "bodies", "joints", "drivers", "clearances", "forces", "energy"]
+   character(10), parameter :: rooms(10) = [character(10) :: "bodies", "joints", "drivers", "clearances", "forces", "energy", &
+                                             "points", "motions", "reactions", "requests"]
    integer, parameter :: longest_word = 256   !! bytes of a word of /events
 
 contains
@@ -82,6 +83,7 @@ contains
 
       allocate (items(0), contacts(0))
       if (room == "energy") call append_text(items, "energy")
+      if (room == "requests") call append_text(items, "request")
       if (has_dataset(file, room, "names")) call read_texts(file, room//"/names", items, status)
       call read_group(file, room, items, history, status)
       if (.not. has_dataset(file, room, "contact_joint")) return
@@ -121,7 +123,7 @@ contains
          if (shape(size(shape)) < size(history%time)) cycle     ! no history: names, clearances
          if (size(shape) > 1) then
             if (shape(size(shape) - 1) /= size(items)) cycle
-         else if (size(items) /= 1 .or. group /= "energy") then
+         else if (group /= "energy" .and. group /= "requests") then
             cycle
          end if
          call read_quantity(file, group//"/"//trim(name), trim(name), items, shape, history, status)

@@ -29,7 +29,8 @@ contains
       integer :: i, k, n, width
 
       if (size(extremes%channels) == 0) return
-      list = pack([(k, k=1, size(extremes%channels))], [(.not. extremes%is_nothing(k), k=1, size(extremes%channels))])
+      list = pack([(k, k=1, size(extremes%channels))], &
+                  [(extremes%has_values(k) .and. .not. extremes%is_nothing(k), k=1, size(extremes%channels))])
       n = size(list)
       list = list(:min(n, most_lines))
       width = len("extremes")
@@ -37,7 +38,7 @@ contains
          width = max(width, min(len(full_name(extremes, catalogue, list(i))), widest_name))
       end do
       call lines%line("")
-      if (extremes%has_time()) then
+      if (extremes%has_course()) then
          call lines%line("extremes"//repeat(" ", width + 3)//right("least")//right("at [s]")//right("greatest")//right("at [s]")// &
                          right("mean")//right("rms"))
       else
@@ -48,7 +49,7 @@ contains
          name = full_name(extremes, catalogue, k)
          associate (one => extremes%of(k))
             call lines%add("           "//name//repeat(" ", max(width - len(name), 0))//right(real_text(one%least, 5)))
-            if (extremes%has_time()) call lines%add(right(real_text(one%least_time, 6))//right(real_text(one%greatest, 5))// &
+            if (extremes%has_course()) call lines%add(right(real_text(one%least_time, 6))//right(real_text(one%greatest, 5))// &
                                                     right(real_text(one%greatest_time, 6))// &
                                                     right(real_text(extremes%shown_mean(k), 5))// &
                                                     right(real_text(extremes%rms(k), 5)))
@@ -56,7 +57,19 @@ contains
          end associate
       end do
       if (n > size(list)) call lines%line("           "//to_text(n - size(list))//" more in summary.json and in run.h5, /extremes")
-      if (size(extremes%channels) > n) call lines%line("           "//to_text(size(extremes%channels) - n)//" that are always zero")
+      call rest(count([(extremes%is_nothing(k), k=1, size(extremes%channels))]), "that are always zero")
+      call rest(count([(.not. extremes%has_values(k), k=1, size(extremes%channels))]), "without a number")
+
+   contains
+
+      !> How many further channels there are.
+      subroutine rest(how_many, what)
+         integer, intent(in) :: how_many    !! their number
+         character(*), intent(in) :: what   !! what they are
+
+         if (how_many > 0) call lines%line("           "//to_text(how_many)//" "//what)
+      end subroutine rest
+
    end subroutine channel_table
 
    !> The table of the loose joints for people: greatest values, each with its time, that of a speed being the onset.
@@ -104,7 +117,7 @@ contains
             call json%start(1)
             call json%put_text("channel", scalar_name(catalogue, extremes%channels(k)))
             call json%put_text("unit", unit_of(extremes, catalogue, k))
-            associate (one => extremes%of(k))
+            associate (one => extremes%told(k))
                call json%put_real("least", one%least)
                call json%put_real("least_time", one%least_time)
                call json%put_real("greatest", one%greatest)

@@ -58,7 +58,7 @@ contains
          call lines%line("</ul>")
       end if
       call add_figures(lines, plan%directory, outcome%pictures, figures)
-      if (outcome%extremes%has_time()) call joint_table(lines, outcome%joints, summary%time_end)
+      if (outcome%extremes%has_course()) call joint_table(lines, outcome%joints, summary%time_end)
       call impact_table(lines, events, summary%time_end)
       call extremes_table(lines, outcome%extremes, catalogue, summary%time_end)
       call number_table(lines, plan%statistics%after, outcome%numbers)

@@ -103,7 +103,7 @@ contains
       if (size(extremes%channels) == 0) return
       time = choose_unit("s", abs(time_end))
       n = min(size(extremes%channels), most_channels)
-      if (.not. extremes%has_time()) then
+      if (.not. extremes%has_course()) then
          call values_table(lines, extremes, catalogue)
          return
       end if
@@ -111,8 +111,8 @@ contains
       call begin_table(lines, [character(16) :: "channel", "unit", "least", "at ["//time%symbol//"]", "greatest", &
                                "at ["//time%symbol//"]", "mean", "rms"])
       do k = 1, n
-         associate (one => extremes%of(k))
-            unit = choose_unit(catalogue%groups(extremes%channels(k)%group)%channel%unit, max(abs(one%least), abs(one%greatest)))
+         associate (one => extremes%told(k))
+            unit = choose_unit(catalogue%groups(extremes%channels(k)%group)%channel%unit, extremes%size_of(k))
             call lines%line("<tr><td>"//escaped(scalar_name(catalogue, extremes%channels(k)), .true.)//"</td><td>"// &
                             unit%symbol//"</td>"//cell(one%least, unit)//cell(one%least_time, time)//cell(one%greatest, unit)// &
                             cell(one%greatest_time, time)//cell(extremes%shown_mean(k), unit)//cell(extremes%rms(k), unit)//"</tr>")
@@ -134,9 +134,11 @@ contains
       call head(lines, "extremes", "Values of the channels")
       call begin_table(lines, [character(7) :: "channel", "unit", "value"])
       do k = 1, n
-         unit = choose_unit(catalogue%groups(extremes%channels(k)%group)%channel%unit, abs(extremes%of(k)%least))
-         call lines%line("<tr><td>"//escaped(scalar_name(catalogue, extremes%channels(k)), .true.)//"</td><td>"//unit%symbol// &
-                         "</td>"//cell(extremes%of(k)%least, unit)//"</tr>")
+         associate (one => extremes%told(k))
+            unit = choose_unit(catalogue%groups(extremes%channels(k)%group)%channel%unit, extremes%size_of(k))
+            call lines%line("<tr><td>"//escaped(scalar_name(catalogue, extremes%channels(k)), .true.)//"</td><td>"// &
+                            unit%symbol//"</td>"//cell(one%least, unit)//"</tr>")
+         end associate
       end do
       call end_table(lines, size(extremes%channels) - n, "run.h5, /extremes/channels")
    end subroutine values_table

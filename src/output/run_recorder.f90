@@ -277,6 +277,9 @@ contains
          allocate (outcome%pictures(0), outcome%warnings(0), outcome%files(0), outcome%csv(0))
          call append_all(outcome%warnings, [self%plan%warnings, full%warnings])
          if (allocated(self%wants_fields)) call append_all(outcome%warnings, missing_films(self%wants_fields, self%fields))
+         if (self%plan%with%hdf5 .and. size(self%extremes%channels) > 0 .and. .not. self%extremes%has_rows()) then
+            call append_text(outcome%warnings, "the time histories have no row: the run ended before they begin")
+         end if
          if (self%plan%with%hdf5) then
             call self%hdf5%finish(full, self%events, self%statistics, self%items, outcome%numbers, self%extremes, outcome%joints, &
                                   self%fields, outcome%warnings, error)

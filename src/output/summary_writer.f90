@@ -112,7 +112,7 @@ contains
       if (plan%accuracy%asked > 0.0_wp) call extreme_lines(lines, plan%accuracy)
       call add_horizon(lines, plan%horizon)
       call impact_lines(lines, events)
-      if (outcome%extremes%has_time()) call joint_table(lines, outcome%joints)
+      if (outcome%extremes%has_course()) call joint_table(lines, outcome%joints)
       call channel_table(lines, outcome%extremes, catalogue)
       call number_lines(lines, plan, outcome%numbers)
       call lines%line("")

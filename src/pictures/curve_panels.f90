@@ -13,8 +13,9 @@ module curve_panels
    use text, only: real_text, replace, text_t
    implicit none (type, external)
    private
-   public :: constant, make_panel, panel_t, range_of, shown
+   public :: constant, make_panel, panel_t, range_of, shown, shows_nothing
 
+   real(wp), parameter :: late = 1.0e-3_wp          !! least extent of a time axis, of the times [1]
    real(wp), parameter :: narrow = 1.0e-4_wp        !! span of an ordinate beside its values: below it less a round value [1]
    real(wp), parameter :: constant = 1.0e-12_wp     !! the same: less is round-off [1]
    integer, parameter :: most_overlaid = 3          !! more curves are drawn without those of the ideal twin
@@ -49,13 +50,7 @@ contains
       panel%right_label = ""
       allocate (panel%side(0), panel%curves(0), panel%ideal(0), panel%ideal_side(0))
       do side = 1, 2
-         if (.not. allocated(words%y(side)%si)) cycle
-         do k = 1, size(curves)
-            associate (number => curves(k)%number)
-               own(k) = number >= words%first .and. number <= words%last
-               if (own(k)) own(k) = catalogue%groups(figure%scalars(number)%group)%channel%unit == words%y(side)%si
-            end associate
-         end do
+         own = is_member(figure, catalogue, words, side, curves%number)
          if (.not. any(own)) cycle
          call take_side(pack([(k, k=1, size(curves))], own))
       end do
@@ -151,6 +146,56 @@ contains
 
    end subroutine make_panel
 
+   !> Whether all curves of an axis lie beyond the ends that are asked for.
+   pure logical function shows_nothing(figure, catalogue, curves)
+      type(figure_t), intent(in) :: figure        !! the figure
+      type(catalogue_t), intent(in) :: catalogue  !! what was recorded
+      type(curve_t), intent(in) :: curves(:)      !! (n) curves of the run
+
+      logical :: own(size(curves))
+      integer :: k, side
+
+      shows_nothing = .false.
+      associate (asked => figure%curves)
+         if (asked%x%has_range) then
+            shows_nothing = all(is_apart(curves%x_range(1), curves%x_range(2), asked%x%range))
+         end if
+         do k = 1, size(asked%panels)
+            do side = 1, 2
+               if (.not. asked%panels(k)%y(side)%has_range) cycle
+               own = is_member(figure, catalogue, asked%panels(k), side, curves%number)
+               if (.not. any(own)) cycle
+               shows_nothing = shows_nothing .or. all(is_apart(pack(curves%y_range(1), own), pack(curves%y_range(2), own), &
+                                                               asked%panels(k)%y(side)%range))
+            end do
+         end do
+      end associate
+   end function shows_nothing
+
+   !> Whether what a curve reaches and what an axis shows have nothing in common.
+   pure function is_apart(low, high, range)
+      real(wp), intent(in) :: low(:)        !! (n) least values [any]
+      real(wp), intent(in) :: high(:)       !! (n) greatest values [any]
+      real(wp), intent(in) :: range(2)      !! (2) ends of the axis [any]
+      logical :: is_apart(size(low))        !! (n) whether it is so
+
+      is_apart = high < minval(range) .or. low > maxval(range)
+   end function is_apart
+
+   !> Whether a number of a figure belongs to an ordinate of a panel.
+   elemental logical function is_member(figure, catalogue, words, side, number)
+      type(figure_t), intent(in) :: figure        !! the figure
+      type(catalogue_t), intent(in) :: catalogue  !! what was recorded
+      type(panel_words_t), intent(in) :: words    !! what the panel is to show
+      integer, intent(in) :: side                 !! 1 left, 2 right
+      integer, intent(in) :: number               !! of the curve in the figure
+
+      is_member = .false.
+      if (.not. allocated(words%y(side)%si)) return
+      if (number < words%first .or. number > words%last) return
+      is_member = catalogue%groups(figure%scalars(number)%group)%channel%unit == words%y(side)%si
+   end function is_member
+
    !> The unit of an axis.
    function shown(axis, curves, of_y) result(unit)
       type(axis_t), intent(in) :: axis               !! what is asked of it
@@ -168,7 +213,7 @@ contains
          extent = largest_y(curves)
       else
          extent = max(largest(curves(1)%x_range), 0.0_wp)
-         if (axis%si == "s") extent = curves(1)%x_range(2) - curves(1)%x_range(1)
+         if (axis%si == "s") extent = max(curves(1)%x_range(2) - curves(1)%x_range(1), late*extent)
       end if
       unit = choose_unit(axis%si, extent)
    end function shown

@@ -13,8 +13,8 @@ module curve_script
    use figure_words, only: figure_t
    use kinds, only: wp
    use plot_text, only: quoted
-   use script_parts, only: angle_tics, axes_t, colours, hangs_from_zero, largest, largest_y, open_range, preamble, source, &
-      stands_on_zero, with_unit
+   use script_parts, only: angle_tics, axes_t, colours, find_long_tics, hangs_from_zero, largest, largest_y, open_range, &
+      preamble, source, stands_on_zero, with_unit
    use text, only: real_text, to_text
    use text_buffer, only: buffer_t
    implicit none (type, external)
@@ -44,7 +44,7 @@ contains
       type(panel_t), allocatable :: panels(:)
       type(display_unit_t) :: x
       type(buffer_t) :: lines
-      character(:), allocatable :: label
+      character(:), allocatable :: format, label
       integer :: k, n
       logical :: with_zoom
 
@@ -61,25 +61,25 @@ contains
       x = shown(figure%curves%x, curves)
       if (n > 1 .or. with_zoom) then
          call lines%line("set lmargin at screen 0.12; set rmargin at screen "// &
-                         trim(merge("0.89 ", "0.965", any([(len(panels(k)%right_label) > 0, k=1, n)]))))
+                         trim(merge("0.89 ", "0.95 ", any([(len(panels(k)%right_label) > 0, k=1, n)]))))
          call lines%line("set multiplot layout "//to_text(merge(2, n, with_zoom))//",1 title "//quoted(title)//" font ',17'")
       else
          call lines%line("set title "//quoted(title)//" font ',17'")
       end if
-      call abscissa_lines(lines, figure, catalogue, curves, x, envelope%is_used(), label)
+      call abscissa_lines(lines, figure, catalogue, curves, x, envelope%is_used(), label, format)
       if (n > 1) call lines%line("unset xlabel; set format x ''")
       do k = 1, n
-         if (k == n) call lines%line("set xlabel "//label//"; set format x '%h'")
+         if (k == n) call lines%line("set xlabel "//label//"; set format x '"//format//"'")
          call panel_lines(lines, figure%curves%panels(k), panels(k), x, envelope, n)
       end do
-      if (with_zoom) call zoom_lines(lines, panels(1), x)
+      if (with_zoom) call zoom_lines(lines, panels(1), x, envelope)
       if (n > 1 .or. with_zoom) call lines%line("unset multiplot")
       call lines%line("unset output")
       script = lines%get()
    end function curve_text
 
    !> The abscissa, which all panels have in common.
-   subroutine abscissa_lines(lines, figure, catalogue, curves, x, has_ranges, label)
+   subroutine abscissa_lines(lines, figure, catalogue, curves, x, has_ranges, label, format)
       type(buffer_t), intent(inout) :: lines      !! the script
       type(figure_t), intent(in) :: figure        !! the figure
       type(catalogue_t), intent(in) :: catalogue  !! what was recorded
@@ -87,7 +87,9 @@ contains
       type(display_unit_t), intent(in) :: x       !! its unit
       logical, intent(in) :: has_ranges           !! ranges are drawn, in columns that begin within the axis
       character(:), allocatable, intent(out) :: label  !! what stands below it, in quotes
+      character(:), allocatable, intent(out) :: format !! of the numbers of its ticks
 
+      character(:), allocatable :: distance
       real(wp) :: range(2)
 
       associate (curve => figure%curves)
@@ -104,6 +106,12 @@ contains
             call lines%line("set autoscale xfix")
          end if
          call angle_lines(lines, "x", x, range(2) - range(1), 1)
+         call find_long_tics(range, distance, format)
+         if (len(distance) == 0 .or. x%symbol == "deg") then
+            format = "%h"
+         else
+            call lines%line("set xtics "//distance)
+         end if
       end associate
    end subroutine abscissa_lines
 
@@ -174,12 +182,12 @@ contains
    end subroutine panel_lines
 
    !> The same on the scale of the ideal joints.
-   subroutine zoom_lines(lines, panel, x)
+   subroutine zoom_lines(lines, panel, x, envelope)
       type(buffer_t), intent(inout) :: lines      !! the script
       type(panel_t), intent(in) :: panel          !! what the panel above draws
       type(display_unit_t), intent(in) :: x       !! unit of the abscissa
+      type(envelope_t), intent(in) :: envelope    !! ranges of curves that turn too often
 
-      type(envelope_t) :: none
       real(wp) :: all(2), ends(2), ideal(2), span
 
       ideal = [minval(panel%ideal%y_range(1)), maxval(panel%ideal%y_range(2))]
@@ -191,7 +199,7 @@ contains
       call lines%line("set title 'the same on the scale of the ideal joints' font ',14'")
       call lines%line("set yrange ["//real_text(panel%unit(1)%factor*ends(1), 9)//":"// &
                       real_text(panel%unit(1)%factor*ends(2), 9)//"]")
-      call plot_lines(lines, panel, x, none)
+      call plot_lines(lines, panel, x, envelope)
    end subroutine zoom_lines
 
    !> Whether the ideal curve would be a flat line beside the peaks of the run.

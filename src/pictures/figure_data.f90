@@ -27,6 +27,7 @@ module figure_data
       real(wp) :: y_range(2) = 0.0_wp      !! (2) least and greatest ordinate, SI [any]
       integer :: turns = 0                 !! of the ordinate from rising to falling, or back
       logical :: is_function = .true.      !! the abscissa never falls
+      integer :: n_row = 0                 !! rows of the file
    end type curve_t
 
    !> What is known of a file of columns.
@@ -37,6 +38,7 @@ module figure_data
       real(wp), allocatable :: highest(:)          !! (n) greatest value of each column, SI [any]
       integer, allocatable :: turns(:)             !! (n) turns of each column from rising to falling, or back
       logical, allocatable :: falls(:)             !! (n) whether each column falls somewhere
+      integer :: n_row = 0                         !! rows
    end type data_file_t
 
    !> The files looked at so far: each is read once.
@@ -93,6 +95,7 @@ contains
       if (.not. is_open) return
       before = huge(1.0_wp)  ! nothing came before
       do while (rows%next(row))
+         file%n_row = file%n_row + 1
          do k = 1, n
             if (ieee_is_nan(row(k))) cycle
             file%lowest(k) = min(file%lowest(k), row(k))
@@ -225,6 +228,7 @@ contains
          if (curve%y > 0) call get_range(this, curve%y, curve%y_range)
          if (present(over)) curve%x = column_of(this, column_label(catalogue, over))
          if (curve%y > 0) curve%turns = this%turns(curve%y)
+         curve%n_row = this%n_row
          if (curve%x == 0 .or. curve%y == 0) return
          call get_range(this, curve%x, curve%x_range)
          curve%is_function = .not. this%falls(curve%x)

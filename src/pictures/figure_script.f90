@@ -9,7 +9,9 @@ module figure_script
    use orbit_script, only: orbit_lines
    use plot_text, only: quoted
    use kinds, only: wp
-   use script_parts, only: axes_t, colours, hangs_from_zero, largest, open_range, preamble, source, stands_on_zero, with_unit
+   use path_data, only: path_t
+   use script_parts, only: axes_t, colours, hangs_from_zero, largest, open_range, path_source, preamble, source, &
+      stands_on_zero, with_unit
    use text_buffer, only: buffer_t
    implicit none (type, external)
    private
@@ -21,13 +23,14 @@ module figure_script
 contains
 
    !> The whole script of a figure, blank if there is nothing to draw.
-   function figure_text(figure, catalogue, title, curves, ideal, n_turn) result(script)
+   function figure_text(figure, catalogue, title, curves, ideal, n_turn, thinned) result(script)
       type(figure_t), intent(in) :: figure        !! the figure
       type(catalogue_t), intent(in) :: catalogue  !! what was recorded
       character(*), intent(in) :: title           !! of the scene, any text
       type(curve_t), intent(in) :: curves(:)      !! (n) curves of the run
       type(curve_t), intent(in) :: ideal(:)       !! (m) curves of the ideal twin, perhaps none
       integer, intent(in) :: n_turn               !! turns of the first curve, small wiggles apart
+      type(path_t), intent(in) :: thinned         !! the path, if the run's own table has too many points
       character(:), allocatable :: script         !! lines for gnuplot
 
       type(buffer_t) :: lines
@@ -37,15 +40,15 @@ contains
       select case (figure%kind)
       case (figure_orbit)
          if (size(curves) < 2) return
-         call orbit_lines(lines, figure, catalogue, title, curves)
+         call orbit_lines(lines, figure, catalogue, title, curves, thinned)
       case default
-         call portrait_lines(lines, figure, catalogue, title, curves, ideal, n_turn > most_turns)
+         call portrait_lines(lines, figure, catalogue, title, curves, ideal, n_turn > most_turns, thinned)
       end select
       script = lines%get()
    end function figure_text
 
    !> One channel over another.
-   subroutine portrait_lines(lines, figure, catalogue, title, curves, ideal, is_thin)
+   subroutine portrait_lines(lines, figure, catalogue, title, curves, ideal, is_thin, thinned)
       type(buffer_t), intent(inout) :: lines      !! the script
       type(figure_t), intent(in) :: figure        !! the figure
       type(catalogue_t), intent(in) :: catalogue  !! what was recorded
@@ -53,9 +56,10 @@ contains
       type(curve_t), intent(in) :: curves(:)      !! (1) curve of the run
       type(curve_t), intent(in) :: ideal(:)       !! (0 or 1) curve of the twin
       logical, intent(in) :: is_thin              !! many turns lie one over the other
+      type(path_t), intent(in) :: thinned         !! the path, if the run's own table has too many points
 
       type(axes_t) :: axes
-      character(:), allocatable :: width
+      character(:), allocatable :: own, width
       real(wp) :: extent(2), x(2), y(2)
 
       x = [min(curves(1)%x_range(1), minval(ideal%x_range(1))), max(curves(1)%x_range(2), maxval(ideal%x_range(2)))]
@@ -76,11 +80,17 @@ contains
                       room(hangs_from_zero(y), "0.05")//", "//room(stands_on_zero(y), "0.05"))
       call lines%line("set title "//quoted(title)//" font ',17'")
       width = trim(merge("0.8", "2  ", is_thin))
-      call lines%add("plot "//source(curves(1), axes)//" with lines linewidth "//width//" linecolor rgb '"//colours(1)//"'")
-      if (size(ideal) == 0) then
-         call lines%line(" notitle")
+      own = trim(merge("title 'with clearance'", "notitle               ", size(ideal) > 0))
+      if (thinned%is_used) then
+         call lines%add("plot "//path_source(curves(1), axes, thinned, own))
       else
-         call lines%line(" title 'with clearance', \")
+         call lines%add("plot "//source(curves(1), axes)//" with lines linewidth "//width// &
+                        " linecolor rgb '"//colours(1)//"' "//own)
+      end if
+      if (size(ideal) == 0) then
+         call lines%line("")
+      else
+         call lines%line(", \")
          call lines%line("     "//source(ideal(1), axes)//" with lines linewidth 1.6 linecolor rgb '#909090' title 'ideal joints'")
       end if
       call lines%line("unset output")

@@ -223,6 +223,9 @@ contains
          do k = figure_portrait, figure_animation
             calls(k)%s = piece(call_words(k), 1, index(call_words(k), "(") - 1)
          end do
+         if (nearest_word(word(index(word, ".", back=.true.) + 1:), [text_t(orbit_word(2:))]) == orbit_word(2:)) then
+            hint = "did you mean '"//word(:index(word, ".", back=.true.) - 1)//orbit_word//"'? "//hint
+         end if
          nearest = nearest_word(word(:index(word//"(", "(") - 1), calls)
          if (len(nearest) > 0 .and. .not. starts_with(hint, "did you mean")) hint = "did you mean '"//nearest//"'? "//hint
          hint = hint//"; figures are a channel, JOINT.orbit, portrait(X,Y), section(X,Y), spectrum(X), "// &

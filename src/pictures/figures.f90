@@ -6,6 +6,7 @@
 module figures
    use catalogue, only: catalogue_t
    use animation_page, only: page_text
+   use curve_panels, only: shows_nothing
    use curve_script, only: curve_text
    use drawing, only: drawing_t
    use envelope_data, only: count_turns, envelope_t, make_envelope
@@ -19,7 +20,9 @@ module figures
    use film_fields, only: film_field_t
    use plot_table, only: plot_table_t, write_plot
    use kinds, only: wp
+   use orbit_script, only: path_of
    use output_marker, only: enter_file
+   use path_data, only: make_path, path_t
    use posix, only: make_directory
    use scene_plot, only: write_scene_plot
    use text, only: append_text, text_t
@@ -68,7 +71,7 @@ contains
          else if (list(k)%kind > figure_portrait) then
             call write_plot(directory//"/figures", title, tables(k), is_written, error)
          else
-            call write_curves(directory, title, tables(k)%heading, list(k), catalogue, files, is_written, error)
+            call write_curves(directory, title, tables(k)%heading, list(k), catalogue, files, is_written, warnings, error)
          end if
          if (allocated(error)) return
          if (is_written) then
@@ -93,7 +96,7 @@ contains
    end function file_of
 
    !> Time histories, orbits and portraits.
-   subroutine write_curves(directory, title, heading, figure, catalogue, files, is_written, error)
+   subroutine write_curves(directory, title, heading, figure, catalogue, files, is_written, warnings, error)
       character(*), intent(in) :: directory               !! of the run
       character(*), intent(in) :: title                   !! of the scene, any text
       character(*), intent(in) :: heading                 !! lines with `#` for a table
@@ -101,10 +104,12 @@ contains
       type(catalogue_t), intent(in) :: catalogue          !! what was recorded
       type(data_files_t), intent(inout) :: files          !! files of numbers looked at so far
       logical, intent(out) :: is_written                  !! there are numbers to draw
+      type(text_t), allocatable, intent(inout) :: warnings(:)  !! (any) what is not drawn, and why
       type(error_t), allocatable, intent(out) :: error    !! the script cannot be written
 
       type(curve_t), allocatable :: curves(:), ideal(:)
       type(envelope_t) :: envelope
+      type(path_t) :: thinned
       character(:), allocatable :: script
       real(wp) :: window(2)
       integer :: n_turn
@@ -118,12 +123,21 @@ contains
          call make_envelope(directory//"/figures", figure%name, heading, curves, window, envelope, error)
          if (allocated(error)) return
          script = curve_text(figure, catalogue, title, curves, ideal, envelope)
+         if (shows_nothing(figure, catalogue, curves)) then
+            call append_text(warnings, "figure "//figure%word//": no numbers in the range that is asked for")
+         end if
       else
          n_turn = 0
+         if (size(curves) > 0 .and. figure%kind == figure_portrait) then
+            call make_path(directory//"/figures", figure%name, heading, curves(1), curves(1)%n_row, thinned, error)
+         else if (size(curves) > 1) then
+            call make_path(directory//"/figures", figure%name, heading, path_of(curves), curves(1)%n_row, thinned, error)
+         end if
+         if (allocated(error)) return
          if (figure%kind == figure_portrait .and. size(curves) > 0) then
             n_turn = count_turns(directory//"/figures/"//curves(1)%path, curves(1))
          end if
-         script = figure_text(figure, catalogue, title, curves, ideal, n_turn)
+         script = figure_text(figure, catalogue, title, curves, ideal, n_turn, thinned)
       end if
       is_written = len(script) > 0
       if (is_written) call write_file(directory//"/figures/"//figure%name//".gp", script, error)

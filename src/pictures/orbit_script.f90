@@ -7,28 +7,30 @@ module orbit_script
    use figure_words, only: figure_t
    use kinds, only: wp
    use plot_text, only: quoted
-   use script_parts, only: axes_t, colours, largest_y, preamble, source
+   use path_data, only: path_t
+   use script_parts, only: axes_t, largest_y, path_source, preamble
    use text, only: real_text
    use text_buffer, only: buffer_t
    implicit none (type, external)
    private
-   public :: orbit_lines
+   public :: orbit_lines, path_of
 
    real(wp), parameter :: orbit_margin = 1.15_wp    !! half axis of an orbit over the largest eccentricity [1]
+   integer, parameter :: most_of_title = 70         !! characters above a square picture
    real(wp), parameter :: slot_ratio = 3.0_wp       !! an orbit this much longer than the clearance is in a slot [1]
 
 contains
 
    !> Path of a journal within its clearance.
-   subroutine orbit_lines(lines, figure, catalogue, title, curves)
+   subroutine orbit_lines(lines, figure, catalogue, title, curves, thinned)
       type(buffer_t), intent(inout) :: lines      !! the script
       type(figure_t), intent(in) :: figure        !! the figure
       type(catalogue_t), intent(in) :: catalogue  !! what was recorded
       character(*), intent(in) :: title           !! of the scene, any text
       type(curve_t), intent(in) :: curves(:)      !! (2 or 3) components of the eccentricity
+      type(path_t), intent(in) :: thinned         !! the path, if the run's own table has too many points
 
       type(axes_t) :: axes
-      type(curve_t) :: path
       character(:), allocatable :: extent, joint, width
       real(wp) :: largest, radius
       integer :: h, v
@@ -39,17 +41,14 @@ contains
       largest = max(largest_y(curves(h:h)), largest_y(curves(v:v)), radius)
       axes%x = choose_unit("m", largest)
       axes%y = axes%x
-      path = curves(v)
-      path%x = curves(h)%y
       width = real_text(axes%x%factor*radius, 9)
       call preamble(lines, figure%name, 1000, 1000)
-      call lines%line("set title "//quoted(title)//" font ',17'")
+      call lines%line("set title "//quoted(title, most_of_title)//" font ',17'")
       call lines%line("set xlabel "//quoted(axis_of(curves(h))//" ["//axes%x%symbol//"]"))
       call lines%line("set ylabel "//quoted(axis_of(curves(v))//" ["//axes%y%symbol//"]"))
       if (largest > slot_ratio*radius .and. radius > 0.0_wp) then
          call lines%line("set offsets graph 0.03, graph 0.03, graph 0.1, graph 0.1")
-         call lines%line("plot "//source(path, axes)//" with lines linewidth 1 linecolor rgb '"//colours(1)// &
-                         "' title "//quoted(joint)//", \")
+         call lines%line("plot "//path_source(path_of(curves), axes, thinned, "title "//quoted(joint))//", \")
          call lines%line("     "//width//" with lines linewidth 2 linecolor rgb '#404040' title "// &
                          quoted("clearance "//width//" "//axes%x%symbol)//", \")
          call lines%line("     -"//width//" with lines linewidth 2 linecolor rgb '#404040' notitle")
@@ -62,13 +61,26 @@ contains
          call lines%line("set parametric")
          call lines%line("set trange [0:2*pi]")
          call lines%line("set samples 721")
-         call lines%line("plot "//source(path, axes)//" with lines linewidth 1 linecolor rgb '"//colours(1)// &
-                         "' title "//quoted("centre of the journal of "//joint)//", \")
+         call lines%line("plot "//path_source(path_of(curves), axes, thinned, &
+                                              "title "//quoted("centre of the journal of "//joint))//", \")
          call lines%line("     "//width//"*cos(t), "//width//"*sin(t) with lines linewidth 2 linecolor rgb "// &
                          "'#404040' title "//quoted("clearance "//width//" "//axes%x%symbol))
       end if
       call lines%line("unset output")
    end subroutine orbit_lines
+
+   !> The path of an orbit as a curve: file and columns.
+   function path_of(curves) result(path)
+      type(curve_t), intent(in) :: curves(:)  !! (2 or 3) components of the eccentricity
+      type(curve_t) :: path                   !! the one drawn along y over the one along x
+
+      integer :: h, v
+
+      call choose_plane(curves, h, v)
+      path = curves(v)
+      path%x = curves(h)%y
+      path%x_range = curves(h)%y_range
+   end function path_of
 
    !> The two components of an orbit that move most, in their order.
    pure subroutine choose_plane(curves, h, v)

@@ -7,7 +7,7 @@ module plot_table
    use, intrinsic :: ieee_arithmetic, only: ieee_is_finite
    use kinds, only: wp
    use plot_text, only: quoted
-   use script_parts, only: colours, key_below, long_tics, preamble, with_unit
+   use script_parts, only: colours, hangs_from_zero, key_below, long_tics, open_range, preamble, stands_on_zero, with_unit
    use text, only: real_text, text_t, to_text
    use text_buffer, only: buffer_t
    use text_file, only: write_file
@@ -108,7 +108,7 @@ contains
 
       type(buffer_t) :: lines
       type(display_unit_t) :: x
-      character(:), allocatable :: aside, tics
+      character(:), allocatable :: tics
       integer :: k, n
 
       n = size(table%panels)
@@ -116,9 +116,7 @@ contains
       call lines%line("unset key")
       x = choose_unit(table%x_unit, largest(table, [(table%panels(1)%curves(k)%x, k=1, size(table%panels(1)%curves))]))
       call lines%line("set xlabel "//quoted(with_unit(table%x_name, x)))
-      aside = "graph 0.05, graph 0.05"
-      if (size(table%categories) > 0) aside = "0.5, 0.5"  ! half of what is between two words
-      call lines%line("set offsets "//aside//", graph 0.06, graph 0.06")
+      call lines%line("set offsets "//aside(table)//", graph 0.06, graph 0.06")
       if (table%is_log_x) call lines%line("set logscale x; set format x '%g'")
       if (size(table%categories) > 0) then
          tics = ""
@@ -185,6 +183,9 @@ contains
       y = choose_unit(panel%y_unit, largest(table, panel%curves%y))
       call lines%line("set ylabel "//quoted(with_unit(panel%y_name, y)))
       call lines%line(merge("set logscale y; set format y '%g'  ", "unset logscale y; set format y '%h'", panel%is_log_y))
+      if (all(panel%curves%style /= draw_lines .and. panel%curves%style /= draw_boxes) .and. .not. panel%is_log_y) then
+         call ordinate_lines(lines, table, panel, y)
+      end if
       if (any_points(panel) .and. .not. panel%is_log_y) then
          call add_line(lines, long_tics("y", y%factor*range_of(table, panel%curves%y)))
       end if
@@ -198,6 +199,29 @@ contains
                          merge(", \", "   ", k < size(panel%curves)))
       end do
    end subroutine panel_lines
+
+   !> Ends of an ordinate that scales itself: of what is not negative it begins at zero, if that is near.
+   subroutine ordinate_lines(lines, table, panel, y)
+      type(buffer_t), intent(inout) :: lines      !! the script
+      type(plot_table_t), intent(in) :: table     !! the table
+      type(panel_t), intent(in) :: panel          !! the panel
+      type(display_unit_t), intent(in) :: y       !! scale of the ordinate
+
+      real(wp) :: range(2)
+
+      range = y%factor*range_of(table, panel%curves%y)
+      call lines%line("set offsets "//aside(table)//", "//trim(merge("0         ", "graph 0.06", hangs_from_zero(range)))//", "// &
+                      trim(merge("0         ", "graph 0.06", stands_on_zero(range)))//"; set yrange "//open_range(range))
+   end subroutine ordinate_lines
+
+   !> Room beside the points: half of what is between two words, or a part of the picture.
+   pure function aside(table) result(words)
+      type(plot_table_t), intent(in) :: table     !! the table
+      character(:), allocatable :: words          !! for `set offsets`
+
+      words = "graph 0.05, graph 0.05"
+      if (size(table%categories) > 0) words = "0.5, 0.5"
+   end function aside
 
    !> One curve of a plot command.
    function curve_text(table, curve, x, y) result(s)

@@ -25,20 +25,23 @@ module plot_text
 contains
 
    !> A single-quoted string for gnuplot.
-   pure function quoted(text) result(s)
-      character(*), intent(in) :: text   !! any bytes
-      character(:), allocatable :: s     !! with its quotes
+   pure function quoted(text, most) result(s)
+      character(*), intent(in) :: text         !! any bytes
+      integer, intent(in), optional :: most    !! characters that there is room for
+      character(:), allocatable :: s           !! with its quotes
 
       character(:), allocatable :: clean
-      integer :: code, i, length, n
+      integer :: code, i, length, limit, n
 
+      limit = longest
+      if (present(most)) limit = min(longest, most)
       clean = valid_utf8(text)
       s = ""
       n = 0
       i = 1
       do while (i <= len(clean))
          n = n + 1
-         if (n > longest) then
+         if (n > limit) then
             s = s//ellipsis
             exit
          end if

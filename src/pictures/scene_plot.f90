@@ -139,9 +139,11 @@ contains
          if (f < size(list) .and. figure%kind /= figure_animation) cycle
          do k = 1, n_style
             has_style(k) = has_style(k) .or. canvas%styles(k)%length() > 0
-            if (canvas%styles(k)%length() == 0) then  ! one point keeps the blocks in their order
-               call data%line(real_text(plot%unit%factor*plot%extents%least(1), 6)//" "// &
-                              real_text(plot%unit%factor*plot%extents%least(2), 6)//" 0")
+            if (canvas%styles(k)%length() == 0) then  ! one point, beyond the picture, keeps the blocks in their order
+               associate (e => plot%extents)
+                  call data%line(real_text(plot%unit%factor*(2.0_wp*e%least(1) - e%greatest(1)), 6)//" "// &
+                                 real_text(plot%unit%factor*(2.0_wp*e%least(2) - e%greatest(2)), 6)//" 0")
+               end associate
                call data%line("")
             else
                call data%add(canvas%styles(k)%get())
@@ -283,7 +285,7 @@ contains
             words = "t = "//time_text(list(1)%t)//words
          end if
       end if
-      call script%line("set label "//quoted(words)//" at graph 0.01, graph 0.965 front boxed font ',13'")
+      call script%line("set label "//quoted(words)//" at graph 0.02, graph 0.965 front boxed font ',13'")
       if (plot%cells > 1) then
          do f = 1, size(list)
             at = [plot%extents%least(1), plot%extents%greatest(2)] + &
@@ -320,7 +322,7 @@ contains
       call script%line("set grid linetype 1 linewidth 0.7 linecolor rgb '#dcdcdc'")
       call frame_lines(script, plot)
       if (len(short_legend(plot%symbols)) > 0) then
-         call script%line("set label "//quoted(short_legend(plot%symbols))//" at graph 0.01, graph 0.96 front boxed")
+         call script%line("set label "//quoted(short_legend(plot%symbols))//" at graph 0.02, graph 0.96 front boxed")
       end if
       unit = choose_unit("s", list(size(list))%t)
       call script%add("times = '")

@@ -3,12 +3,14 @@ module script_parts
    use display_units, only: display_unit_t
    use figure_data, only: curve_t
    use kinds, only: wp
+   use path_data, only: path_t
    use text, only: exact_text, real_text, to_text
    use text_buffer, only: buffer_t
    implicit none (type, external)
    private
-   public :: angle_tics, axes_t, hangs_from_zero, largest, largest_y, long_tics, open_range, scaled, source, stands_on_zero
-   public :: preamble, with_unit
+   public :: angle_tics, axes_t, find_long_tics, hangs_from_zero, largest, largest_y, long_tics, open_range, scaled, source
+   public :: stands_on_zero
+   public :: path_source, preamble, with_unit
    public :: colours, key_below
 
    character(*), parameter :: colours(12) = &
@@ -133,13 +135,27 @@ contains
       real(wp), intent(in) :: range(2)            !! (2) least and greatest value [the unit shown]
       character(:), allocatable :: words          !! commands
 
+      character(:), allocatable :: distance, format
+
+      words = ""
+      call find_long_tics(range, distance, format)
+      if (len(distance) > 0) words = "set "//axis//"tics "//distance//"; set format "//axis//" '"//format//"'"
+   end function long_tics
+
+   !> The same: their distance and the format of their numbers, blank if gnuplot's own are as good.
+   subroutine find_long_tics(range, distance, format)
+      real(wp), intent(in) :: range(2)                        !! (2) least and greatest value [the unit shown]
+      character(:), allocatable, intent(out) :: distance      !! of two ticks
+      character(:), allocatable, intent(out) :: format        !! of their numbers
+
       integer, parameter :: short = 6             ! characters of numbers that are short
       real(wp), parameter :: most = 4.0_wp        ! ticks apart, over the range
       real(wp), parameter :: constant = 1.0e-13_wp  ! span of what does not change, of its magnitude [1]
       real(wp) :: step
       integer :: before, behind, power
 
-      words = ""
+      distance = ""
+      format = ""
       if (.not. range(2) - range(1) > constant*largest(range)) return
       power = floor(log10((range(2) - range(1))/most))
       step = 10.0_wp**power
@@ -149,8 +165,9 @@ contains
       behind = max(0, -floor(log10(1.001_wp*step)))
       before = max(1, floor(log10(largest(range))) + 1)
       if (before + behind < short .or. before > 2*short) return
-      words = "set "//axis//"tics "//real_text(step, 3)//"; set format "//axis//" '%."//to_text(behind)//"f'"
-   end function long_tics
+      distance = real_text(step, 3)
+      format = "%."//to_text(behind)//"f"
+   end subroutine find_long_tics
 
    !> File and columns of a curve, with the numbers scaled.
    function source(curve, axes) result(s)
@@ -160,6 +177,30 @@ contains
 
       s = "'"//curve%path//"' using "//scaled(curve%x, axes%x%factor)//":"//scaled(curve%y, axes%y%factor, axes%less)
    end function source
+
+   !> File, columns and line of a path, those of the run or what a picture can show of it.
+   function path_source(curve, axes, thinned, title) result(s)
+      type(curve_t), intent(in) :: curve     !! the path
+      type(axes_t), intent(in) :: axes       !! scales of the figure
+      type(path_t), intent(in) :: thinned    !! what a picture can show of it
+      character(*), intent(in) :: title      !! as `title 'orbit'`, or `notitle`
+      character(:), allocatable :: s         !! as `'../gudgeon.dat' using 2:3 with lines ...`
+
+      character(:), allocatable :: columns
+
+      if (.not. thinned%is_used) then
+         s = source(curve, axes)//" with lines linewidth 1 linecolor rgb '"//colours(1)//"' "//title
+         return
+      end if
+      columns = " using "//scaled(1, axes%x%factor)//":"//scaled(2, axes%y%factor)
+      s = "'"//thinned%file//"'"//columns//" with "//thinned%style//" linecolor rgb '#"//thinned%alpha//colours(1)(2:)//"' "
+      if (thinned%style /= "dots") then
+         s = s//title
+      else  ! a dot cannot be seen in a legend: the first point stands there
+         s = s//"notitle, '"//thinned%file//"' every ::0::0:0"//columns// &
+             " with points pointtype 7 pointsize 0.5 linecolor rgb '"//colours(1)//"' "//title
+      end if
+   end function path_source
 
    !> A column, scaled.
    function scaled(column, factor, less) result(s)

@@ -119,6 +119,12 @@ contains
                   extreme%least = run%series%least(k)
                   extreme%most = run%series%most(k)
                end if
+               if (extreme%least > extreme%most) then  ! it never was a number
+                  extreme%least = not_a_number()
+                  extreme%most = not_a_number()
+                  extreme%error = not_a_number()
+                  cycle
+               end if
                ! round-off of the numbers themselves is in no difference of runs that are equal
                extreme%error = found%evidence%factor*max(error(k), of_kind*of_kinds(run%kind(k))*extreme%scale, &
                                                 epsilon(1.0_wp)*max(abs(extreme%least), abs(extreme%most), extreme%scale))

@@ -1,7 +1,8 @@
 !> Least and greatest values of the channels of a run with their times, their means, and what loose joints went through.
 !>
 !> Least and greatest are those of all rows, output instants and instants of contacts; mean and root mean square are integrals over
-!> the time by the trapezoidal rule on the output instants. Impacts are read from the list of events.
+!> the time by the trapezoidal rule on the output instants. What is no number counts nowhere: means are over the time between output
+!> instants that both have one, and a channel that never has one has no extremes. Impacts are read from the list of events.
 module extremes
    use catalogue, only: catalogue_t
    use channel_names, only: scalar_t
@@ -24,9 +25,10 @@ module extremes
       real(wp) :: least_time = 0.0_wp         !! when it was first there [s]
       real(wp) :: greatest = -huge(1.0_wp)    !! greatest value, SI [any]
       real(wp) :: greatest_time = 0.0_wp      !! when it was first there [s]
-      real(wp) :: last = 0.0_wp               !! value at the last output instant, SI [any]
+      real(wp) :: last = 0.0_wp               !! value at the last output instant, SI; NaN: none [any]
       real(wp) :: integral = 0.0_wp           !! of the value over the time [any]
       real(wp) :: integral_2 = 0.0_wp         !! of its square [any]
+      real(wp) :: gap = 0.0_wp                !! time without values [s]
    end type extreme_t
 
    !> What the channels of a run went through.
@@ -37,13 +39,20 @@ module extremes
       integer, private :: n_sample = 0                 !! output instants so far
       real(wp), private :: t_first = 0.0_wp            !! the first of them [s]
       real(wp), private :: t_last = 0.0_wp             !! the last of them [s]
+      real(wp), private :: first_row = huge(1.0_wp)    !! time of the first row of all [s]
+      real(wp), private :: last_row = -huge(1.0_wp)    !! of the last [s]
    contains
       procedure :: start => start_extremes
       procedure :: sample => sample_extremes
       procedure :: note => note_extremes
       procedure :: has_time
+      procedure :: has_course
+      procedure :: has_rows
       procedure :: mean => mean_of
       procedure :: shown_mean
+      procedure :: told
+      procedure :: has_values
+      procedure :: size_of
       procedure :: is_nothing
       procedure :: rms => rms_of
       procedure :: save => save_extremes
@@ -82,6 +91,8 @@ contains
       if (allocated(self%of)) deallocate (self%of)
       allocate (self%of(size(channels)))
       self%n_sample = 0
+      self%first_row = huge(1.0_wp)
+      self%last_row = -huge(1.0_wp)
    end subroutine start_extremes
 
    !> An output instant.
@@ -90,23 +101,32 @@ contains
       real(wp), intent(in) :: t                    !! time [s]
       type(catalogue_t), intent(in) :: catalogue   !! values at t
 
-      real(wp) :: half, x
+      real(wp) :: half
       integer :: k
 
       half = 0.0_wp
       if (self%n_sample > 0) half = 0.5_wp*(t - self%t_last)
       do k = 1, size(self%channels)
-         x = counted(catalogue%values(self%place(k)))
-         associate (one => self%of(k))
-            call note_one(x, t, one)
-            one%integral = one%integral + half*(x + one%last)
-            one%integral_2 = one%integral_2 + half*(x**2 + one%last**2)
-            one%last = x
+         associate (one => self%of(k), x => catalogue%values(self%place(k)))
+            if (ieee_is_finite(x) .and. ieee_is_finite(one%last)) then
+               one%integral = one%integral + half*(bounded(x) + one%last)
+               one%integral_2 = one%integral_2 + half*(bounded(x)**2 + one%last**2)
+            else
+               one%gap = one%gap + 2.0_wp*half
+            end if
+            if (ieee_is_finite(x)) then
+               call note_one(bounded(x), t, one)
+               one%last = bounded(x)
+            else
+               one%last = not_a_number()
+            end if
          end associate
       end do
       if (self%n_sample == 0) self%t_first = t
       self%n_sample = self%n_sample + 1
       self%t_last = t
+      self%first_row = min(self%first_row, t)
+      self%last_row = max(self%last_row, t)
    end subroutine sample_extremes
 
    !> Least and greatest values of a row.
@@ -115,12 +135,14 @@ contains
       real(wp), intent(in) :: t                    !! time [s]
       type(catalogue_t), intent(in) :: catalogue   !! values at t
 
-      real(wp) :: x
       integer :: k
 
+      self%first_row = min(self%first_row, t)
+      self%last_row = max(self%last_row, t)
       do k = 1, size(self%channels)
-         x = counted(catalogue%values(self%place(k)))
-         call note_one(x, t, self%of(k))
+         associate (x => catalogue%values(self%place(k)))
+            if (ieee_is_finite(x)) call note_one(bounded(x), t, self%of(k))
+         end associate
       end do
    end subroutine note_extremes
 
@@ -140,28 +162,87 @@ contains
       end if
    end subroutine note_one
 
-   !> A value that counts; of one that is no number, or has no square, nothing.
-   pure real(wp) function counted(value) result(x)
-      real(wp), intent(in) :: value   !! the value [any]
+   !> A number, bounded where it has no square.
+   pure real(wp) function bounded(x)
+      real(wp), intent(in) :: x   !! the number [any]
 
-      x = 0.0_wp
-      if (ieee_is_finite(value)) x = min(max(value, -greatest_square), greatest_square)
-   end function counted
+      bounded = min(max(x, -greatest_square), greatest_square)
+   end function bounded
 
-   !> Whether there are two instants, so that something can pass: an equilibrium is one.
+   !> What a number went through; extremes and their times are NaN if it never was one.
+   pure type(extreme_t) function told(self, k)
+      class(extremes_t), intent(in) :: self   !! what was gathered
+      integer, intent(in) :: k                !! which number
+
+      told = self%of(k)
+      if (self%has_values(k)) return
+      told%least = not_a_number()
+      told%least_time = not_a_number()
+      told%greatest = not_a_number()
+      told%greatest_time = not_a_number()
+   end function told
+
+   !> Whether a channel ever had a number.
+   pure logical function has_values(self, k)
+      class(extremes_t), intent(in) :: self   !! what was gathered
+      integer, intent(in) :: k                !! which number
+
+      has_values = self%of(k)%least <= self%of(k)%greatest
+   end function has_values
+
+   !> Whether there are rows at all.
+   pure logical function has_rows(self)
+      class(extremes_t), intent(in) :: self   !! what was gathered
+
+      has_rows = self%last_row >= self%first_row
+   end function has_rows
+
+   !> Whether there are rows of more than one instant: an equilibrium is one.
+   pure logical function has_course(self)
+      class(extremes_t), intent(in) :: self   !! what was gathered
+
+      has_course = self%last_row > self%first_row
+   end function has_course
+
+   !> Whether there are two output instants, so that there are means.
    pure logical function has_time(self)
       class(extremes_t), intent(in) :: self   !! what was gathered
 
       has_time = self%n_sample > 1 .and. self%t_last > self%t_first
    end function has_time
 
-   !> Mean of a number over the time; NaN: there is no time.
+   !> Greatest absolute value of a number, 0 if it never was one.
+   pure real(wp) function size_of(self, k)
+      class(extremes_t), intent(in) :: self   !! what was gathered
+      integer, intent(in) :: k                !! which number
+
+      size_of = 0.0_wp
+      if (self%has_values(k)) size_of = max(abs(self%of(k)%least), abs(self%of(k)%greatest))
+   end function size_of
+
+   !> Time over which a number can be averaged.
+   pure real(wp) function span_of(self, k) result(span)
+      class(extremes_t), intent(in) :: self   !! what was gathered
+      integer, intent(in) :: k                !! which number
+
+      real(wp), parameter :: round_off = 1.0e-12_wp  ! of the time [1]
+
+      span = 0.0_wp
+      if (.not. self%has_time()) return
+      span = self%t_last - self%t_first - self%of(k)%gap
+      if (span <= round_off*(self%t_last - self%t_first)) span = 0.0_wp
+   end function span_of
+
+   !> Mean of a number over the time; NaN: there is no time, or no number.
    pure real(wp) function mean_of(self, k)
       class(extremes_t), intent(in) :: self   !! what was gathered
       integer, intent(in) :: k                !! which number
 
+      real(wp) :: span
+
       mean_of = not_a_number()
-      if (self%has_time()) mean_of = self%of(k)%integral/(self%t_last - self%t_first)
+      span = span_of(self, k)
+      if (span > 0.0_wp) mean_of = self%of(k)%integral/span
    end function mean_of
 
    !> The same for people: what is round-off beside the root mean square is zero.
@@ -172,7 +253,7 @@ contains
       real(wp), parameter :: round_off = 1.0e-12_wp  ! of the root mean square [1]
 
       mean = self%mean(k)
-      if (.not. self%has_time()) return
+      if (.not. span_of(self, k) > 0.0_wp) return
       if (abs(mean) < round_off*self%rms(k)) mean = 0.0_wp
    end function shown_mean
 
@@ -181,16 +262,19 @@ contains
       class(extremes_t), intent(in) :: self   !! what was gathered
       integer, intent(in) :: k                !! which number
 
-      is_nothing = max(abs(self%of(k)%least), abs(self%of(k)%greatest)) <= 0.0_wp
+      is_nothing = self%has_values(k) .and. self%size_of(k) <= 0.0_wp
    end function is_nothing
 
-   !> Root mean square of a number over the time; NaN: there is no time.
+   !> Root mean square of a number over the time; NaN: there is no time, or no number.
    pure real(wp) function rms_of(self, k)
       class(extremes_t), intent(in) :: self   !! what was gathered
       integer, intent(in) :: k                !! which number
 
+      real(wp) :: span
+
       rms_of = not_a_number()
-      if (self%has_time()) rms_of = sqrt(self%of(k)%integral_2/(self%t_last - self%t_first))
+      span = span_of(self, k)
+      if (span > 0.0_wp) rms_of = sqrt(self%of(k)%integral_2/span)
    end function rms_of
 
    !> What the contacts of all loose joints went through between two instants.
@@ -268,7 +352,7 @@ contains
       integer :: k
 
       call tape%put(self%n_sample)
-      call tape%put([self%t_first, self%t_last])
+      call tape%put([self%t_first, self%t_last, self%first_row, self%last_row])
       do k = 1, size(self%of)
          call tape%put(transfer(self%of(k), [0.0_wp]))
       end do
@@ -285,6 +369,8 @@ contains
       call tape%get(self%n_sample)
       call tape%get(self%t_first)
       call tape%get(self%t_last)
+      call tape%get(self%first_row)
+      call tape%get(self%last_row)
       do k = 1, size(self%of)
          call tape%get(numbers)
          self%of(k) = transfer(numbers, self%of(k))

@@ -3,7 +3,8 @@
 !>
 !> Of a channel x at the output instants t_k from the end of the transient on: mean and RMS by the trapezoidal rule,
 !> $$ \bar x = \frac{1}{t_n - t_1} \sum_k \tfrac12 (x_k + x_{k+1}) (t_{k+1} - t_k), \quad x_{rms}^2 = \overline{x^2}, $$
-!> the least and the greatest value, and the peak max |x|. Contact fractions and counts come from the located events and do
+!> the least and the greatest value, and the peak max |x|. What is no number counts nowhere: means are over the time between output
+!> instants that both have one. Contact fractions and counts come from the located events and do
 !> not depend on the output instants: the fraction is the share of the time in which at least one contact of the joint is
 !> closed; an impact belongs to the window if its onset does.
 module statistics
@@ -12,6 +13,7 @@ module statistics
    use channels, only: find_scalars, item_finder_t, selection_t
    use contact_statistics, only: joint_statistics_t, joints_of, statistics_of_joints
    use event_list, only: event_list_t
+   use, intrinsic :: ieee_arithmetic, only: ieee_is_finite
    use kinds, only: not_a_number, wp
    use spectrum, only: amplitude_spectrum
    use tape, only: tape_t
@@ -60,9 +62,10 @@ module statistics
       integer, private :: n_sample = 0                    !! output instants in the window so far
       real(wp), private :: t_first = 0.0_wp               !! the first of them [s]
       real(wp), private :: t_last = 0.0_wp                !! the last of them [s]
-      real(wp), allocatable, private :: x_last(:)         !! (n) values at the last instant, SI [any]
+      real(wp), allocatable, private :: x_last(:)         !! (n) values at the last instant, SI; NaN: none [any]
       real(wp), allocatable, private :: integral(:)       !! (n) of the values [any]
       real(wp), allocatable, private :: integral_2(:)     !! (n) of their squares [any]
+      real(wp), allocatable, private :: gap(:)            !! (n) time without values [s]
       real(wp), allocatable, private :: lowest(:)         !! (n) least values [any]
       real(wp), allocatable, private :: highest(:)        !! (n) greatest values [any]
       real(wp), allocatable, private :: series(:, :)      !! (m, n_sample or more) channels of the spectra, SI [any]
@@ -99,7 +102,7 @@ contains
       call take_words(plan%channels, catalogue, sections, self%channels)
       call take_words(plan%spectra, catalogue, spectra, self%spectra)
       n = size(self%channels)
-      allocate (self%x_last(n), self%integral(n), self%integral_2(n), source=0.0_wp)
+      allocate (self%x_last(n), self%integral(n), self%integral_2(n), self%gap(n), source=0.0_wp)
       allocate (self%lowest(n), source=huge(1.0_wp))
       allocate (self%highest(n), source=-huge(1.0_wp))
       allocate (self%strobe_times(64), self%strobes(n, 64), self%series(size(self%spectra), 1024))
@@ -171,7 +174,9 @@ contains
       if (self%n_sample == 0) self%t_first = t
       do k = 1, size(self%channels)
          x = value_of(catalogue, self%channels(k))
-         if (self%n_sample > 0) then
+         if (self%n_sample > 0 .and. .not. (ieee_is_finite(x) .and. ieee_is_finite(self%x_last(k)))) then
+            self%gap(k) = self%gap(k) + step
+         else if (self%n_sample > 0) then
             self%integral(k) = self%integral(k) + 0.5_wp*step*(x + self%x_last(k))
             self%integral_2(k) = self%integral_2(k) + 0.5_wp*step*(x**2 + self%x_last(k)**2)
          end if
@@ -199,6 +204,7 @@ contains
       if (.not. self%plan%is_wanted .or. t < self%plan%after) return
       do k = 1, size(self%channels)
          x = value_of(catalogue, self%channels(k))
+         if (.not. ieee_is_finite(x)) cycle
          self%lowest(k) = min(self%lowest(k), x)
          self%highest(k) = max(self%highest(k), x)
       end do
@@ -278,19 +284,21 @@ contains
 
       type(joint_statistics_t), allocatable :: contacts(:)
       type(text_t), allocatable :: joints(:)
+      real(wp), parameter :: round_off = 1.0e-12_wp  ! of the time [1]
       real(wp) :: span, values(n_of_joint)
       integer :: k
 
       allocate (list(0))
       if (.not. self%plan%is_wanted) return
       call names_of_numbers(self%channels, catalogue, list)
-      span = self%t_last - self%t_first
       do k = 1, size(self%channels)
          if (self%n_sample == 0) exit
+         if (self%lowest(k) > self%highest(k)) cycle
+         span = self%t_last - self%t_first - self%gap(k)
          list(n_of_channel*(k - 1) + 3)%value = max(abs(self%lowest(k)), abs(self%highest(k)))
          list(n_of_channel*(k - 1) + 4)%value = self%lowest(k)
          list(n_of_channel*(k - 1) + 5)%value = self%highest(k)
-         if (span <= 0.0_wp) cycle
+         if (span <= round_off*(self%t_last - self%t_first)) cycle
          list(n_of_channel*(k - 1) + 1)%value = self%integral(k)/span
          list(n_of_channel*(k - 1) + 2)%value = sqrt(self%integral_2(k)/span)
       end do
@@ -353,7 +361,8 @@ contains
 
       if (.not. self%plan%is_wanted) return
       call tape%put([self%n_strobe, self%n_sample])
-      call tape%put([self%t_first, self%t_last, self%x_last, self%integral, self%integral_2, self%lowest, self%highest])
+      call tape%put([self%t_first, self%t_last, self%x_last, self%integral, self%integral_2, self%gap, self%lowest, &
+                     self%highest])
       do k = 1, self%n_strobe
          call tape%put([self%strobe_times(k), self%strobes(:, k)])
       end do
@@ -377,6 +386,7 @@ contains
       call tape%get(self%x_last)
       call tape%get(self%integral)
       call tape%get(self%integral_2)
+      call tape%get(self%gap)
       call tape%get(self%lowest)
       call tape%get(self%highest)
       self%n_strobe = 0

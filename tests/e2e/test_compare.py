@@ -120,6 +120,22 @@ def test_own_files_as_columns(gudgeon):
     assert len(channels) == 5 and found["different"] == 0
 
 
+def test_requests_and_points_are_compared(gudgeon):
+    """Channels of requests and of named points are channels like any other; rows of contacts in a file of the run are not compared."""
+    folder = scratch()
+    text = plain_deck([("analysis.dynamic", "end", "4 ms"), ("output", "every", "20 us"), ("output", "channels", "slider.position request.twice small.*")])
+    text = text.replace("[parameters]", "[parameters]\nfactor = 2", 1)
+    deck = written(folder, text + "\n[request]\nname  value  unit\ntwice  {factor*slider.position.x}  m\n")
+    for name, factor in (("a", "2"), ("b", "3")):
+        call(gudgeon, "run", deck, "--set", f"factor={factor}", "--out", folder / "outputs" / name, "--quiet")
+    done = call(gudgeon, "compare", folder / "outputs" / "a", folder / "outputs" / "b", "--json", expect=1, cwd=folder)
+    found = json.loads(done.stdout)
+    names = {entry["channel"] for entry in found["channels"]}
+    assert {"request.twice", "small.position.x", "small.velocity.y", "slider.position.x"} <= names and found["different"] == 1
+    own = call(gudgeon, "compare", folder / "outputs" / "a", folder / "outputs" / "a" / "slider.dat", "--json", expect=0, cwd=folder)
+    assert json.loads(own.stdout)["different"] == 0
+
+
 def test_runs_against_each_other(gudgeon):
     """Settings that differ, impacts in pairs; --legacy takes fixed steps and the book's procedures; statistics of a chaotic motion."""
     folder = scratch()

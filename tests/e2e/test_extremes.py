@@ -69,6 +69,29 @@ def test_harmonic_motion(gudgeon):
     assert_close(found["arm.angular_velocity"]["rms"], 0.3 * 2 * math.pi / math.sqrt(2), relative=1e-9)
 
 
+def test_what_is_no_number(gudgeon):
+    """x = 0.3 sin(2 pi t): log(-x) has numbers in the second half only, sqrt(-1 - x^2) never; neither counts where it has none."""
+    text = SWING.replace("channels = arm.angle", "channels = request.half request.never arm.angle")
+    text += "[request]\nname   value   unit\nhalf  {log(-arm.angle)}  1\nnever  {sqrt(-1 - arm.angle^2)}  1\n"
+    text += "[statistics]\nafter = 0 s\nchannels = request.half request.never\n"
+    directory = scratch()
+    call(gudgeon, "run", written(directory, text), "--out", directory / "out", "--quiet", "--write", "channels")
+    run = Run(directory / "out")
+    found = {entry["channel"]: entry for entry in run.summary["extremes"]}
+    t, x = run.read("time"), run.read("requests/half")
+    has = np.isfinite(x)
+    assert 400 < has.sum() < 600 and not np.isfinite(run.read("requests/never")).any()
+    half, never, numbers = found["request.half"], found["request.never"], run.summary["statistics"]
+    assert (half["least"], half["greatest"]) == (x[has].min(), x[has].max())
+    mean = np.trapz(x[has], t[has]) / (t[has][-1] - t[has][0])
+    assert_close(half["mean"], mean, 1e-12)
+    assert_close(half["rms"], math.sqrt(np.trapz(x[has] ** 2, t[has]) / (t[has][-1] - t[has][0])), 1e-12)
+    assert {never[key] for key in ("least", "least_time", "greatest", "greatest_time", "mean", "rms")} == {None}
+    assert_close([numbers["request.half.min"], numbers["request.half.max"], numbers["request.half.mean"]], [x[has].min(), x[has].max(), mean], 1e-12)
+    assert {numbers[f"request.never.{word}"] for word in ("mean", "rms", "peak", "min", "max")} == {None}
+    assert "1 without a number" in (directory / "out" / "summary.txt").read_text()
+
+
 def test_extremes_of_rows(gudgeon):
     """Least and greatest of all rows, mean and RMS of the output instants."""
     run = crank(gudgeon)

@@ -105,7 +105,7 @@ def test_layout_describes_itself(gudgeon):
 
 
 def test_killed_run_is_readable(gudgeon):
-    """After SIGKILL run.h5 opens, says `running`, and holds what was written."""
+    """After SIGKILL run.h5 opens, says `running`, and holds what was written; the time grows last, so that others may have more rows."""
     directory = scratch()
     deck = written(directory, plain_deck(LONG))
     process = start(gudgeon, deck, directory / "out")
@@ -117,7 +117,7 @@ def test_killed_run_is_readable(gudgeon):
         assert plain(file.attrs["status"]) == "running"
         n = len(file["time"])
         assert n > 500
-        assert len(file["bodies/position"]) == len(file["row_kind"]) == n
+        assert min(len(file["bodies/position"]), len(file["row_kind"])) >= n
     assert_close(killed.time, 5e-6 * np.arange(len(killed.time)), absolute=1e-12, what="time")
     whole = finished(gudgeon).item("bodies/position", "slider")[:100]
     assert_close(killed.item("bodies/position", "slider")[:200:2], whole, absolute=1e-11, what="position")

@@ -217,6 +217,8 @@ def test_stop_where_there_is_a_row(gudgeon):
     assert list(met.rows("time")) == [0.0] and met.summary["stop_rows"] == 0
     early = run(gudgeon, changed(guarded(FALL, "stop = ball.position.y < -3 m"), "output", **{"from": "1 s"}))
     assert len(early.rows("time")) == 0 and early.summary["stop_rows"] == 0
+    assert any("no row" in words for words in early.summary["warnings"])
+    assert {entry["greatest"] for entry in early.summary["extremes"]} == {None}
 
 
 def test_stop_within_a_step(gudgeon):
@@ -225,6 +227,54 @@ def test_stop_within_a_step(gudgeon):
     stopped = run(gudgeon, text)
     assert_close(stopped.summary["time_end"], (1.5 * math.pi - math.acos(0.9999)) / 10, absolute=1e-7)
     assert_close(stop_row(stopped, "bodies/position")[0, 0], 1e-4, absolute=1e-12)
+
+
+WHEEL = """deck = 1
+[bodies]
+name   mass[kg]  inertia[kg.m^2]  x[m]  y[m]  omega[rad/s]
+wheel  1         1                0     0     100
+[points]
+name  body    xi[m]  eta[m]
+hub   ground  0      0
+axle  wheel   0      0
+tip   wheel   1      0
+[joint.revolute]
+name  i    j
+pin   hub  axle
+[request]
+name   value             unit
+swing  {sin(700*t/1s)}   1
+[analysis.dynamic]
+end = 1 s
+[output]
+every    = 1 ms
+channels = tip.position request.swing
+"""
+
+
+@pytest.mark.parametrize("method", ["verner", "dop853", "radau", "rock4", "adams", "bdf", "ida"])
+def test_stop_within_turns_of_a_step(gudgeon, method):
+    """A free wheel goes round in few steps: the first time that its tip is above 0.9 m, or a request above 0.99, ends the run."""
+    stopped = run(gudgeon, guarded(WHEEL, "stop = tip.position.y > 0.9 m"), "--method", method)
+    assert_close(stopped.summary["time_end"], math.asin(0.9) / 100, absolute=1e-9)
+    swung = run(gudgeon, guarded(WHEEL, "stop = request.swing > 0.99"), "--method", method)
+    assert (swung.read("requests/swing") <= 0.99 + 1e-12).all() and swung.summary["time_end"] < 1
+    tall = run(gudgeon, guarded(WHEEL, "stop = tip.position.y > 1.0001 m"), "--method", method)
+    assert tall.summary["time_end"] == 1.0
+
+
+@pytest.mark.parametrize("method", ["verner", "dop853", "radau", "rock4", "adams", "bdf", "ida"])
+def test_stop_within_a_contact(gudgeon, method):
+    """The event table ends where the run ends: greatest force, penetration and impulse are those up to there."""
+    text = changed(FALL, "scene", gravity="0 0 m/s^2").replace("0     0     0\n[points]", "0     -4.979  0\n[points]")
+    text = text.replace("vx[m/s]", "vy[m/s]").replace("-4.979  0\n", "-4.979  -0.3\n") + BALL
+    text = changed(guarded(text, "stop = plate.normal_force > 1 kN", "strength = off"), "output", every="1 us")
+    stopped = run(gudgeon, changed(text, "analysis.dynamic", end="20 ms"), "--method", method, "--tolerance", "1e-10")
+    contact, end = stopped.contacts, stopped.summary["time_end"]
+    assert_close(contact["peak_force"][0], 1000.0, relative=1e-9)
+    assert contact["peak_force_time"][0] <= end and contact["peak_penetration_time"][0] <= end
+    assert_close(contact["impulse"][0], 2 * (stopped.rows("bodies/velocity")[-1, 0, 1] + 0.3), absolute=1e-8)
+    assert contact["peak_penetration"][0] == stopped.rows("clearances/contacts/penetration")[-1, 0]
 
 
 def test_stop_at_the_start_and_never(gudgeon):

@@ -353,6 +353,17 @@ def test_jump_of_a_driver(gudgeon):
     assert_close(result.time[-1], 0.105, absolute=1.001e-3, what="last instant saved")
 
 
+def test_what_it_does_not_know_is_told(gudgeon):
+    """Guards, statistics and ensembles are of motions in time: a warning says that they are left out; --member is refused."""
+    directory = scratch()
+    text = four_bar() + "[guards]\nstop = crank.angle > 1 rad\n[statistics]\nchannels = crank.angle\n"
+    deck = written(directory, text)
+    done = call(gudgeon, "run", deck, "--out", directory / "out", "--write", "channels")
+    told = Run(directory / "out", done).summary["warnings"]
+    assert [words for words in told if "[guards] left out" in words] and [words for words in told if "[statistics] left out" in words]
+    assert "--member" in call(gudgeon, "run", deck, "--member", "1", expect=2).stderr
+
+
 def test_no_work_channels(gudgeon):
     """What only an integration can give is no channel of a kinematic run."""
     text = changed(four_bar(), "output", channels="energy.drive_work")

@@ -136,6 +136,59 @@ def test_parameters_keep_it_closed(gudgeon, option):
         assert abs(energy["dissipated_friction"][-1]) < 1e-12 * scale
 
 
+TIED = """deck = 1
+[scene]
+gravity = 0 0 m/s^2
+[bodies]
+name   mass[kg]  inertia[kg.m^2]  x[m]  y[m]
+arm    1         0.01             0.2   0
+block  1         0.01             0.6   0
+[points]
+name  body    xi[m]  eta[m]
+o     ground  0      0
+a     arm     -0.2   0
+tip   arm     0.3    0
+w     block   0      0
+b0    ground  0.6    0
+b1    block   0      1
+b2    ground  1.6    1
+[joint.revolute]
+name   i   j
+pin    o   a
+pivot  b0  w
+[joint.distance]
+name  i   j
+link  b1  b2
+[driver.speed]
+name  joint  speed
+mot   pin    20rad/s
+[force.spring]
+name  i  j    stiffness[N/m]  free_length[m]  damping[N.s/m]
+sp    w  tip  1000            0.1             5
+[analysis.dynamic]
+end       = 2 s
+tolerance = 1e-9
+[output]
+every    = 0.1 s
+channels = energy.dissipated_damper energy.drive_work
+"""
+
+
+@pytest.mark.parametrize("method, near", [("verner", 1e-6), ("dop853", 1e-6), ("radau", 1e-5), ("rock4", 1e-4)])
+def test_work_on_what_cannot_move(gudgeon, method, near):
+    """A driven arm pulls at a block that is held: no state has an error, and the works are those of the closed motion."""
+    directory = scratch()
+    call(gudgeon, "run", written(directory, TIED), "--method", method, "--out", directory / "out", "--quiet", "--write", "channels")
+    run = Run(directory / "out")
+    t = np.linspace(0, 2, 200001)
+    length = np.sqrt(0.25 + 0.36 - 0.6 * np.cos(20 * t))
+    rate = 6 * np.sin(20 * t) / length
+    loss = np.trapz(5 * rate**2, t)
+    stored = 500 * ((length[-1] - 0.1) ** 2 - (length[0] - 0.1) ** 2)
+    assert_close(run.read("energy/dissipated_damper").ravel()[-1], loss, relative=near)
+    assert_close(run.read("energy/drive_work").ravel()[-1], loss + stored, relative=near)
+
+
 def test_hertz_gives_back_what_it_got(gudgeon):
     """With Hertz' law the first impact loses nothing and leaves the elastic energy at zero."""
     run = finished(gudgeon, "--tolerance", "1e-10", "--set", "law=hertz", changes=ALL)

@@ -1,0 +1,116 @@
+!> Paths of very many points, as orbits and portraits of long runs have: what a picture can show of them.
+!>
+!> Points nearer to the last one than a part of a pixel are left out, and the line is written in short pieces, each from where
+!> the one before ends: gnuplot takes minutes for a line of a hundred thousand points in one piece. A line that crosses the
+!> picture thousands of times would fill it, and take as long: of such a path the points are drawn. The more there is of either
+!> the more transparent it is, so that where the path passes often is seen among the rest.
+module path_data
+   use errors, only: error_t
+   use figure_data, only: curve_t, open_columns
+   use, intrinsic :: ieee_arithmetic, only: ieee_is_nan
+   use kinds, only: wp
+   use number_rows, only: number_rows_t
+   use text, only: text_t
+   use text_buffer, only: buffer_t
+   use text_file, only: write_file
+   implicit none (type, external)
+   private
+   public :: make_path, path_t
+
+   integer, parameter :: most_rows = 20000          !! of the run's own table that gnuplot draws as it is
+   integer, parameter :: piece_length = 200         !! points of a piece
+   real(wp), parameter :: opaque_line = 100.0_wp    !! a line that crosses the picture less often is not transparent [1]
+   real(wp), parameter :: longest_line = 3000.0_wp  !! of a line that crosses it more often the points are drawn [1]
+   real(wp), parameter :: opaque_points = 1.0e5_wp  !! fewer points are not transparent [1]
+   real(wp), parameter :: nearest = 5.0e-4_wp       !! distance of points, of the path's extent: half a pixel [1]
+   real(wp), parameter :: most_transparent = 0.85_wp !! transparency of a very long path [1]
+
+   !> A path for a picture.
+   type :: path_t
+      logical :: is_used = .false.            !! it is drawn in place of the run's own table
+      character(:), allocatable :: file       !! table of two columns, beside the script
+      character(2) :: alpha = ""              !! transparency, as colours of gnuplot have it
+      character(:), allocatable :: style      !! how it is drawn
+   end type path_t
+
+contains
+
+   !> Make the table of a path with too many points for the run's own.
+   subroutine make_path(folder, name, heading, curve, n_row, path, error)
+      character(*), intent(in) :: folder                 !! of the figures
+      character(*), intent(in) :: name                   !! of the figure
+      character(*), intent(in) :: heading                !! lines with `#` for the table
+      type(curve_t), intent(in) :: curve                 !! file and columns of the path
+      integer, intent(in) :: n_row                       !! rows of that file
+      type(path_t), intent(out) :: path                  !! what there is
+      type(error_t), allocatable, intent(out) :: error   !! the table cannot be written
+
+      type(number_rows_t) :: rows
+      type(text_t), allocatable :: labels(:)
+      real(wp), allocatable :: row(:)
+      type(buffer_t) :: lines
+      real(wp) :: crossings, extent(2), fill, last(2)
+      integer :: in_piece, n
+      logical :: is_open
+
+      if (n_row <= most_rows) return
+      call open_columns(folder//"/"//curve%path, rows, labels, is_open)
+      if (.not. is_open) return
+      allocate (row(size(labels)))
+      path%file = name//".path.dat"
+      call lines%line("# "//labels(curve%x)%s//" "//labels(curve%y)%s)
+      call lines%add(heading)
+      call lines%line("# the path in pieces, without points nearer than half a pixel, SI")
+      extent = [curve%x_range(2) - curve%x_range(1), curve%y_range(2) - curve%y_range(1)]
+      last = huge(1.0_wp)
+      crossings = 0.0_wp
+      in_piece = 0
+      n = 0
+      do while (rows%next(row))
+         associate (point => [row(curve%x), row(curve%y)])
+            if (any(ieee_is_nan(point))) then
+               if (in_piece > 0) call lines%line("")  ! a gap
+               in_piece = 0
+               last = huge(1.0_wp)
+               cycle
+            end if
+            if (in_piece > 0) then
+               if (all(abs(point - last) <= nearest*extent)) cycle
+               crossings = crossings + maxval(abs(point - last)/max(extent, tiny(1.0_wp)))
+            end if
+            if (in_piece == piece_length) then
+               call lines%line("")
+               call add_point(lines, last)
+               in_piece = 1
+            end if
+            call add_point(lines, point)
+            last = point
+            in_piece = in_piece + 1
+            n = n + 1
+         end associate
+      end do
+      call rows%close()
+      call write_file(folder//"/"//path%file, lines%get(), error)
+      path%is_used = n > 0 .and. .not. allocated(error)
+      if (crossings > longest_line) then
+         path%style = "dots"
+         fill = opaque_points/max(n, 1)
+      else
+         path%style = "lines linewidth 1"
+         fill = opaque_line/max(crossings, 1.0_wp)
+      end if
+      write (path%alpha, "(z2.2)") nint(255*min(most_transparent, max(0.0_wp, 1.0_wp - fill)))
+   end subroutine make_path
+
+   !> A line of the table.
+   subroutine add_point(lines, point)
+      type(buffer_t), intent(inout) :: lines   !! the table
+      real(wp), intent(in) :: point(2)         !! (2) abscissa and ordinate, SI [any]
+
+      character(36) :: numbers
+
+      write (numbers, "(es17.9e3, 1x, es17.9e3)") point
+      call lines%line(numbers)
+   end subroutine add_point
+
+end module path_data
