@@ -20,7 +20,7 @@ module dynamic
    use run_tally, only: run_tally_t
    use sampling, only: new_sampler, sampler_t
    use saved_run, only: saved_run_t, wish_nothing, wish_stop
-   use stop_condition, only: stop_t
+   use stop_condition, only: cut_step, stop_t
    use subsystems, only: subsystem_t
    use time_plan, only: time_plan_t
    use whole_motion, only: new_whole_motion, whole_motion_t
@@ -291,7 +291,7 @@ contains
          if (run%stop%met > 0) then
             run%sampler%until = run%stop%t
             part%status = advance_step
-            if (status == 0 .and. run%stop%t < part%method%t) call part%method%cut(part%system, run%stop%t, status)
+            if (status == 0 .and. run%stop%t < part%method%t) call cut_step(part%system, part%method, run%stop%t, status)
          end if
          if (status /= 0) call describe_failure(part%system, part%method, advance_failed_evaluation, error)
       end associate

@@ -16,7 +16,7 @@ module stop_condition
    use text, only: real_text
    implicit none (type, external)
    private
-   public :: stop_t
+   public :: cut_step, stop_t
 
    integer, parameter :: n_halving = 50        !! halvings of a step
    real(wp), parameter :: most_turn = 0.2_wp   !! of a body between places that are looked at [rad]
@@ -198,6 +198,23 @@ contains
       end subroutine values_at
 
    end subroutine stop_look
+
+   !> End the last step at a time within it, where the motion is over: by interpolation, so that nothing goes on from there.
+   subroutine cut_step(system, method, t, status)
+      type(mechanism_t), intent(inout) :: system     !! the system; at the end of what remains afterwards
+      class(integrator_t), intent(inout) :: method   !! the integrator, after a step
+      real(wp), intent(in) :: t                      !! the time [s]
+      integer, intent(out) :: status                 !! of the evaluation there
+
+      real(wp) :: y(system%n)
+
+      call method%reach(system, t, y)
+      method%step%y1 = y
+      method%step%h = t - method%step%t0
+      method%step%has_inner = .false.
+      method%t = t
+      call system%evaluate(t, method%step%y1, method%step%f1, status)
+   end subroutine cut_step
 
    !> How far each channel is beyond its limit.
    pure function beyond(self, catalogue) result(values)

@@ -29,38 +29,14 @@ contains
 
    !> Values that are read: those of the contacts and the force on j here, others as the geometry has them.
    module procedure point_report
+      type(point_contact_t) :: contacts(1)
+
       if (self%n_contact_item == 1) then  ! nothing is made ready for sixteen
-         call report_single(self, readings, motion, values)
+         call report_items(self, readings, motion, 1, contacts, values)
       else
          call report_several(self, readings, motion, values)
       end if
    end procedure point_report
-
-   !> Items of one contact. A contact that the evaluation found is told from there.
-   subroutine report_single(self, readings, motion, values)
-      class(point_contacts_t), intent(in) :: self       !! the set
-      type(readings_t), intent(in) :: readings          !! channels that are read
-      type(motion_t), intent(in) :: motion              !! positions and velocities
-      real(wp), intent(inout), contiguous :: values(:)  !! (any) of the catalogue, those that are read are set [any]
-
-      type(point_contact_t) :: contacts(1)
-      real(wp) :: f_elastic(most_of_item), f_n(most_of_item), f_t(most_of_item)
-      integer :: item
-      logical :: takes_over
-
-      takes_over = is_evaluated(self, readings, motion)
-      do item = 1, self%n
-         if (takes_over .and. (self%contact(item)%is_touching .or. self%laws%normal%acts_apart)) then
-            associate (work => self%work)
-               call report_item(self, readings, motion, item, 1, work%contacts(item), work%f_n(item), work%f_t(item), &
-                                work%f_elastic(item), values)
-            end associate
-         else
-            call find_item(self, readings, takes_over, item, 1, motion, contacts, f_n, f_t, f_elastic)
-            call report_item(self, readings, motion, item, 1, contacts, f_n, f_t, f_elastic, values)
-         end if
-      end do
-   end subroutine report_single
 
    !> Items of several contacts.
    subroutine report_several(self, readings, motion, values)
@@ -70,16 +46,36 @@ contains
       real(wp), intent(inout), contiguous :: values(:)  !! (any) of the catalogue, those that are read are set [any]
 
       type(point_contact_t) :: contacts(most_of_item)
+
+      call report_items(self, readings, motion, self%n_contact_item, contacts, values)
+   end subroutine report_several
+
+   !> All items. The contact of an item that has one is told from where the evaluation found it.
+   subroutine report_items(self, readings, motion, n, contacts, values)
+      class(point_contacts_t), intent(in) :: self           !! the set
+      type(readings_t), intent(in) :: readings              !! channels that are read
+      type(motion_t), intent(in) :: motion                  !! positions and velocities
+      integer, intent(in) :: n                              !! contacts of an item
+      type(point_contact_t), intent(inout) :: contacts(n)   !! (n) scratch
+      real(wp), intent(inout), contiguous :: values(:)      !! (any) of the catalogue, those that are read are set [any]
+
       real(wp) :: f_elastic(most_of_item), f_n(most_of_item), f_t(most_of_item)
       integer :: item
       logical :: takes_over
 
       takes_over = is_evaluated(self, readings, motion)
       do item = 1, self%n
-         call find_item(self, readings, takes_over, item, self%n_contact_item, motion, contacts, f_n, f_t, f_elastic)
-         call report_item(self, readings, motion, item, self%n_contact_item, contacts, f_n, f_t, f_elastic, values)
+         if (n == 1 .and. takes_over .and. (self%contact(item)%is_touching .or. self%laws%normal%acts_apart)) then
+            associate (work => self%work)
+               call report_item(self, readings, motion, item, 1, work%contacts(item), work%f_n(item), work%f_t(item), &
+                                work%f_elastic(item), values)
+            end associate
+         else
+            call find_item(self, readings, takes_over, item, n, motion, contacts, f_n, f_t, f_elastic)
+            call report_item(self, readings, motion, item, n, contacts, f_n, f_t, f_elastic, values)
+         end if
       end do
-   end subroutine report_several
+   end subroutine report_items
 
    !> Whether the last evaluation found what is read of contacts at this motion. Not for friction that contacts remember: it may be
    !> found with the accelerations.
@@ -105,14 +101,9 @@ contains
       real(wp), intent(out) :: f_t(n)                       !! (n) friction forces on j along t [N]
       real(wp), intent(out) :: f_elastic(n)                 !! (n) elastic parts of the normal forces [N]
 
-      integer :: m
-
-      do m = 1, readings%n
-         associate (code => readings%of(m)%code)
-            if (code <= of_contact_point .or. code == of_moment .or. code >= of_contact_angle) exit
-         end associate
-      end do
-      if (m > readings%n) return
+      associate (code => readings%of(:readings%n)%code)
+         if (.not. any(code <= of_contact_point .or. code == of_moment .or. code >= of_contact_angle)) return
+      end associate
       if (takes_over) then
          call take_evaluated(self, (item - 1)*n, n, motion, contacts, f_n, f_t, f_elastic)
       else

@@ -98,7 +98,6 @@ module integrator
       procedure :: within => integrator_within
       procedure, non_overridable :: state_at => integrator_state_at
       procedure :: reach => integrator_reach
-      procedure, non_overridable :: cut => integrator_cut
       procedure :: list_memory => integrator_list_memory
       procedure, nopass :: memory_version => integrator_memory_version
       procedure :: memory_size => integrator_memory_size
@@ -274,23 +273,6 @@ contains
       if (t < self%t .and. .not. self%step%has_inner) call self%prepare_output(system, status)
       call self%state_at(system, t, y)
    end subroutine integrator_reach
-
-   !> End the last step at a time within it, where the motion is over: by interpolation, so that nothing goes on from there.
-   subroutine integrator_cut(self, system, t, status)
-      class(integrator_t), intent(inout) :: self    !! the integrator
-      class(ode_system_t), intent(inout) :: system  !! the system; at the end of what remains afterwards
-      real(wp), intent(in) :: t                     !! the time [s]
-      integer, intent(out) :: status                !! of the evaluation there
-
-      real(wp) :: y(system%n)
-
-      call self%reach(system, t, y)
-      self%step%y1 = y
-      self%step%h = t - self%step%t0
-      self%step%has_inner = .false.
-      self%t = t
-      call system%evaluate(t, self%step%y1, self%step%f1, status)
-   end subroutine integrator_cut
 
    !> State at a place of the last step, by interpolation; quadratures that nobody wants are left alone.
    subroutine integrator_within(self, system, s, y)

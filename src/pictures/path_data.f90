@@ -49,7 +49,7 @@ contains
       type(text_t), allocatable :: labels(:)
       real(wp), allocatable :: row(:)
       type(buffer_t) :: lines
-      real(wp) :: crossings, extent(2), fill, last(2)
+      real(wp) :: crossings, extent(2), last(2)
       integer :: in_piece, n
       logical :: is_open
 
@@ -92,6 +92,17 @@ contains
       call rows%close()
       call write_file(folder//"/"//path%file, lines%get(), error)
       path%is_used = n > 0 .and. .not. allocated(error)
+      call choose_style(crossings, n, path)
+   end subroutine make_path
+
+   !> Line or points, and how transparent.
+   subroutine choose_style(crossings, n, path)
+      real(wp), intent(in) :: crossings    !! how often the line crosses the picture [1]
+      integer, intent(in) :: n             !! points
+      type(path_t), intent(inout) :: path  !! its style is set
+
+      real(wp) :: fill
+
       if (crossings > longest_line) then
          path%style = "dots"
          fill = opaque_points/max(n, 1)
@@ -100,7 +111,7 @@ contains
          fill = opaque_line/max(crossings, 1.0_wp)
       end if
       write (path%alpha, "(z2.2)") nint(255*min(most_transparent, max(0.0_wp, 1.0_wp - fill)))
-   end subroutine make_path
+   end subroutine choose_style
 
    !> A line of the table.
    subroutine add_point(lines, point)

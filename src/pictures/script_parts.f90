@@ -4,7 +4,7 @@ module script_parts
    use figure_data, only: curve_t
    use kinds, only: wp
    use path_data, only: path_t
-   use text, only: exact_text, real_text, to_text
+   use text, only: exact_text, piece, real_text, to_text
    use text_buffer, only: buffer_t
    implicit none (type, external)
    private
@@ -186,14 +186,15 @@ contains
       character(*), intent(in) :: title      !! as `title 'orbit'`, or `notitle`
       character(:), allocatable :: s         !! as `'../gudgeon.dat' using 2:3 with lines ...`
 
-      character(:), allocatable :: columns
+      character(:), allocatable :: colour, columns
 
       if (.not. thinned%is_used) then
          s = source(curve, axes)//" with lines linewidth 1 linecolor rgb '"//colours(1)//"' "//title
          return
       end if
       columns = " using "//scaled(1, axes%x%factor)//":"//scaled(2, axes%y%factor)
-      s = "'"//thinned%file//"'"//columns//" with "//thinned%style//" linecolor rgb '#"//thinned%alpha//colours(1)(2:)//"' "
+      colour = "#"//thinned%alpha//piece(colours(1), 2)
+      s = "'"//thinned%file//"'"//columns//" with "//thinned%style//" linecolor rgb '"//colour//"' "
       if (thinned%style /= "dots") then
          s = s//title
       else  ! a dot cannot be seen in a legend: the first point stands there

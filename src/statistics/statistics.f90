@@ -3,10 +3,9 @@
 !>
 !> Of a channel x at the output instants t_k from the end of the transient on: mean and RMS by the trapezoidal rule,
 !> $$ \bar x = \frac{1}{t_n - t_1} \sum_k \tfrac12 (x_k + x_{k+1}) (t_{k+1} - t_k), \quad x_{rms}^2 = \overline{x^2}, $$
-!> the least and the greatest value, and the peak max |x|. What is no number counts nowhere: means are over the time between output
-!> instants that both have one. Contact fractions and counts come from the located events and do
-!> not depend on the output instants: the fraction is the share of the time in which at least one contact of the joint is
-!> closed; an impact belongs to the window if its onset does.
+!> the least and the greatest value, and the peak max |x|. What is no number counts nowhere: means are over the time between
+!> output instants that both have one. Contact fractions and counts come from the events: the fraction is the share of the time
+!> in which at least one contact of the joint is closed; an impact belongs to the window if its onset does.
 module statistics
    use catalogue, only: catalogue_t
    use channel_names, only: scalar_name, scalar_t
@@ -292,15 +291,13 @@ contains
       if (.not. self%plan%is_wanted) return
       call names_of_numbers(self%channels, catalogue, list)
       do k = 1, size(self%channels)
-         if (self%n_sample == 0) exit
          if (self%lowest(k) > self%highest(k)) cycle
          span = self%t_last - self%t_first - self%gap(k)
-         list(n_of_channel*(k - 1) + 3)%value = max(abs(self%lowest(k)), abs(self%highest(k)))
-         list(n_of_channel*(k - 1) + 4)%value = self%lowest(k)
-         list(n_of_channel*(k - 1) + 5)%value = self%highest(k)
-         if (span <= round_off*(self%t_last - self%t_first)) cycle
-         list(n_of_channel*(k - 1) + 1)%value = self%integral(k)/span
-         list(n_of_channel*(k - 1) + 2)%value = sqrt(self%integral_2(k)/span)
+         associate (low => self%lowest(k), high => self%highest(k), first => n_of_channel*(k - 1))
+            list(first + 3:first + 5)%value = [max(abs(low), abs(high)), low, high]
+            if (span <= round_off*(self%t_last - self%t_first)) cycle
+            list(first + 1:first + 2)%value = [self%integral(k)/span, sqrt(self%integral_2(k)/span)]
+         end associate
       end do
       joints = joints_of(catalogue)
       call statistics_of_joints(joints, events, self%plan%after, t_end, contacts)
@@ -361,8 +358,7 @@ contains
 
       if (.not. self%plan%is_wanted) return
       call tape%put([self%n_strobe, self%n_sample])
-      call tape%put([self%t_first, self%t_last, self%x_last, self%integral, self%integral_2, self%gap, self%lowest, &
-                     self%highest])
+      call tape%put([self%t_first, self%t_last, self%x_last, self%integral, self%integral_2, self%gap, self%lowest, self%highest])
       do k = 1, self%n_strobe
          call tape%put([self%strobe_times(k), self%strobes(:, k)])
       end do
