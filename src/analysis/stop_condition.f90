@@ -4,7 +4,8 @@
 !> its start has a maximum beyond the limit, there too. A step with output instants in it, or in which a body turns far, is
 !> looked at in so many parts, so that no row of the run is beyond a limit before its end. The time is located by halving on the
 !> interpolant of the step. A channel that jumps is met at the jump; what is no number meets nothing. Limits: a channel that
-!> passes its limit and comes back twice between two output instants, with no body turning, within one step.
+!> passes its limit and comes back twice between two output instants, with no body turning, within one step; bodies that turn
+!> by more than 2000 rad in a step; `energy.residual` is that of the step before.
 module stop_condition
    use, intrinsic :: ieee_arithmetic, only: ieee_is_nan
    use catalogue, only: catalogue_t
@@ -20,6 +21,7 @@ module stop_condition
 
    integer, parameter :: n_halving = 50        !! halvings of a step
    real(wp), parameter :: most_turn = 0.2_wp   !! of a body between places that are looked at [rad]
+   real(wp), parameter :: most_parts = 1.0e4_wp  !! of a step that are looked at for turning bodies [1]
    real(wp), parameter :: greatest = 1.0e150_wp  !! numbers beyond it have no square [any]
 
    !> One condition.
@@ -92,10 +94,10 @@ contains
       integer, intent(out) :: status                    !! 0: looked at
 
       real(wp), dimension(self%n) :: at_end, before
-      real(wp) :: left, right, turning
+      real(wp) :: left, parts, right, turning
 
       if (.not. allocated(self%before)) then
-         call values_at(1.0_wp, before)
+         call values_at(1.0_wp, before, status)
          self%before = before
          self%turning = greatest_turning()
          if (.not. any(before > 0.0_wp)) return
@@ -104,21 +106,22 @@ contains
          return
       end if
       call method%prepare_output(system, status)
-      if (status == 0) call values_at(1.0_wp, at_end)
+      if (status == 0) call values_at(1.0_wp, at_end, status)
       if (status /= 0) return
       turning = max(self%turning, greatest_turning())
       self%turning = greatest_turning()
       before = self%before
       left = 0.0_wp
       do while (left < 1.0_wp)
-         right = min(left + 1.0_wp/real(max(1, ceiling(turning*method%step%h/most_turn)), wp), next_row(left))
+         parts = max(1.0_wp, min(turning*method%step%h/most_turn, most_parts))
+         right = min(left + 1.0_wp/parts, next_row(left))
          if (right > 1.0_wp - epsilon(1.0_wp)) right = 1.0_wp
          call look_between(left, right, before, status)
          if (status /= 0 .or. self%met > 0) return
          left = right
       end do
       self%before = before
-      call values_at(1.0_wp, at_end)
+      call values_at(1.0_wp, at_end, status)
 
    contains
 
@@ -149,8 +152,8 @@ contains
          real(wp) :: bend, high, low, place, slope
          integer :: i, k
 
-         call values_at(0.5_wp*(left + right), middle)
-         if (status == 0) call values_at(right, at_right)
+         call values_at(0.5_wp*(left + right), middle, status)
+         if (status == 0) call values_at(right, at_right, status)
          if (status /= 0) return
          high = huge(1.0_wp)
          if (any(at_right > 0.0_wp)) high = right
@@ -161,7 +164,7 @@ contains
             if (.not. bend < 0.0_wp) cycle
             place = left - 0.5_wp*(right - left)*slope/bend
             if (place <= left .or. place >= min(high, right) .or. before(k) - 0.25_wp*slope**2/bend <= 0.0_wp) cycle
-            call values_at(place, here)
+            call values_at(place, here, status)
             if (status /= 0) return
             if (any(here > 0.0_wp)) high = place
          end do
@@ -170,7 +173,7 @@ contains
          low = left
          do i = 1, n_halving
             place = 0.5_wp*(low + high)
-            call values_at(place, here)
+            call values_at(place, here, status)
             if (status /= 0) return
             if (any(here > 0.0_wp)) then
                high = place
@@ -178,15 +181,17 @@ contains
                low = place
             end if
          end do
-         call values_at(high, here)
+         call values_at(high, here, status)
          self%met = maxloc(here, dim=1)
          self%t = merge(method%t, method%step%t0 + high*method%step%h, high >= 1.0_wp)
+         self%t = min(method%t, max(self%t, method%step%t0 + 1.0e-12_wp*method%step%h, nearest(method%step%t0, 1.0_wp)))
       end subroutine look_between
 
       !> How far each channel is beyond its limit at a place of the step.
-      subroutine values_at(place, values)
+      subroutine values_at(place, values, status)
          real(wp), intent(in) :: place         !! place in the step [1]
          real(wp), intent(out) :: values(:)    !! (n) positive: met [any]
+         integer, intent(out) :: status        !! of the evaluation
 
          real(wp), dimension(system%n) :: y, ydot
          real(wp) :: t
@@ -209,6 +214,9 @@ contains
       real(wp) :: y(system%n)
 
       call method%reach(system, t, y)
+      status = 0
+      if (system%holds) call system%hold(t, y, status)
+      if (status /= 0) return
       method%step%y1 = y
       method%step%h = t - method%step%t0
       method%step%has_inner = .false.

@@ -156,6 +156,7 @@ contains
       integer :: k, side
 
       shows_nothing = .false.
+      if (size(curves) == 0) return
       associate (asked => figure%curves)
          if (asked%x%has_range) then
             shows_nothing = all(is_apart(curves%x_range(1), curves%x_range(2), asked%x%range))

@@ -7,7 +7,7 @@
 module path_data
    use errors, only: error_t
    use figure_data, only: curve_t, open_columns
-   use, intrinsic :: ieee_arithmetic, only: ieee_is_nan
+   use, intrinsic :: ieee_arithmetic, only: ieee_is_finite
    use kinds, only: wp
    use number_rows, only: number_rows_t
    use text, only: text_t
@@ -62,13 +62,14 @@ contains
       call lines%add(heading)
       call lines%line("# the path in pieces, without points nearer than half a pixel, SI")
       extent = [curve%x_range(2) - curve%x_range(1), curve%y_range(2) - curve%y_range(1)]
+      if (.not. all(ieee_is_finite(extent))) extent = 0.0_wp  ! infinite numbers are left out, and no others
       last = huge(1.0_wp)
       crossings = 0.0_wp
       in_piece = 0
       n = 0
       do while (rows%next(row))
          associate (point => [row(curve%x), row(curve%y)])
-            if (any(ieee_is_nan(point))) then
+            if (.not. all(ieee_is_finite(point))) then
                if (in_piece > 0) call lines%line("")  ! a gap
                in_piece = 0
                last = huge(1.0_wp)
