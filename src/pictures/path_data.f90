@@ -1,9 +1,8 @@
 !> Paths of very many points, as orbits and portraits of long runs have: what a picture can show of them.
 !>
-!> Points nearer to the last one than a part of a pixel are left out, and the line is written in short pieces, each from where
-!> the one before ends: gnuplot takes minutes for a line of a hundred thousand points in one piece. A line that crosses the
-!> picture thousands of times would fill it, and take as long: of such a path the points are drawn. The more there is of either
-!> the more transparent it is, so that where the path passes often is seen among the rest.
+!> Points nearer to the last one than a part of a pixel are left out. A line that crosses the picture thousands of times would
+!> fill it, and gnuplot takes minutes for it: of such a path the points are drawn. The more there is of either the more
+!> transparent it is, so that where the path passes often is seen among the rest.
 module path_data
    use errors, only: error_t
    use figure_data, only: curve_t, open_columns
@@ -18,7 +17,6 @@ module path_data
    public :: make_path, path_t
 
    integer, parameter :: most_rows = 20000          !! of the run's own table that gnuplot draws as it is
-   integer, parameter :: piece_length = 200         !! points of a piece
    real(wp), parameter :: opaque_line = 100.0_wp    !! a line that crosses the picture less often is not transparent [1]
    real(wp), parameter :: longest_line = 3000.0_wp  !! of a line that crosses it more often the points are drawn [1]
    real(wp), parameter :: opaque_points = 1.0e5_wp  !! fewer points are not transparent [1]
@@ -50,8 +48,8 @@ contains
       real(wp), allocatable :: row(:)
       type(buffer_t) :: lines
       real(wp) :: crossings, extent(2), last(2)
-      integer :: in_piece, n
-      logical :: is_open
+      integer :: n
+      logical :: has_last, is_open
 
       if (n_row <= most_rows) return
       call open_columns(folder//"/"//curve%path, rows, labels, is_open)
@@ -60,33 +58,26 @@ contains
       path%file = name//".path.dat"
       call lines%line("# "//labels(curve%x)%s//" "//labels(curve%y)%s)
       call lines%add(heading)
-      call lines%line("# the path in pieces, without points nearer than half a pixel, SI")
+      call lines%line("# the path without points nearer than half a pixel, SI")
       extent = [curve%x_range(2) - curve%x_range(1), curve%y_range(2) - curve%y_range(1)]
       if (.not. all(ieee_is_finite(extent))) extent = 0.0_wp  ! infinite numbers are left out, and no others
-      last = huge(1.0_wp)
       crossings = 0.0_wp
-      in_piece = 0
+      has_last = .false.
       n = 0
       do while (rows%next(row))
          associate (point => [row(curve%x), row(curve%y)])
             if (.not. all(ieee_is_finite(point))) then
-               if (in_piece > 0) call lines%line("")  ! a gap
-               in_piece = 0
-               last = huge(1.0_wp)
+               if (has_last) call lines%line("")  ! a gap
+               has_last = .false.
                cycle
             end if
-            if (in_piece > 0) then
+            if (has_last) then
                if (all(abs(point - last) <= nearest*extent)) cycle
                crossings = crossings + maxval(abs(point - last)/max(extent, tiny(1.0_wp)))
             end if
-            if (in_piece == piece_length) then
-               call lines%line("")
-               call add_point(lines, last)
-               in_piece = 1
-            end if
             call add_point(lines, point)
             last = point
-            in_piece = in_piece + 1
+            has_last = .true.
             n = n + 1
          end associate
       end do

@@ -214,6 +214,7 @@ contains
       do k = 1, size(self%kind)
          if (.not. (is_of_all .or. self%is_peaked(k))) cycle
          x = value_of(self, catalogue, k)
+         if (.not. ieee_is_finite(x)) cycle
          if (x < self%series%least(k)) self%series%least(k) = x
          if (x > self%series%most(k)) self%series%most(k) = x
       end do

@@ -21,7 +21,7 @@ from support import plain_deck, written  # noqa: E402
 CHANNELS = ("slider.position slider.velocity slider.acceleration rod.angle rod.angular_velocity motor.moment motor.coordinate "
             "main.force gudgeon.eccentricity gudgeon.force gudgeon.penetration gudgeon.normal_force")
 PARTS = {"evaluation": "__mechanism_MOD_mechanism_evaluate", "sample": "__sampling_MOD_report", "row": "__run_recorder_MOD_sample_run"}
-LIMITS = "Bounds: a sample at most 4.0 evaluations; the run of the study at most 1050 millions of instructions."
+LIMITS = "Bounds: a sample at most 3.0 evaluations; the run of the study at most 1050 millions of instructions."
 
 
 def profile(command, directory):

@@ -126,3 +126,28 @@ def test_friction_that_diverges(gudgeon_debug):
     directory = scratch()
     done = call(gudgeon_debug, "run", written(directory, RUBBING), "--out", directory / "out", "--quiet", expect=5)
     assert "the equations of motion cannot be solved" in done.stderr
+
+
+def test_accuracy_of_what_is_no_number(gudgeon_debug):
+    """A request without a number from some time on, and one that never has any, beside --accuracy: an interval for what there is."""
+    directory = scratch()
+    text = """deck = 1
+[scene]
+gravity = 0 -9.81 m/s^2
+[bodies]
+name  mass[kg]  inertia[kg.m^2]  x[m]  y[m]
+ball  1         0.01             0     1
+[request]
+name   value                       unit
+half   {log(ball.position.y/(1 m))}  1
+never  {sqrt(-1 - t/(1 s))}          1
+[analysis.dynamic]
+end = 0.6 s
+start = given
+[output]
+every = 10 ms
+channels = ball.position request.half request.never
+"""
+    call(gudgeon_debug, "run", written(directory, text), "--accuracy", "1e-3", "--quiet", "--out", directory / "out", "--write", "channels")
+    found = {entry["channel"]: entry for entry in Run(directory / "out").summary["extremes"]}
+    assert found["request.never"]["greatest"] is None and found["request.half"]["greatest"] == 0
