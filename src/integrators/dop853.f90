@@ -20,7 +20,7 @@ module dop853
    use ode_system, only: ode_system_t
    use one_step, only: one_step_t
    use step_course, only: along, course_even, pace_at, parameter_of
-   use wild_stages, only: judge_stage
+   use wild_stages, only: evaluate_stage
    implicit none (type, external)
    private
    public :: dop853_t
@@ -91,6 +91,7 @@ module dop853
                                                      [11, 3])  !! of time there [1]
 
    integer, parameter :: n_new_stage = 11  !! evaluations of a trial step; the first stage is known
+   integer, parameter :: n_early = 5       !! stages after the first up to this one are of use to later stages only
    integer, parameter :: n_term = 7        !! terms of the interpolant of order 7
 
    !> The method with its workspace.
@@ -130,43 +131,41 @@ contains
       if (.not. allocated(self%k)) allocate (self%k(n, 16), self%y(n), self%term(n, n_term), source=0.0_wp)
    end subroutine dop853_prepare
 
-   !> Stages of a step of length h from the start of the present step; the end state into `trial`.
+   !> Stages of a step of length h from the start of the present step; the end state into `trial`. Nothing depends on quadratures:
+   !> states of stages are without them, and so are derivatives of stages that the end state has no part of.
    subroutine dop853_make_stages(self, system, h, status)
       class(dop853_t), intent(inout) :: self        !! the integrator
       class(ode_system_t), intent(inout) :: system  !! the system
       real(wp), intent(in) :: h                     !! length of the step [s]
       integer, intent(out) :: status                !! of the evaluations
 
-      integer :: course, first, i, last, n, n_rate
+      integer :: course, i, n
 
-      n = size(self%y)
-      first = system%n_position + 1  ! of the derivatives that forces make
-      last = n - system%n_quadrature
-      n_rate = last - system%n_position
+      n = system%n - system%n_quadrature
       self%count%n_evaluations = self%count%n_evaluations + n_new_stage
       self%h_stages = h
       self%k(:, 1) = self%step%f0
       course = self%step%course
       if (course /= course_even) self%k(:, 1) = pace_at(course, 0.0_wp)*self%k(:, 1)
       do i = 2, 12
-         call add_stages(i, n, self%step%y0, h, self%k, self%y)
-         call system%evaluate(self%step%t0 + places(i, course)*h, self%y, self%k(:, i), status)
-         call judge_stage(n_rate, self%k(first:last, i), status)
+         call add_stages(i, n, system%n, self%step%y0, h, self%k, self%y)
+         call evaluate_stage(system, self%step%t0 + places(i, course)*h, self%y, self%k(:, i), i > n_early, status)
          if (status /= 0) return
          if (course /= course_even) self%k(:, i) = paces(i, course)*self%k(:, i)
       end do
-      call add_stages(13, n, self%step%y0, h, self%k, self%trial)
+      call add_stages(13, system%n, system%n, self%step%y0, h, self%k, self%trial)
    end subroutine dop853_make_stages
 
    !> State of a stage, y = y0 + h sum a_j k_j; of 13: that at the end of the step. Entry by entry, no sum is kept in memory.
    !> Length: a formula for each stage.
-   pure subroutine add_stages(stage, n, y0, h, k, y)
+   pure subroutine add_stages(stage, n, n_all, y0, h, k, y)
       integer, intent(in) :: stage       !! the stage, 2 to 13
-      integer, intent(in) :: n           !! entries of the state
-      real(wp), intent(in) :: y0(n)      !! (n) state at the start [any]
+      integer, intent(in) :: n           !! entries that are wanted
+      integer, intent(in) :: n_all       !! entries of the state
+      real(wp), intent(in) :: y0(n_all)  !! (n_all) state at the start [any]
       real(wp), intent(in) :: h          !! length of the step [s]
-      real(wp), intent(in) :: k(n, 16)   !! (n, 16) derivatives [any]
-      real(wp), intent(inout) :: y(n)    !! (n) state of the stage, set [any]
+      real(wp), intent(in) :: k(n_all, 16)   !! (n_all, 16) derivatives [any]
+      real(wp), intent(inout) :: y(n_all)    !! (n_all) state of the stage, n entries are set [any]
 
       integer :: e
 
@@ -269,11 +268,12 @@ contains
       integer, intent(out) :: status                !! of the evaluations
 
       real(wp) :: change
-      integer :: course, i, n
+      integer :: course, i, n, n_wanted
 
       status = 0
       if (self%step%has_inner .or. self%step%h <= 0.0_wp) return
-      n = size(self%y)
+      n = system%n - system%n_quadrature
+      n_wanted = merge(system%n, n, system%traits%with_quadratures)
       self%count%n_output_evaluations = self%count%n_output_evaluations - self%count%n_evaluations
       if (self%h_stages < self%step%h .or. self%h_stages > self%step%h) call self%refine(system, 1.0_wp, self%y, status)
       course = self%step%course
@@ -284,7 +284,7 @@ contains
       self%count%n_output_evaluations = self%count%n_output_evaluations + self%count%n_evaluations
       if (status /= 0) return
       associate (step => self%step, k => self%k, term => self%term)
-         do i = 1, n
+         do i = 1, n_wanted
             change = step%y1(i) - step%y0(i)
             term(i, 1) = change
             term(i, 2) = step%h*k(i, 1) - change

@@ -12,7 +12,7 @@ module verner
    use kinds, only: wp
    use ode_system, only: ode_system_t
    use one_step, only: one_step_t
-   use wild_stages, only: judge_stage
+   use wild_stages, only: evaluate_stage
    implicit none (type, external)
    private
    public :: verner_t
@@ -67,7 +67,8 @@ contains
       if (.not. allocated(self%k)) allocate (self%k(n, 2:8), self%y(n), source=0.0_wp)
    end subroutine verner_prepare
 
-   !> Stages of a step of length h from the start of the present step; the end state into `trial`.
+   !> Stages of a step of length h from the start of the present step; the end state into `trial`. Nothing depends on quadratures:
+   !> states of stages are without them, and so are derivatives of stages that the end state has no part of.
    !> Length: a formula for each stage.
    subroutine verner_make_stages(self, system, h, status)
       class(verner_t), intent(inout) :: self        !! the integrator
@@ -76,60 +77,50 @@ contains
       integer, intent(out) :: status                !! of the evaluations
 
       real(wp) :: t
-      integer :: first, i, last, n, n_rate
+      integer :: i, n
 
-      n = size(self%y)
-      first = system%n_position + 1  ! of the derivatives that forces make
-      last = n - system%n_quadrature
-      n_rate = last - system%n_position
+      n = system%n - system%n_quadrature
       t = self%step%t0
       associate (y0 => self%step%y0, k1 => self%step%f0, k => self%k, y => self%y)
          self%count%n_evaluations = self%count%n_evaluations + 7
          do concurrent(i=1:n)
             y(i) = y0(i) + h*a21*k1(i)
          end do
-         call system%evaluate(t + c2*h, y, k(:, 2), status)
-         call judge_stage(n_rate, k(first:last, 2), status)
+         call evaluate_stage(system, t + c2*h, y, k(:, 2), .false., status)
          if (status /= 0) return
          do concurrent(i=1:n)
             y(i) = y0(i) + h*(a31*k1(i) + a32*k(i, 2))
          end do
-         call system%evaluate(t + c3*h, y, k(:, 3), status)
-         call judge_stage(n_rate, k(first:last, 3), status)
+         call evaluate_stage(system, t + c3*h, y, k(:, 3), .true., status)
          if (status /= 0) return
          do concurrent(i=1:n)
             y(i) = y0(i) + h*(a41*k1(i) + a42*k(i, 2) + a43*k(i, 3))
          end do
-         call system%evaluate(t + c4*h, y, k(:, 4), status)
-         call judge_stage(n_rate, k(first:last, 4), status)
+         call evaluate_stage(system, t + c4*h, y, k(:, 4), .true., status)
          if (status /= 0) return
          do concurrent(i=1:n)
             y(i) = y0(i) + h*(a51*k1(i) + a52*k(i, 2) + a53*k(i, 3) + a54*k(i, 4))
          end do
-         call system%evaluate(t + c5*h, y, k(:, 5), status)
-         call judge_stage(n_rate, k(first:last, 5), status)
+         call evaluate_stage(system, t + c5*h, y, k(:, 5), .true., status)
          if (status /= 0) return
          ! stage 7 does not need stage 6; evaluated before it, all stages at the end of the step follow one another, and what
          ! is a function of time alone is found once
          do concurrent(i=1:n)
             y(i) = y0(i) + h*(a71*k1(i) + a72*k(i, 2) + a73*k(i, 3) + a74*k(i, 4) + a75*k(i, 5))
          end do
-         call system%evaluate(t + c7*h, y, k(:, 7), status)
-         call judge_stage(n_rate, k(first:last, 7), status)
+         call evaluate_stage(system, t + c7*h, y, k(:, 7), .true., status)
          if (status /= 0) return
          do concurrent(i=1:n)
             y(i) = y0(i) + h*(a61*k1(i) + a62*k(i, 2) + a63*k(i, 3) + a64*k(i, 4) + a65*k(i, 5))
          end do
-         call system%evaluate(t + h, y, k(:, 6), status)
-         call judge_stage(n_rate, k(first:last, 6), status)
+         call evaluate_stage(system, t + h, y, k(:, 6), .false., status)
          if (status /= 0) return
          do concurrent(i=1:n)
             y(i) = y0(i) + h*(a81*k1(i) + a82*k(i, 2) + a83*k(i, 3) + a84*k(i, 4) + a85*k(i, 5) + a87*k(i, 7))
          end do
-         call system%evaluate(t + h, y, k(:, 8), status)
-         call judge_stage(n_rate, k(first:last, 8), status)
+         call evaluate_stage(system, t + h, y, k(:, 8), .true., status)
          if (status /= 0) return
-         do concurrent(i=1:n)
+         do concurrent(i=1:system%n)
             self%trial(i) = y0(i) + h*(b1*k1(i) + b3*k(i, 3) + b4*k(i, 4) + b5*k(i, 5) + b7*k(i, 7) + b8*k(i, 8))
          end do
       end associate
