@@ -16,7 +16,9 @@ module hdf5_calls
    private
    public :: creation_list, is_memory_short, new_dataset, new_file, new_group, open_file, open_library
 
-   logical :: is_open = .false.  !! whether the library has been opened
+   logical :: is_open = .false.             !! whether the library has been opened
+   integer(hid_t) :: link = -1              !! properties of a new name that makes the groups above it
+   integer(hid_t) :: of_fixed_size = -1     !! those of a dataset that does not grow
 
    integer(size_t), parameter :: bytes_of_names = 1024  !! for the names in the root group, with room for what comes at the end
 
@@ -55,6 +57,9 @@ contains
       call h5open_f(status)
       if (status < 0) return
       call h5eset_auto_f(0, status)
+      if (status >= 0) call h5pcreate_f(h5p_link_create_f, link, status)
+      if (status >= 0) call h5pset_create_inter_group_f(link, 1, status)
+      call creation_list(h5p_dataset_create_f, of_fixed_size, status)
       is_open = status >= 0
    end subroutine open_library
 
@@ -69,17 +74,6 @@ contains
       call h5pcreate_f(class, list, status)
       if (status >= 0) call h5pset_obj_track_times_f(list, .false., status)
    end subroutine creation_list
-
-   !> Properties of a new name that makes the groups above it.
-   subroutine link_list(list, status)
-      integer(hid_t), intent(out) :: list  !! to be closed by the caller
-      integer, intent(inout) :: status     !! negative: failed
-
-      list = -1
-      if (status < 0) return
-      call h5pcreate_f(h5p_link_create_f, list, status)
-      if (status >= 0) call h5pset_create_inter_group_f(list, 1, status)
-   end subroutine link_list
 
    !> Make a file that can be read whenever its writer dies.
    subroutine new_file(path, file, status)
@@ -121,17 +115,14 @@ contains
       integer(hid_t), intent(out) :: group  !! the open group
       integer, intent(inout) :: status      !! negative: failed
 
-      integer(hid_t) :: creation, link
+      integer(hid_t) :: creation
       integer :: closed
 
       group = -1
-      if (status < 0) return
       call creation_list(h5p_group_create_f, creation, status)
-      call link_list(link, status)
       if (status < 0) return
       call h5gcreate_f(file, path, group, status, lcpl_id=link, gcpl_id=creation)
       call h5pclose_f(creation, closed)
-      call h5pclose_f(link, closed)
    end subroutine new_group
 
    !> Make a dataset of a given type, chunked if `chunk` is given, growing in its last dimension.
@@ -144,7 +135,7 @@ contains
       integer, intent(inout) :: status                    !! negative: failed
       integer(hsize_t), intent(in), optional :: chunk(:)  !! (rank) extent of a chunk; absent: of fixed size
 
-      integer(hid_t) :: access, creation, link, space
+      integer(hid_t) :: access, creation, space
       integer(hsize_t) :: most(size(shape))
       integer :: closed, rank
 
@@ -153,28 +144,40 @@ contains
       rank = size(shape)
       most = shape
       if (present(chunk)) most(rank) = h5s_unlimited_f
-      call creation_list(h5p_dataset_create_f, creation, status)
-      if (status >= 0 .and. present(chunk)) then  ! with its index from the start, so that growing changes one part of the header
-         call h5pset_chunk_f(creation, rank, chunk, status)
-         if (status >= 0) call h5pset_alloc_time_f(creation, h5d_alloc_time_early_f, status)
-      end if
-      call link_list(link, status)
-      if (status < 0) return
       if (rank == 0) then
          call h5screate_f(h5s_scalar_f, space, status)
       else
          call h5screate_simple_f(rank, shape, space, status, most)
       end if
-      if (status >= 0) call h5pcreate_f(h5p_dataset_access_f, access, status)
       if (status < 0) return
-      if (present(chunk)) then  ! only the last chunk is ever touched; a longer list of chunks costs time
-         call h5pset_chunk_cache_f(access, 1_size_t, 8_size_t*product(int(chunk, size_t)), 1.0, status)
+      if (present(chunk)) then
+         call growing_lists(rank, chunk, creation, access, status)
+         if (status < 0) return
+         call h5dcreate_f(file, path, type_id, space, dataset, status, dcpl_id=creation, lcpl_id=link, dapl_id=access)
+         call h5pclose_f(access, closed)
+         call h5pclose_f(creation, closed)
+      else
+         call h5dcreate_f(file, path, type_id, space, dataset, status, dcpl_id=of_fixed_size, lcpl_id=link)
       end if
-      call h5dcreate_f(file, path, type_id, space, dataset, status, dcpl_id=creation, lcpl_id=link, dapl_id=access)
       call h5sclose_f(space, closed)
-      call h5pclose_f(access, closed)
-      call h5pclose_f(creation, closed)
-      call h5pclose_f(link, closed)
    end subroutine new_dataset
+
+   !> Properties of a dataset that grows.
+   subroutine growing_lists(rank, chunk, creation, access, status)
+      integer, intent(in) :: rank                  !! dimensions
+      integer(hsize_t), intent(in) :: chunk(rank)  !! (rank) extent of a chunk
+      integer(hid_t), intent(out) :: creation      !! of its making, to be closed by the caller
+      integer(hid_t), intent(out) :: access        !! of its use, to be closed by the caller
+      integer, intent(inout) :: status             !! negative: failed
+
+      ! with its index from the start, so that growing changes one part of the header
+      call creation_list(h5p_dataset_create_f, creation, status)
+      if (status >= 0) call h5pset_chunk_f(creation, rank, chunk, status)
+      if (status >= 0) call h5pset_alloc_time_f(creation, h5d_alloc_time_early_f, status)
+      ! only the last chunk is ever touched; a longer list of chunks costs time
+      access = -1
+      if (status >= 0) call h5pcreate_f(h5p_dataset_access_f, access, status)
+      if (status >= 0) call h5pset_chunk_cache_f(access, 1_size_t, 8_size_t*product(int(chunk, size_t)), 1.0, status)
+   end subroutine growing_lists
 
 end module hdf5_calls
