@@ -65,6 +65,8 @@ contains
       integer :: k, n
 
       plan%every = times%every
+      plan%first = times%first_output
+      plan%end = times%end
       allocate (list(size(words)))
       n = 0
       do k = 1, size(words)
@@ -94,6 +96,7 @@ contains
       real(wp) :: from
 
       wanted%name = figure%name
+      wanted%has_end = figure%kind /= figure_mechanism .or. size(figure%motion%times) == 0
       call find_window(figure, system, times, location, from, closes, mistakes)
       if (from < times%first_output*(1.0_wp - 1.0e-9_wp) .and. mistakes%count() == 0) then
          call mistakes%add(location, "the window of '"//figure%word//"' begins before the first output instant", &
@@ -111,7 +114,8 @@ contains
          end if
       case (figure_strip, figure_animation)
          if (n == 0) n = merge(n_strip, n_animation, figure%kind == figure_strip)
-         wanted%times = [(from + (times%end - from)*real(k, wp)/real(merge(n, n - 1, closes), wp), k=0, n - 1)]
+         if (n > 1 .or. closes) wanted%gap = (times%end - from)/real(merge(n, n - 1, closes), wp)
+         wanted%times = [(from + k*wanted%gap, k=0, n - 1)]
          if (figure%kind == figure_animation) wanted%to = times%end*(1.0_wp + 1.0e-9_wp)
       case (figure_coupler)
          wanted%times = [times%end]
@@ -119,6 +123,7 @@ contains
          call find_point(figure%motion%point, scene, location, wanted, mistakes)
       end select
       wanted%from = from
+      if (closes .or. figure%motion%last > 0.0_wp) wanted%length = times%end - from
       wanted%times = min(wanted%times, instant(times, last_instant(times)))
       if (size(wanted%times)*(scene%bodies%n + 1) > most_places) then
          call mistakes%add(location, to_text(size(wanted%times))//" pictures of "//to_text(scene%bodies%n)// &

@@ -13,7 +13,7 @@ module sweep_report
    use members, only: cpu_of_all
    use options, only: options_t
    use output_marker, only: enter_file
-   use plot_table, only: plot_table_t, write_plot
+   use plot_table, only: plot_table_t, tell_empty, write_plot
    use posix, only: make_directory
    use recorder, only: status_complete, status_failed, status_stopped
    use sweep_plots, only: sweep_table
@@ -40,7 +40,7 @@ contains
       type(catalogue_t) :: catalogue
       type(figure_t) :: figure
       type(plot_table_t) :: table
-      type(text_t), allocatable :: names(:)
+      type(text_t), allocatable :: empty(:), names(:)
       character(:), allocatable :: folder, hint, message
       integer :: code, k
       logical :: is_written
@@ -60,8 +60,9 @@ contains
                return
             end if
             call sweep_table(figure, work%results, catalogue, file_heading(work%plan), table)
-            call write_plot(folder, loaded%scene%title, table, is_written, error)
+            call write_plot(folder, loaded%scene%title, table, is_written, error, empty)
             if (allocated(error)) return
+            call tell_empty(words(k)%s, empty, warnings)
             if (is_written) then
                call append_text(names, figure%name)
             else

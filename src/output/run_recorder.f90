@@ -270,6 +270,7 @@ contains
       if (.not. self%has_started) return
       call memory_is_for("the statistics and the sorted list of "//to_text(self%events%n)//" events")
       self%summary = complete_summary(summary)
+      call self%keeper%finish()
       associate (outcome => self%outcome, full => self%summary)
          outcome%numbers = self%statistics%numbers(self%items, self%events, full%time_end)
          outcome%extremes = self%extremes

@@ -8,7 +8,7 @@ module animation_page
    use catalogue_rooms, only: room_clearances
    use display_units, only: choose_unit, display_unit_t
    use drawing, only: drawing_t, in_files
-   use frames, only: frame_t, track_t
+   use frames, only: frame_t
    use html_text, only: escaped
    use, intrinsic :: ieee_arithmetic, only: ieee_is_nan
    use kinds, only: wp
@@ -17,6 +17,7 @@ module animation_page
    use symbol_scales, only: new_symbols
    use text, only: real_text, to_text
    use text_buffer, only: buffer_t
+   use tracks, only: track_t
    implicit none (type, external)
    private
    public :: page_text

@@ -13,7 +13,7 @@ module curve_panels
    use text, only: real_text, replace, text_t
    implicit none (type, external)
    private
-   public :: constant, make_panel, panel_t, range_of, shown, shows_nothing
+   public :: constant, drawn_panels, make_panel, panel_t, range_of, shown, shows_nothing
 
    real(wp), parameter :: late = 1.0e-3_wp          !! least extent of a time axis, of the times [1]
    real(wp), parameter :: narrow = 1.0e-4_wp        !! span of an ordinate beside its values: below it less a round value [1]
@@ -172,6 +172,24 @@ contains
          end do
       end associate
    end function shows_nothing
+
+   !> The panels of a figure that have a curve.
+   function drawn_panels(figure, catalogue, curves) result(list)
+      type(figure_t), intent(in) :: figure        !! the figure
+      type(catalogue_t), intent(in) :: catalogue  !! what was recorded
+      type(curve_t), intent(in) :: curves(:)      !! (n) curves of the run
+      integer, allocatable :: list(:)             !! (any) their numbers
+
+      integer :: k
+
+      allocate (list(0))
+      do k = 1, size(figure%curves%panels)
+         associate (words => figure%curves%panels(k))
+            if (any(is_member(figure, catalogue, words, 1, curves%number)) .or. &
+                any(is_member(figure, catalogue, words, 2, curves%number))) list = [list, k]
+         end associate
+      end do
+   end function drawn_panels
 
    !> Whether what a curve reaches and what an axis shows have nothing in common.
    pure function is_apart(low, high, range)

@@ -5,7 +5,7 @@
 module curve_script
    use catalogue, only: catalogue_t
    use channel_names, only: scalar_name
-   use curve_panels, only: constant, make_panel, panel_t, range_of, shown
+   use curve_panels, only: constant, drawn_panels, make_panel, panel_t, range_of, shown
    use curve_words, only: panel_words_t
    use display_units, only: display_unit_t
    use envelope_data, only: envelope_t
@@ -32,12 +32,13 @@ module curve_script
 contains
 
    !> The whole script, blank if there is nothing to draw.
-   function curve_text(figure, catalogue, title, curves, ideal, envelope) result(script)
+   function curve_text(figure, catalogue, title, curves, ideal, window, envelope) result(script)
       type(figure_t), intent(in) :: figure        !! the figure
       type(catalogue_t), intent(in) :: catalogue  !! what was recorded
       character(*), intent(in) :: title           !! of the scene, any text
       type(curve_t), intent(in) :: curves(:)      !! (n) curves of the run
       type(curve_t), intent(in) :: ideal(:)       !! (m) curves of the ideal twin, perhaps none
+      real(wp), intent(in) :: window(2)           !! (2) ends of the abscissa, SI [any]
       type(envelope_t), intent(in) :: envelope    !! ranges of curves that turn too often
       character(:), allocatable :: script         !! lines for gnuplot
 
@@ -45,17 +46,20 @@ contains
       type(display_unit_t) :: x
       type(buffer_t) :: lines
       character(:), allocatable :: format, label
+      integer, allocatable :: place(:)
       integer :: k, n
       logical :: with_zoom
 
       script = ""
       if (size(curves) == 0) return
-      n = size(figure%curves%panels)
+      place = drawn_panels(figure, catalogue, curves)
+      n = size(place)
       allocate (panels(n))
       do k = 1, n
-         call make_panel(figure, catalogue, figure%curves%panels(k), curves, ideal, panels(k))
+         call make_panel(figure, catalogue, figure%curves%panels(place(k)), curves, ideal, panels(k))
       end do
-      with_zoom = n == 1 .and. .not. any(figure%curves%panels(1)%y%has_range)
+      with_zoom = n == 1
+      if (with_zoom) with_zoom = .not. any(figure%curves%panels(place(1))%y%has_range)
       if (with_zoom) with_zoom = needs_zoom(panels(1))
       call preamble(lines, figure%name, 1200, heights(merge(2, n, with_zoom)))
       x = shown(figure%curves%x, curves)
@@ -66,11 +70,11 @@ contains
       else
          call lines%line("set title "//quoted(title)//" font ',17'")
       end if
-      call abscissa_lines(lines, figure, catalogue, curves, x, envelope%is_used(), label, format)
+      call abscissa_lines(lines, figure, catalogue, x, window, label, format)
       if (n > 1) call lines%line("unset xlabel; set format x ''")
       do k = 1, n
          if (k == n) call lines%line("set xlabel "//label//"; set format x '"//format//"'")
-         call panel_lines(lines, figure%curves%panels(k), panels(k), x, envelope, n)
+         call panel_lines(lines, figure%curves%panels(place(k)), panels(k), x, envelope, n)
       end do
       if (with_zoom) call zoom_lines(lines, panels(1), x, envelope)
       if (n > 1 .or. with_zoom) call lines%line("unset multiplot")
@@ -78,14 +82,13 @@ contains
       script = lines%get()
    end function curve_text
 
-   !> The abscissa, which all panels have in common.
-   subroutine abscissa_lines(lines, figure, catalogue, curves, x, has_ranges, label, format)
+   !> The abscissa, which all panels have in common; it ends where the run does, also where its twin goes on.
+   subroutine abscissa_lines(lines, figure, catalogue, x, window, label, format)
       type(buffer_t), intent(inout) :: lines      !! the script
       type(figure_t), intent(in) :: figure        !! the figure
       type(catalogue_t), intent(in) :: catalogue  !! what was recorded
-      type(curve_t), intent(in) :: curves(:)      !! (n) curves of the run
       type(display_unit_t), intent(in) :: x       !! its unit
-      logical, intent(in) :: has_ranges           !! ranges are drawn, in columns that begin within the axis
+      real(wp), intent(in) :: window(2)           !! (2) its ends, SI [any]
       character(:), allocatable, intent(out) :: label  !! what stands below it, in quotes
       character(:), allocatable, intent(out) :: format !! of the numbers of its ticks
 
@@ -98,9 +101,8 @@ contains
          else
             label = quoted(with_unit("time", x))
          end if
-         range = x%factor*curves(1)%x_range
-         if (curve%x%has_range) range = x%factor*curve%x%range
-         if (curve%x%has_range .or. has_ranges) then
+         range = x%factor*window
+         if (abs(range(2) - range(1)) > 0.0_wp) then
             call lines%line("set xrange ["//real_text(range(1), 9)//":"//real_text(range(2), 9)//"]")
          else
             call lines%line("set autoscale xfix")

@@ -161,7 +161,8 @@ contains
       if (index(text, " ") > 0) word = text(:index(text, " ") - 1)
    end function first_word
 
-   !> A name for the files of a figure: letters, digits, `_`, `-` and dots alone; the end of a long one is a number made of it.
+   !> A name for the files of a figure: letters, digits, `_`, `-` and dots alone; the end of a long one is a number made of it. What
+   !> one panel of several draws is joined by `and`: other panels of the same channels have another name.
    pure function file_name(word) result(name)
       character(*), intent(in) :: word     !! a word of the deck
       character(:), allocatable :: name    !! the name
@@ -169,12 +170,13 @@ contains
       character(*), parameter :: letters = &
          "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789_-"
       integer(i8), parameter :: factor = 31_i8, modulus = 99999989_i8
-      integer :: i
+      integer :: depth, i
       integer(i8) :: mark
       logical :: is_new
 
       name = ""
       is_new = .false.
+      depth = 0
       do i = 1, len(word)
          if (index(letters, word(i:i)) > 0 .or. word(i:i) == "*") then
             if (is_new .and. len(name) > 0) name = name//"."
@@ -186,6 +188,9 @@ contains
             end if
          else
             is_new = is_new .or. word(i:i) /= ")"
+            if (word(i:i) == "(") depth = depth + 1
+            if (word(i:i) == ")") depth = depth - 1
+            if (word(i:i) == "+" .and. depth > 0) name = name//".and"
          end if
       end do
       if (len(name) <= longest_name) return

@@ -4,8 +4,9 @@
 !> deck reaches it only inside single-quoted strings of the scripts. That gnuplot is not installed,
 !> fails, takes too long or leaves no whole picture is a warning: the scripts stay.
 module figures
-   use catalogue, only: catalogue_t
    use animation_page, only: page_text
+   use catalogue, only: catalogue_t
+   use channel_names, only: scalar_name
    use curve_panels, only: shows_nothing
    use curve_script, only: curve_text
    use drawing, only: drawing_t
@@ -18,7 +19,7 @@ module figures
    use frames, only: frame_keeper_t
    use gnuplot_runs, only: draw_figures, moving
    use film_fields, only: film_field_t
-   use plot_table, only: plot_table_t, write_plot
+   use plot_table, only: plot_table_t, tell_empty, write_plot
    use kinds, only: wp
    use orbit_script, only: path_of
    use output_marker, only: enter_file
@@ -49,7 +50,7 @@ contains
       type(text_t), allocatable, intent(out) :: warnings(:)        !! (k) what was not made, and why
       type(error_t), allocatable, intent(out) :: error             !! a script cannot be written
 
-      type(text_t), allocatable :: names(:), pages(:)
+      type(text_t), allocatable :: empty(:), names(:), pages(:)
       type(data_files_t) :: files
       integer :: code, k
       logical :: is_written
@@ -69,7 +70,8 @@ contains
          else if (list(k)%kind == figure_film) then
             call write_field_plot(directory//"/figures", title, tables(k)%heading, list(k)%name, fields, is_written, error)
          else if (list(k)%kind > figure_portrait) then
-            call write_plot(directory//"/figures", title, tables(k), is_written, error)
+            call write_plot(directory//"/figures", title, tables(k), is_written, error, empty)
+            call tell_empty(list(k)%word, empty, warnings)
          else
             call write_curves(directory, title, tables(k)%heading, list(k), catalogue, files, is_written, warnings, error)
          end if
@@ -118,11 +120,11 @@ contains
       call find_curves(figure, catalogue, directory, "", files, curves)
       call find_curves(figure, catalogue, directory, ideal_suffix, files, ideal)
       if (figure%kind == figure_history .and. size(curves) > 0) then
-         window = curves(1)%x_range
-         if (figure%curves%x%has_range) window = figure%curves%x%range
+         window = window_of(figure, curves, ideal)
          call make_envelope(directory//"/figures", figure%name, heading, curves, window, envelope, error)
          if (allocated(error)) return
-         script = curve_text(figure, catalogue, title, curves, ideal, envelope)
+         script = curve_text(figure, catalogue, title, curves, ideal, window, envelope)
+         call tell_missing(figure, catalogue, curves, warnings)
          if (shows_nothing(figure, catalogue, curves)) then
             call append_text(warnings, "figure "//figure%word//": no numbers in the range that is asked for")
          end if
@@ -142,6 +144,35 @@ contains
       is_written = len(script) > 0
       if (is_written) call write_file(directory//"/figures/"//figure%name//".gp", script, error)
    end subroutine write_curves
+
+   !> Ends of the abscissa of curves: what is asked for, the time of the run, or all values of another channel.
+   pure function window_of(figure, curves, ideal) result(window)
+      type(figure_t), intent(in) :: figure    !! the figure
+      type(curve_t), intent(in) :: curves(:)  !! (n) curves of the run
+      type(curve_t), intent(in) :: ideal(:)   !! (m) curves of the ideal twin
+      real(wp) :: window(2)                   !! (2) SI [any]
+
+      window = [minval(curves%x_range(1)), maxval(curves%x_range(2))]
+      if (figure%curves%abscissa > 0) then
+         window = [min(window(1), minval(ideal%x_range(1))), max(window(2), maxval(ideal%x_range(2)))]
+      end if
+      if (figure%curves%x%has_range) window = figure%curves%x%range
+   end function window_of
+
+   !> Warn of each channel of a figure that has no numbers beside others that have some.
+   subroutine tell_missing(figure, catalogue, curves, warnings)
+      type(figure_t), intent(in) :: figure                     !! the figure
+      type(catalogue_t), intent(in) :: catalogue               !! what was recorded
+      type(curve_t), intent(in) :: curves(:)                   !! (n) curves of the run
+      type(text_t), allocatable, intent(inout) :: warnings(:)  !! (any) what is not drawn, and why
+
+      integer :: k
+
+      do k = 1, size(figure%scalars)
+         if (k == figure%curves%abscissa .or. any(curves%number == k)) cycle
+         call append_text(warnings, "figure "//figure%word//": no numbers of "//scalar_name(catalogue, figure%scalars(k)))
+      end do
+   end subroutine tell_missing
 
    !> A figure of the mechanism, and of an animation its page.
    subroutine write_scene(folder, title, figure, catalogue, drawing, keeper, is_written, pages, error)

@@ -8,12 +8,12 @@ module plot_table
    use kinds, only: wp
    use plot_text, only: quoted
    use script_parts, only: colours, hangs_from_zero, key_below, long_tics, open_range, preamble, stands_on_zero, with_unit
-   use text, only: real_text, text_t, to_text
+   use text, only: append_text, real_text, text_t, to_text
    use text_buffer, only: buffer_t
    use text_file, only: write_file
    implicit none (type, external)
    private
-   public :: draw_bars, draw_boxes, draw_lines, draw_marks, draw_points, panel_t, plot_curve_t, plot_table_t, write_plot
+   public :: draw_bars, draw_boxes, draw_lines, draw_marks, draw_points, panel_t, plot_curve_t, plot_table_t, tell_empty, write_plot
 
    integer, parameter :: draw_points = 1   !! dots
    integer, parameter :: draw_lines = 2    !! a line
@@ -58,21 +58,70 @@ module plot_table
 
 contains
 
-   !> Write the table and its script into a folder; nothing if it has no rows.
-   subroutine write_plot(folder, title, table, is_written, error)
+   !> Write the table and its script into a folder; nothing if it has no numbers. Panels without numbers are left out.
+   subroutine write_plot(folder, title, table, is_written, error, empty)
       character(*), intent(in) :: folder                 !! of the figures
       character(*), intent(in) :: title                  !! of the scene, any text
       type(plot_table_t), intent(in) :: table            !! the table
       logical, intent(out) :: is_written                 !! whether there was something to draw
       type(error_t), allocatable, intent(out) :: error   !! a file cannot be written
+      type(text_t), allocatable, intent(out), optional :: empty(:)  !! (any) ordinates of panels without numbers, beside others
+
+      type(plot_table_t) :: drawn
+      integer, allocatable :: list(:)
+      integer :: k
 
       is_written = .false.
+      if (present(empty)) allocate (empty(0))
       if (.not. allocated(table%values)) return
-      if (size(table%values) == 0) return
+      list = pack([(k, k=1, size(table%panels))], [(has_numbers(table, table%panels(k)), k=1, size(table%panels))])
+      if (size(list) == 0) return
+      drawn = table
+      deallocate (drawn%panels)
+      allocate (drawn%panels(size(list)))
+      do k = 1, size(list)
+         drawn%panels(k) = table%panels(list(k))
+      end do
+      if (present(empty)) then
+         do k = 1, size(table%panels)
+            if (.not. any(list == k)) call append_text(empty, table%panels(k)%y_name)
+         end do
+      end if
       call write_file(folder//"/"//table%name//".dat", table_text(table), error)
-      if (.not. allocated(error)) call write_file(folder//"/"//table%name//".gp", script_of(table, title), error)
+      if (.not. allocated(error)) call write_file(folder//"/"//table%name//".gp", script_of(drawn, title), error)
       is_written = .not. allocated(error)
    end subroutine write_plot
+
+   !> Warn of panels without numbers.
+   subroutine tell_empty(word, empty, warnings)
+      character(*), intent(in) :: word                         !! the figure as the deck has it
+      type(text_t), intent(in) :: empty(:)                     !! (any) ordinates of such panels
+      type(text_t), allocatable, intent(inout) :: warnings(:)  !! (any) grown
+
+      integer :: k
+
+      do k = 1, size(empty)
+         call append_text(warnings, "figure "//word//": no numbers of "//empty(k)%s)
+      end do
+   end subroutine tell_empty
+
+   !> Whether a panel has a point.
+   pure logical function has_numbers(table, panel)
+      type(plot_table_t), intent(in) :: table   !! the table
+      type(panel_t), intent(in) :: panel        !! one of its panels
+
+      integer :: i, k
+
+      has_numbers = .true.
+      do k = 1, size(panel%curves)
+         associate (curve => panel%curves(k))
+            do i = curve%first, min(curve%last, size(table%values, 2))
+               if (ieee_is_finite(table%values(curve%x, i)) .and. ieee_is_finite(table%values(curve%y, i))) return
+            end do
+         end associate
+      end do
+      has_numbers = .false.
+   end function has_numbers
 
    !> The table as text.
    function table_text(table) result(text)

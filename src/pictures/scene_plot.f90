@@ -8,7 +8,7 @@ module scene_plot
    use drawing, only: drawing_t
    use errors, only: error_t
    use figure_words, only: figure_animation, figure_coupler, figure_mechanism, figure_strip, figure_t
-   use frames, only: frame_t, track_t
+   use frames, only: frame_t
    use kinds, only: wp
    use plot_text, only: quoted
    use scene_legends, only: short_legend, time_text
@@ -20,6 +20,7 @@ module scene_plot
    use text, only: real_text, to_text
    use text_buffer, only: buffer_t
    use text_file, only: write_file
+   use tracks, only: track_t
    implicit none (type, external)
    private
    public :: write_scene_plot

@@ -3,8 +3,9 @@
 !> The views of space stand side by side in one picture, all to one scale, each in a cell of its own.
 module scene_views
    use drawing, only: drawing_t, mark_plane
-   use frames, only: frame_t, track_t
+   use frames, only: frame_t
    use kinds, only: wp
+   use tracks, only: track_t
    implicit none (type, external)
    private
    public :: extents_t, lay_out_views, projected, view_t
