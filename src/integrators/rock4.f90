@@ -13,13 +13,14 @@
 !> step: one that begins in a contact and goes on far beyond its end has all five behind it. So the part of a step that ends at an
 !> event is tested as well, and the step is repeated, shorter, if that has too great an error.
 !> Between the ends of a step: the quintic of `interpolation`, without evaluations within the step, which stiff forces would make
-!> worse.
+!> worse. Rows of a step in which something decays, and where films act, are reached by a step of that length from its start
+!> (`rock4_reach`).
 !>
 !> Source: A. Abdulle, Fourth order Chebyshev methods with recurrence relation, SIAM J. Sci. Comput. 23 (2002) 2041-2054, with
 !> coefficients of our own. Limits: stiff springs that no damper goes with are followed, not damped: their steps are those of
 !> other explicit methods.
 module rock4
-   use integrator, only: advance_event
+   use integrator, only: advance_event, advance_step
    use integrator_controls, only: norm_euclidean, onset_located
    use kind_info, only: kind_info_t
    use kinds, only: eps, wp
@@ -36,6 +37,7 @@ module rock4
    public :: rock4_t
 
    integer, parameter :: n_step_radius = 25   !! steps after which the spectral radius is found anew
+   real(wp), parameter :: smooth = 1.0_wp     !! product of step and spectral radius up to which curves follow the motion [1]
 
    !> The method with its workspace.
    type, extends(one_step_t) :: rock4_t
@@ -59,6 +61,7 @@ module rock4
       procedure :: make_stages => rock4_make_stages
       procedure :: error_norm => rock4_error_norm
       procedure :: prepare_output => rock4_prepare_output
+      procedure :: reach => rock4_reach
       procedure :: memory_size => rock4_memory_size
       procedure :: save => rock4_save
       procedure :: load => rock4_load
@@ -282,6 +285,25 @@ contains
 
       status = 0
    end subroutine rock4_prepare_output
+
+   !> State at a time in the last step. Accelerations at its ends tell nothing of what decays within it, and films multiply what a
+   !> curve is wrong by: then by a step of that length.
+   subroutine rock4_reach(self, system, t, y)
+      class(rock4_t), intent(inout) :: self         !! the integrator
+      class(ode_system_t), intent(inout) :: system  !! the system
+      real(wp), intent(in) :: t                     !! time [s]
+      real(wp), intent(inout) :: y(system%n)        !! (n) state [any]
+
+      integer :: status
+
+      if (t > self%step%t0 .and. t < self%t .and. (self%step%h*self%radius > smooth .or. system%traits%has_films)) then
+         self%count%n_output_evaluations = self%count%n_output_evaluations - self%count%n_evaluations
+         call self%refine(system, (t - self%step%t0)/self%step%h, y, status)
+         self%count%n_output_evaluations = self%count%n_output_evaluations + self%count%n_evaluations
+         if (status == advance_step) return
+      end if
+      call self%state_at(system, t, y)
+   end subroutine rock4_reach
 
    !> Numbers that a checkpoint needs.
    integer function rock4_memory_size(self) result(n)

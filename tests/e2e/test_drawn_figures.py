@@ -236,10 +236,10 @@ def test_mistakes(gudgeon, tmp_path, figure, message):
 
 
 def test_a_run_that_ends_early_draws_what_it_reached(gudgeon, tmp_path):
-    """Frames after a stop are left out, and a figure without any is told."""
+    """Frames after a stop are left out, the last is that of the stop, and a figure without any is told."""
     text = CRANK + "[guards]\nstop = crank.angle > 3 rad\n"
     folder = run(gudgeon, tmp_path, text, "animation(n=10, last=1s) mechanism(t=0.9s)")
-    assert len(strokes(folder / "animation.n.10.last.1s.dat")) == 4
+    assert len(strokes(folder / "animation.n.10.last.1s.dat")) == 5
     listed = json.loads((tmp_path / "run" / "summary.json").read_text(encoding="utf-8"))
     assert listed["warnings"] == ["figure mechanism(t=0.9s): no numbers to draw"]
 
