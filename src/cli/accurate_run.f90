@@ -60,6 +60,8 @@ contains
                         "analysis solves its equations to the tolerance asked for")
       else if (options%change%tolerance > 0.0_wp) then
          call set_error(error, exit_usage, "options --accuracy and --tolerance exclude each other: the first chooses the tolerance")
+      else if (allocated(options%legacy%way)) then
+         call set_error(error, exit_usage, "options --accuracy and --legacy exclude each other: the latter makes fixed steps")
       else
          maker = loaded%scene%settings%dynamic%word("method")
          hint = "take another method, as with --method verner"

@@ -322,7 +322,7 @@ contains
          if (is_good) call read_quantity(value(:n), unit, t, is_good)
       end if
       if (is_good .and. t > 0.0_wp) return
-      call set_error(error, exit_usage, "option "//word//" needs a time with its unit, as 60s, not '"//value//"'")
+      call set_error(error, exit_usage, "option "//word//" needs a time above zero with its unit, as 60s, not '"//value//"'")
    end subroutine take_time
 
    !> A mistake on the command line, with the nearest word that would do.

@@ -241,7 +241,8 @@ def test_condition_that_ends_the_run(gudgeon):
     (("--accuracy", "2"), 2, "needs a number from"),
     (("--accuracy",), 2, "needs a value"),
     (("--accuracy", "1e-6", "--tolerance", "1e-8"), 2, "exclude each other"),
-    (("--accuracy", "1e-6", "--budget", "5"), 2, "needs a time with its unit"),
+    (("--accuracy", "1e-6", "--legacy", "procedure1"), 2, "exclude each other"),
+    (("--accuracy", "1e-6", "--budget", "5"), 2, "needs a time above zero with its unit"),
     (("--budget", "5s"), 2, "is for --accuracy"),
     (("--accuracy", "1e-6", "--member", "1"), 2, "is for a deck with a section [ensemble]"),
 ])
