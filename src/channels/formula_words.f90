@@ -7,15 +7,17 @@ module formula_words
    use deck_types, only: deck_t
    use diagnostics, only: diagnostics_t
    use dimension_text, only: dimension_name, unit_text
+   use dimensions, only: same_dimension
    use expression, only: expression_t
    use expression_compile, only: channel_finder_t, compile_expression, dimension_agrees, fault_t
    use item, only: item_t, location_t, place_of
    use kind_info, only: dim_none, dim_t
+   use kinds, only: wp
    use name_table, only: name_table_t
    use requests, only: formula_t, source_t
    use scene, only: scene_t, table_formulas
    use text, only: starts_with, text_t
-   use units, only: parse_unit, unit_t
+   use units, only: parse_unit, unit_factor, unit_t
    implicit none (type, external)
    private
    public :: read_formulas
@@ -101,20 +103,21 @@ contains
       end associate
       if (.not. allocated(formula%expression%sights)) allocate (formula%expression%sights(0))
       dimension = formula%expression%dimension
-      call take_unit(item, formula%expression, dimension, mistakes, at)
+      call take_unit(item, formula%expression, dimension, formula%unit, mistakes, at)
       if (at%line < 0) return
-      formula%unit = unit_text(dimension)
       allocate (formula%sources(size(formula%expression%sights)))
       do k = 1, size(formula%sources)
          formula%sources(k) = source_of(words, formula%expression%sights(k)%word)
       end do
    end subroutine read_formula
 
-   !> The unit that a request says its value has must be one of its dimension.
-   subroutine take_unit(item, expression, dimension, mistakes, at)
+   !> The unit that a request says its value has must be one of its dimension. A coherent unit of the SI is that of its numbers: an
+   !> energy is in J, a moment in N.m.
+   subroutine take_unit(item, expression, dimension, si, mistakes, at)
       type(item_t), intent(in) :: item                 !! the row
       type(expression_t), intent(in) :: expression     !! its value
       type(dim_t), intent(inout) :: dimension          !! of the value, that of the unit on return
+      character(:), allocatable, intent(out) :: si     !! SI unit of its numbers
       type(diagnostics_t), intent(inout) :: mistakes   !! mistakes found
       type(location_t), intent(out) :: at              !! line -1: there is a mistake
 
@@ -123,6 +126,7 @@ contains
       type(unit_t) :: unit
       integer :: first, last
 
+      si = unit_text(dimension)
       associate (value => item%values(place_of(item, "unit")))
          if (.not. value%given) return
          call parse_unit(value%text, unit, message, first, last)
@@ -134,11 +138,20 @@ contains
                               "its SI unit is "//unit_text(dimension))
          else
             dimension = unit%dimension
+            si = unit_text(dimension)
+            if (.not. same_dimension(dimension, dim_none) .and. is_coherent(unit)) si = value%text
             return
          end if
          at%line = -1
       end associate
    end subroutine take_unit
+
+   !> Whether a unit has no factor and no offset beside the SI.
+   pure logical function is_coherent(unit)
+      type(unit_t), intent(in) :: unit  !! the unit
+
+      is_coherent = .not. (abs(unit_factor(unit) - 1.0_wp) > 0.0_wp .or. abs(unit%offset) > 0.0_wp)
+   end function is_coherent
 
    !> The dimension of a channel, which must be a single number.
    subroutine find_word(self, word, dimension, message, help)

@@ -6,7 +6,7 @@ import json
 import h5py
 import numpy as np
 import pytest
-from support import assert_close, call, scratch, written
+from support import ROOT, assert_close, call, changed, scratch, written
 
 # A four-bar whose crank turns at 7 rad/s; the tracer is beside the line of the coupler. In the plane, or about z in space.
 FOUR_BAR = """deck = 1
@@ -361,3 +361,18 @@ def test_p_v_of_a_journal_brake(gudgeon):
     gathered = np.sum((power[1:] + power[:-1]) / 2 * np.diff(t))
     assert_close(gathered, lost[-1] - lost[0], relative=1e-4)
     assert_close((omega[-1] - omega[0]) * 0.05, -0.2 * np.sum((arm * contact("normal_force"))[1:] * np.diff(t)), relative=1e-3)
+
+
+def test_numbers_have_the_unit_that_is_asked_for(gudgeon, tmp_path):
+    """An energy in J is no moment, and what is asked for in a unit that is not of the SI has that of the SI."""
+    text = (ROOT / "inputs" / "bouncing_ball.deck").read_text(encoding="utf-8") + """
+[request]
+name   value                              unit
+gain   {energy.kinetic}                   J
+other  {energy.kinetic}
+square {ball.velocity.y*ball.velocity.y}  m^2/s^2
+high   {ball.position.y}                  mm
+"""
+    call(gudgeon, "run", written(tmp_path, changed(text, "output", figures=None)), "--out", tmp_path / "run", "--quiet")
+    head = (tmp_path / "run" / "request.dat").read_text(encoding="utf-8").split("\n", 1)[0]
+    assert head.startswith("# time[s] request.gain[J] request.other[N.m] request.square[m^2/s^2] request.high[m]")
