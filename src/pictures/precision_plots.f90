@@ -12,7 +12,7 @@ module precision_plots
    use kinds, only: wp
    use plot_text, only: quoted
    use horizon_plot, only: horizon_rows, horizon_script
-   use precision_rows, only: front_of, least_error, number, numbers_of
+   use precision_rows, only: drawn_error, front_of, least_error, number, numbers_of
    use precision_results, only: error_ledger, error_names, precision_t, rung_done, rung_failed, rung_other, rung_t, &
       rung_unrun
    use script_parts, only: colours, preamble
@@ -24,6 +24,7 @@ module precision_plots
    public :: write_precision_plots
 
    character(*), parameter :: data_name = "precision.dat"        !! file of the numbers
+   real(wp), parameter :: decade = 0.2_wp   !! room beside an error, of it, for which the axis has another decade [1]
 
    ! columns of the numbers
    character(*), parameter :: at_error = "2"      !! error wanted
@@ -131,14 +132,25 @@ contains
       end if
    end function error_label
 
-   !> The error of the reference, and the error wanted.
+   !> The error of the reference, and the error wanted; the axis reaches to both, in whole decades.
    subroutine add_limits(lines, study)
       type(buffer_t), intent(inout) :: lines    !! the script
       type(precision_t), intent(in) :: study    !! results
 
       character(:), allocatable :: bar
+      real(wp) :: ends(2), x
+      integer :: i, k
 
+      ends = study%accuracy
+      do k = 1, size(study%ladders)
+         do i = 1, size(study%ladders(k)%rungs)
+            x = drawn_error(study, study%ladders(k)%rungs(i))
+            if (ieee_is_finite(x)) ends = [min(ends(1), x), max(ends(2), x)]
+         end do
+      end do
       if (ieee_is_finite(study%reference%bar(study%wanted))) then
+         ends(1) = min(ends(1), max(study%reference%bar(study%wanted), least_error))
+         ends(2) = max(ends(2), study%reference%bar(study%wanted))
          bar = number(max(study%reference%bar(study%wanted), least_error))
          call lines%line("set object 1 rectangle from graph 0, graph 0 to first "//bar//", graph 1 behind "// &
                          "fillcolor rgb '#f0f0f0' fillstyle solid noborder")
@@ -151,6 +163,8 @@ contains
                       ", graph 1 nohead linewidth 1.5 dashtype 2 linecolor rgb '#404040'")
       call lines%line("set label 2 "//quoted("error wanted")//" at first "//number(study%accuracy)// &
                       ", graph 0.02 left rotate by 90 offset -0.8,0 font ',12' textcolor rgb '#404040'")
+      call lines%line("set xrange [1e"//to_text(floor(log10(ends(1)*(1.0_wp - decade))))//":1e"// &
+                      to_text(ceiling(log10(ends(2)*(1.0_wp + decade))))//"]")
    end subroutine add_limits
 
    !> Curves of all settings; the plot command stays open.
@@ -268,7 +282,7 @@ contains
       call lines%line("set multiplot layout 2,2 title "//quoted(title)//" font ',17'")
       call add_limits(lines, study)
       call panel(label, "right-hand sides", "$"//at_rhs, at_error)
-      call lines%line("unset arrow; unset label; unset object")
+      call lines%line("unset arrow; unset label; unset object; set xrange [*:*]")
       if (any_ledger(study)) call panel("residual of the energy ledger [1], of the largest energy", &
                                         "CPU time of the solution ["//cpu%symbol//"]", "$"//at_cpu//"*f", at_ledger)
       call lines%line("set key inside bottom right vertical Left reverse samplen 1.5 spacing 1.1 font ',12' opaque")

@@ -7,7 +7,7 @@ module precision_rows
    use text_buffer, only: buffer_t
    implicit none (type, external)
    private
-   public :: front_of, least_error, number, numbers_of
+   public :: drawn_error, front_of, least_error, number, numbers_of
 
    real(wp), parameter :: least_error = 1.0e-17_wp   !! drawn for an error of nothing [1]
    real(wp), parameter :: least_below = 0.1_wp       !! of the reference's own error, drawn for what is less: it cannot be told [1]
@@ -74,17 +74,24 @@ contains
       type(rung_t), intent(in) :: rung         !! the run
       character(:), allocatable :: line        !! its row
 
-      real(wp) :: ledger, x
+      real(wp) :: ledger
+
+      ledger = rung%error(error_ledger)
+      if (ieee_is_finite(ledger)) ledger = max(ledger, least_error)
+      line = number(rung%asked)//" "//number(drawn_error(study, rung))//" "//number(rung%cpu)//" "//number(rung%cpu_least)//" "// &
+             to_text(rung%count%evaluations)//" "//to_text(rung%count%steps)//" "//number(ledger)//" "// &
+             to_text(rung%state)//" "//to_text(merge(1, 0, rung%is_below))
+   end function row_of
+
+   !> The error at which a run is drawn; NaN or infinite: it is not.
+   pure real(wp) function drawn_error(study, rung) result(x)
+      type(precision_t), intent(in) :: study   !! results
+      type(rung_t), intent(in) :: rung         !! the run
 
       x = rung%error(study%wanted)
       if (ieee_is_finite(x)) x = max(x, least_error)
       if (rung%is_below) x = max(x, least_below*study%reference%bar(study%wanted))
-      ledger = rung%error(error_ledger)
-      if (ieee_is_finite(ledger)) ledger = max(ledger, least_error)
-      line = number(rung%asked)//" "//number(x)//" "//number(rung%cpu)//" "//number(rung%cpu_least)//" "// &
-             to_text(rung%count%evaluations)//" "//to_text(rung%count%steps)//" "//number(ledger)//" "// &
-             to_text(rung%state)//" "//to_text(merge(1, 0, rung%is_below))
-   end function row_of
+   end function drawn_error
 
    !> A number as gnuplot reads it.
    function number(x) result(word)
