@@ -13,13 +13,16 @@ module plot_table
    use text_file, only: write_file
    implicit none (type, external)
    private
-   public :: draw_bars, draw_boxes, draw_lines, draw_marks, draw_points, panel_t, plot_curve_t, plot_table_t, tell_empty, write_plot
+   public :: draw_bars, draw_boxes, draw_dotted_lines, draw_lines, draw_marks, draw_points
+   public :: panel_t, plot_curve_t, plot_table_t, tell_empty, write_plot
 
    integer, parameter :: draw_points = 1   !! dots
    integer, parameter :: draw_lines = 2    !! a line
    integer, parameter :: draw_boxes = 3    !! boxes from `low` to `high` on the abscissa
    integer, parameter :: draw_bars = 4     !! dots with bars of half length `low`, joined by a line unless at words
    integer, parameter :: draw_marks = 5    !! small dashes, without a title
+   integer, parameter :: draw_dotted_lines = 6  !! a line with dots on it
+   real(wp), parameter :: flat = 1.0e-6_wp      !! span of lines below which they are drawn as constant, of their magnitude [1]
    real(wp), parameter :: few_counts = 10.0_wp  !! counts up to which each has its tic on the axis [1]
 
    !> One curve: columns of the table.
@@ -181,6 +184,7 @@ contains
       if (n == 1) then
          call lines%line("set title "//quoted(title)//" font ',17'")
       else
+         if (n == 2) call lines%line("set lmargin at screen 0.14; set rmargin at screen 0.95")  ! one above the other
          call lines%line("set multiplot layout "//trim(merge("2,1", "2,2", n < 3))//" title "//quoted(title)//" font ',17'")
       end if
       do k = 1, n
@@ -198,6 +202,13 @@ contains
 
       any_points = any(panel%curves%style == draw_points)
    end function any_points
+
+   !> Whether a curve of some style is a line.
+   elemental logical function is_line(style)
+      integer, intent(in) :: style  !! how it is drawn
+
+      is_line = style == draw_lines .or. style == draw_dotted_lines
+   end function is_line
 
    !> A line, unless it is blank.
    subroutine add_line(lines, words)
@@ -231,14 +242,18 @@ contains
 
       y = choose_unit(panel%y_unit, largest(table, panel%curves%y))
       call lines%line("set ylabel "//quoted(with_unit(panel%y_name, y)))
-      call lines%line(merge("set logscale y; set format y '%g'  ", "unset logscale y; set format y '%h'", panel%is_log_y))
-      if (all(panel%curves%style /= draw_lines .and. panel%curves%style /= draw_boxes) .and. .not. panel%is_log_y) then
+      call lines%line(merge("set logscale y; set format y '%g'  ", "unset logscale y; set format y '%h'", panel%is_log_y)// &
+                      "; set ytics autofreq; set yrange [*:*]")
+      if (all(.not. is_line(panel%curves%style) .and. panel%curves%style /= draw_boxes) .and. .not. panel%is_log_y) then
          call ordinate_lines(lines, table, panel, y)
       end if
       if (any_points(panel) .and. .not. panel%is_log_y) then
          call add_line(lines, long_tics("y", y%factor*range_of(table, panel%curves%y)))
       end if
-      if (any(panel%curves%style == draw_lines)) call lines%line("set autoscale xfix; unset offsets")
+      if (any(is_line(panel%curves%style))) then
+         call lines%line("set autoscale xfix; unset offsets")
+         if (.not. panel%is_log_y) call line_lines(lines, y%factor*range_of(table, panel%curves%y))
+      end if
       if (any(panel%curves%style == draw_boxes)) then
          call lines%line("set style fill solid 0.5; set offsets 0, 0, graph 0.06, 0; set xrange [0:*]; set yrange [0:*]")
          if (largest(table, panel%curves%y) <= few_counts) call lines%line("set ytics 1")  ! there are no halves of an impact
@@ -248,6 +263,24 @@ contains
                          merge(", \", "   ", k < size(panel%curves)))
       end do
    end subroutine panel_lines
+
+   !> The ordinate of lines: round-off of what is constant does not fill its height, no line lies on the frame, and ticks that
+   !> differ late have their digits.
+   subroutine line_lines(lines, range)
+      type(buffer_t), intent(inout) :: lines      !! the script
+      real(wp), intent(in) :: range(2)            !! (2) least and greatest ordinate [the unit shown]
+
+      real(wp) :: ends(2)
+
+      if (maxval(abs(range)) > 0.0_wp .and. range(2) - range(1) <= flat*maxval(abs(range))) then
+         ends = range + [-0.1_wp, 0.1_wp]*maxval(abs(range))
+         call lines%line("set yrange ["//real_text(ends(1), 6)//":"//real_text(ends(2), 6)//"]")
+      else
+         call lines%line("set offsets 0, 0, "//trim(merge("0         ", "graph 0.05", hangs_from_zero(range)))//", "// &
+                         trim(merge("0         ", "graph 0.05", stands_on_zero(range)))//"; set yrange "//open_range(range))
+         call add_line(lines, long_tics("y", range))
+      end if
+   end subroutine line_lines
 
    !> Ends of an ordinate that scales itself: of what is not negative it begins at zero, if that is near.
    subroutine ordinate_lines(lines, table, panel, y)
@@ -297,6 +330,8 @@ contains
              " linewidth 2 pointtype 7 pointsize 1.2"//colour
       case (draw_lines)
          s = s//scaled(curve%x, x)//":"//scaled(curve%y, y)//" with lines linewidth 1.5"//colour
+      case (draw_dotted_lines)
+         s = s//scaled(curve%x, x)//":"//scaled(curve%y, y)//" with linespoints linewidth 1.5 pointtype 7 pointsize 0.5"//colour
       case (draw_marks)
          s = s//scaled(curve%x, x)//":"//scaled(curve%y, y)//" with points pointtype 1 pointsize 0.9 linewidth 1"//colour
       case default
