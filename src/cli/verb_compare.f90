@@ -4,7 +4,8 @@ module verb_compare
    use column_file, only: column_table_t, read_columns
    use column_history, only: history_of_columns
    use comparison, only: compare_histories, comparison_t
-   use comparison_report, only: comparison_json, comparison_rows, comparison_text, verdict_text, write_overlays
+   use comparison_figures, only: write_overlays
+   use comparison_report, only: comparison_json, comparison_rows, comparison_text, verdict_text
    use console, only: say
    use errors, only: error_t, exit_different, exit_file, exit_usage, set_error
    use gnuplot_runs, only: draw_figures
@@ -271,7 +272,7 @@ contains
       code = enter_file(folder//"/")
       if (code == 0) code = make_directory(folder)
       if (code /= 0) call fail_file(error, "cannot make the directory", folder, code, "")
-      if (.not. allocated(error)) call write_overlays(found, folder, first, second, names, error)
+      if (.not. allocated(error)) call write_overlays(found, folder, first, second, names, warnings, error)
       if (.not. allocated(error)) call draw_figures(folder, names, pictures, warnings)
       text = comparison_text(found, first, second)//"output     "//directory%path//"/"//new_line("a")
       do k = 1, size(warnings)

@@ -3,7 +3,7 @@
 !> Channels are compared at the output instants of the second (`differences_of_series`), where both have some. A channel differs
 !> if the
 !> greatest difference is more than what is allowed: the larger of `absolute` and `relative` times its greatest magnitude in the
-!> first.
+!> first; or if at some instant only one of both has a number.
 !> By statistics, it differs if its mean or its mean square is further apart than that (for the square: of the magnitudes'
 !> product) and
 !> the significance, times the number of channels, is below 5 %: of a hundred equal channels not one is to be found different.
@@ -12,11 +12,12 @@
 module comparison
    use channel_spec, only: spec_t
    use column_history, only: number_of
-   use differences_of_series, only: at_instants, compare_values, difference_t
+   use differences_of_series, only: compare_values, difference_t, find_peak
    use errors, only: error_t, exit_usage, set_error
    use, intrinsic :: ieee_arithmetic, only: ieee_is_finite
    use kinds, only: wp
-   use series, only: history_t, impact_t
+   use series, only: history_t, impact_t, series_t
+   use series_at_instants, only: smooth_at, state_at, unwind
    use text, only: append_text, starts_with, text_t, to_text
    implicit none (type, external)
    private
@@ -37,6 +38,7 @@ module comparison
       real(wp), allocatable :: t(:)                     !! (m) instants compared [s]
       real(wp), allocatable :: a(:, :)                  !! (m, channels) the first [any]
       real(wp), allocatable :: b(:, :)                  !! (m, channels) the second [any]
+      real(wp), allocatable :: d(:, :)                  !! (m, channels) the second less the first; NaN: not compared [any]
       logical :: by_statistics = .false.                !! how it was judged
       integer :: n_different = 0                        !! channels that differ
       type(text_t), allocatable :: missing(:)           !! (k) channels that only one of them has
@@ -58,7 +60,7 @@ contains
       type(comparison_t), intent(out) :: found              !! what was found
       type(error_t), allocatable, intent(out) :: error      !! nothing to compare
 
-      real(wp), allocatable :: own(:), x(:)
+      real(wp), allocatable :: own(:)
       logical, allocatable :: is_inside(:)
       type(difference_t) :: new
       integer :: i, k, s
@@ -78,7 +80,7 @@ contains
          call set_error(error, exit_usage, "the times of both have nothing in common: shift or scale them with --time")
          return
       end if
-      allocate (found%a(size(found%t), size(b%list)), found%b(size(found%t), size(b%list)))
+      allocate (found%a(size(found%t), size(b%list)), found%b(size(found%t), size(b%list)), found%d(size(found%t), size(b%list)))
       do k = 1, size(b%list)
          i = number_of(a, b%list(k)%name)
          s = spec_of(specs, b%list(k)%name)
@@ -87,21 +89,13 @@ contains
             call append_text(found%missing, b%list(k)%name//" is in "//b%path//" only")
             cycle
          end if
-         new = difference_t()
-         new%name = b%list(k)%name
-         new%unit = a%list(i)%unit
-         x = pack(a%list(i)%x, a%is_output)
          associate (n => size(found%list) + 1)
-            call at_instants(own, x, found%t, found%a(:, n), new%interpolation)
             found%b(:, n) = pack(b%list(k)%x, is_inside)
-            if (s > 0) then
-               call compare_values(found%t, found%a(:, n), found%b(:, n), specs(s)%modulo, new)
-            else
-               call compare_values(found%t, found%a(:, n), found%b(:, n), 0.0_wp, new)
-            end if
+            call compare_channel(a, a%list(i), turn_of(specs, s, a%list(i)), found%t, found%a(:, n), found%b(:, n), found%d(:, n), &
+                                 new)
          end associate
          call judge(new, allowance(specs, s, absolute, .true.), allowance(specs, s, relative, .false.), by_statistics, &
-               size(b%list))
+                    size(b%list))
          found%list = [found%list, new]
       end do
       do i = 1, size(a%list)
@@ -112,6 +106,49 @@ contains
       if (size(found%list) == 0) call set_error(error, exit_usage, "both have no channel in common")
       call pair_impacts(a, b, found)
    end subroutine compare_histories
+
+   !> Bring a channel of the first to the instants of the second, and compare them.
+   subroutine compare_channel(run, channel, turn, t, a, b, d, difference)
+      type(history_t), intent(in) :: run                 !! the first
+      type(series_t), intent(in) :: channel              !! its channel
+      real(wp), intent(in) :: turn                       !! differences are up to multiples of it; 0: not [any]
+      real(wp), intent(in) :: t(:)                       !! (n) instants of the second, at least one [s]
+      real(wp), intent(out) :: a(:)                      !! (n) the first there [any]
+      real(wp), intent(inout) :: b(:)                    !! (n) the second; brought next to the first where it counts turns [any]
+      real(wp), intent(out) :: d(:)                      !! (n) the second less the first; NaN where they are not compared [any]
+      type(difference_t), intent(out) :: difference      !! set, but for the verdict
+
+      real(wp) :: time(count(run%is_output)), x(count(run%is_output))
+      logical :: is_settled(size(t))
+      integer :: first, last
+
+      difference%name = channel%name
+      difference%unit = channel%unit
+      time = pack(run%time, run%is_output)
+      x = pack(channel%x, run%is_output)
+      first = max(1, count(time <= t(1)))
+      last = min(size(time), count(time < t(size(t))) + 1)
+      call find_peak(time(first:last), x(first:last), difference%peak(1), difference%peak_at(1))
+      call find_peak(t, b, difference%peak(2), difference%peak_at(2))
+      if (channel%is_state) then
+         call state_at(run%time, channel%x, t, a, is_settled)
+      else
+         if (turn > 0.0_wp) call unwind(x, turn)
+         call smooth_at(time, x, t, a, is_settled, difference%interpolation)
+      end if
+      call compare_values(t, a, b, is_settled, turn, d, difference)
+   end subroutine compare_channel
+
+   !> What differences of a channel are taken up to multiples of: as asked for, else as the run says; 0: they are not.
+   pure real(wp) function turn_of(specs, s, channel) result(turn)
+      type(spec_t), intent(in) :: specs(:)     !! (n) requests
+      integer, intent(in) :: s                 !! number of the request; 0: none
+      type(series_t), intent(in) :: channel    !! of the run
+
+      turn = channel%turn
+      if (s == 0) return
+      if (specs(s)%modulo >= 0.0_wp) turn = specs(s)%modulo
+   end function turn_of
 
    !> The request that a channel goes with; 0: none.
    pure integer function spec_of(specs, name) result(s)
@@ -148,10 +185,11 @@ contains
       real(wp), parameter :: level = 0.05_wp   ! significance of all together [1]
 
       associate (d => difference)
-         d%allowed = max(absolute, relative*d%peak(1))
-         d%is_different = .true.
+         d%allowed = absolute
+         if (ieee_is_finite(d%peak(1))) d%allowed = max(absolute, relative*d%peak(1))
+         d%is_different = d%n == 0 .and. sum(d%only) + d%unsettled > 0
          if (d%n == 0) return
-         d%is_different = d%greatest > d%allowed
+         d%is_different = any(d%only > 0) .or. d%greatest > d%allowed
          if (.not. by_statistics) return
          d%is_different = (abs(d%mean%a%value - d%mean%b%value) > d%allowed .and. .not. is_chance(d%mean%significance)) .or. &
                           (abs(d%square%a%value - d%square%b%value) > d%allowed*maxval(d%peak) .and. &

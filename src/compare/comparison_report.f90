@@ -1,20 +1,16 @@
-!> A comparison as text for people, as rows, as an object of JSON, and as figures.
+!> A comparison as text for people, as rows, and as an object of JSON.
 module comparison_report
    use comparison, only: comparison_t
    use differences_of_series, only: difference_t, moments_t
-   use errors, only: error_t
    use, intrinsic :: ieee_arithmetic, only: ieee_is_finite
    use json_text, only: json_object_t
    use kinds, only: i8, wp
-   use plot_table, only: draw_lines, draw_points, plot_curve_t, plot_table_t, write_plot
-   use text, only: append_text, counted, exact_text, real_text, text_t, to_text
+   use text, only: counted, exact_text, real_text, text_t, to_text
    use text_buffer, only: buffer_t
    implicit none (type, external)
    private
-   public :: comparison_json, comparison_rows, comparison_text, verdict_text, write_overlays
+   public :: comparison_json, comparison_rows, comparison_text, verdict_text
 
-   integer, parameter :: most_figures = 12   !! channels that are drawn
-   integer, parameter :: few = 200           !! instants up to which each is a dot
    integer, parameter :: most_missing = 20   !! channels of one alone that are named
    integer, parameter :: cell_width = 11     !! of a column of numbers with three digits
    integer, parameter :: short_width = 10    !! of one of numbers with two
@@ -62,7 +58,7 @@ contains
          associate (d => found%list(k))
             call lines%line(trim(padded(d%name//" ["//d%unit//"]", width)//cell(d%rms)//cell(d%greatest)//cell(d%at)// &
                             cell(d%allowed)//cell(d%peak(1))//cell(d%peak(2))//cell(d%lag)//short(d%magnitude)//short(d%phase)// &
-                            trim(merge("differs  ", "         ", d%is_different))//of_interpolation(d)))
+                            trim(merge("differs  ", "         ", d%is_different))//of_instants(d)//of_interpolation(d)))
          end associate
       end do
       if (found%by_statistics) call add_statistics(lines, found, width)
@@ -108,12 +104,28 @@ contains
       end do
    end subroutine add_statistics
 
+   !> At how many instants both were compared, where that is not all, and why.
+   function of_instants(difference) result(words)
+      type(difference_t), intent(in) :: difference   !! of a channel
+      character(:), allocatable :: words             !! blank where all were compared
+
+      words = ""
+      associate (d => difference)
+         if (d%only(1) > 0) words = words//", a number in A only at "//to_text(d%only(1))
+         if (d%only(2) > 0) words = words//", a number in B only at "//to_text(d%only(2))
+         if (d%neither > 0) words = words//", in neither at "//to_text(d%neither)
+         if (d%unsettled > 0) words = words//", A changes between its rows at "//to_text(d%unsettled)
+         if (words /= "") words = "  ("//counted(d%n, "instant", "instants")//" compared"//words//")"
+      end associate
+   end function of_instants
+
    !> What the interpolation may have added, where that matters.
    function of_interpolation(difference) result(words)
       type(difference_t), intent(in) :: difference   !! of a channel
       character(:), allocatable :: words             !! blank where it does not matter
 
       words = ""
+      if (difference%n == 0) return
       if (difference%interpolation > 0.1_wp*max(difference%allowed, difference%greatest)) then
          words = "  (interpolation up to "//real_text(difference%interpolation, 2)//")"
       end if
@@ -143,7 +155,9 @@ contains
       real(wp), intent(in) :: x            !! the measure [1]
       character(:), allocatable :: s       !! with blanks behind it
 
-      s = padded(real_text(x, 2), short_width)
+      s = "-"
+      if (ieee_is_finite(x)) s = real_text(x, 2)
+      s = padded(s, short_width)
    end function short
 
    !> Headings of columns of numbers.
@@ -170,13 +184,14 @@ contains
 
       call lines%line("channel,unit,instants,rms,greatest,at,allowed,differs,interpolation,peak_a,peak_a_at,peak_b,peak_b_at,"// &
                       "lag,magnitude,phase,mean_a,mean_a_half,mean_b,mean_b_half,mean_significance,square_a,square_b,"// &
-                      "square_significance")
+                      "square_significance,only_a,only_b,neither,unsettled")
       do k = 1, size(found%list)
          associate (d => found%list(k))
             call lines%line(d%name//","//d%unit//","//to_text(d%n)//joined([d%rms, d%greatest, d%at, d%allowed])//","// &
                             to_text(merge(1, 0, d%is_different))//joined([d%interpolation, d%peak(1), d%peak_at(1), d%peak(2), &
                             d%peak_at(2), d%lag, d%magnitude, d%phase, d%mean%a%value, d%mean%a%half, d%mean%b%value, &
-                            d%mean%b%half, d%mean%significance, d%square%a%value, d%square%b%value, d%square%significance]))
+                            d%mean%b%half, d%mean%significance, d%square%a%value, d%square%b%value, d%square%significance])// &
+                            ","//to_text(d%only(1))//","//to_text(d%only(2))//","//to_text(d%neither)//","//to_text(d%unsettled))
          end associate
       end do
       text = lines%get()
@@ -218,6 +233,10 @@ contains
             call one%put_text("channel", d%name)
             call one%put_text("unit", d%unit)
             call one%put_integer("instants", int(d%n, i8))
+            call one%put_integer("only_a", int(d%only(1), i8))
+            call one%put_integer("only_b", int(d%only(2), i8))
+            call one%put_integer("neither", int(d%neither, i8))
+            call one%put_integer("unsettled", int(d%unsettled, i8))
             call one%put_logical("differs", d%is_different)
             call one%put_real("rms", d%rms)
             call one%put_real("greatest", d%greatest)
@@ -257,6 +276,7 @@ contains
       call json%put_text("directory", directory)
       call json%put_text("verdict", verdict_text(found))
       call json%put_logical("by_statistics", found%by_statistics)
+      call json%put_integer("instants", int(size(found%t), i8))
       call json%put_integer("different", int(found%n_different, i8))
       call json%put_objects("channels", channels)
       call json%put_objects("impacts", pairs)
@@ -278,71 +298,5 @@ contains
       call json%put_real(name//"_b_half", moments%b%half)
       call json%put_real(name//"_significance", moments%significance)
    end subroutine put_moments
-
-   !> Figures of the channels that are furthest apart: both over one another, and the difference.
-   subroutine write_overlays(found, folder, first, second, names, error)
-      type(comparison_t), intent(in) :: found               !! what was found
-      character(*), intent(in) :: folder                    !! where they go
-      character(*), intent(in) :: first                     !! what A is called
-      character(*), intent(in) :: second                    !! what B is called
-      type(text_t), allocatable, intent(out) :: names(:)    !! (n) figures
-      type(error_t), allocatable, intent(out) :: error      !! a file cannot be written
-
-      type(plot_table_t) :: table
-      real(wp) :: worst(size(found%list))
-      integer :: i, k
-      logical :: is_written
-
-      allocate (names(0))
-      do k = 1, size(found%list)
-         worst(k) = found%list(k)%greatest/max(found%list(k)%allowed, tiny(1.0_wp)*1.0e10_wp)
-         if (.not. ieee_is_finite(worst(k))) worst(k) = huge(1.0_wp)
-      end do
-      do i = 1, min(most_figures, size(found%list))
-         k = maxloc(worst, dim=1)
-         worst(k) = -1.0_wp
-         associate (d => found%list(k))
-            table = plot_table_t()
-            table%name = d%name
-            table%heading = ""
-            table%x_name = "time"
-            table%x_unit = "s"
-            allocate (table%labels(0), table%categories(0), table%panels(2), table%values(4, size(found%t)))
-            call append_text(table%labels, "time [s]")
-            call append_text(table%labels, "A ["//d%unit//"]")
-            call append_text(table%labels, "B ["//d%unit//"]")
-            call append_text(table%labels, "B - A ["//d%unit//"]")
-            table%values(1, :) = found%t
-            table%values(2, :) = found%a(:, k)
-            table%values(3, :) = found%b(:, k)
-            table%values(4, :) = found%b(:, k) - found%a(:, k)
-            allocate (table%panels(1)%curves(2), table%panels(2)%curves(1))
-            table%panels(1)%y_name = d%name
-            table%panels(2)%y_name = "B - A"
-            table%panels(1)%y_unit = d%unit
-            table%panels(2)%y_unit = d%unit
-            call set_curve(table%panels(1)%curves(1), 2, 1, draw_lines, "A: "//first)
-            call set_curve(table%panels(1)%curves(2), 3, 2, merge(draw_points, draw_lines, size(found%t) <= few), "B: "//second)
-            call set_curve(table%panels(2)%curves(1), 4, 6, draw_lines, "")
-            call write_plot(folder, d%name, table, is_written, error)
-            if (allocated(error)) return
-            if (is_written) call append_text(names, d%name)
-         end associate
-      end do
-   end subroutine write_overlays
-
-   !> A curve over the time.
-   subroutine set_curve(curve, column, colour, style, title)
-      type(plot_curve_t), intent(out) :: curve   !! the curve
-      integer, intent(in) :: column              !! of the ordinate
-      integer, intent(in) :: colour              !! number of the colour
-      integer, intent(in) :: style               !! how it is drawn
-      character(*), intent(in) :: title          !! in the legend; blank: none
-
-      curve%style = style
-      curve%y = column
-      curve%colour = colour
-      curve%title = title
-   end subroutine set_curve
 
 end module comparison_report

@@ -1,10 +1,10 @@
 !> How far two time histories of the same number differ.
 !>
-!> The first one, A, is brought to the instants of the second, B, by the polynomial through six of its output instants; how far that
-!> is from the one through five tells what the interpolation may add. With d = b - a:
+!> Both are at the same instants (`series_at_instants`). Compared are those at which both have a number; at how many only one of
+!> them has one is told. With d = b - a:
 !>
 !>     rms        sqrt(mean d^2)                     greatest   max |d|, and when
-!>     peak error (max |b| - max |a|)/max |a|        lag        shift tau of b(t) = a(t - tau) with the least mean square
+!>     peaks      max |a|, max |b|, of the own rows  lag        shift tau of b(t) = a(t - tau) with the least mean square
 !>     magnitude  sqrt(sum b^2/sum a^2) - 1          phase      acos(sum a b/sqrt(sum a^2 sum b^2))/pi
 !>
 !> The last two are measures of Sprague and Geers: the error of the size alone and that of the phase alone.
@@ -21,7 +21,7 @@ module differences_of_series
    use kinds, only: not_a_number, pi, wp
    implicit none (type, external)
    private
-   public :: at_instants, compare_values, difference_t, moments_t
+   public :: compare_values, difference_t, find_peak, moments_t
 
    integer, parameter :: n_grid = 1001    !! instants of the search for the lag
    integer, parameter :: most_lag = 100   !! of these instants, to either side
@@ -38,12 +38,15 @@ module differences_of_series
    type :: difference_t
       character(:), allocatable :: name           !! of the number
       character(:), allocatable :: unit           !! SI
-      integer :: n = 0                            !! instants compared
+      integer :: n = 0                            !! instants compared: both have a number
+      integer :: only(2) = 0                      !! (2) instants at which only A, or only B, has a number
+      integer :: neither = 0                      !! instants at which none of them has one
+      integer :: unsettled = 0                    !! instants between two rows of A of which one has no number, or another state
       real(wp) :: rms = 0.0_wp                    !! [any]
       real(wp) :: greatest = 0.0_wp               !! [any]
       real(wp) :: at = 0.0_wp                     !! when [s]
       real(wp) :: interpolation = 0.0_wp          !! what the interpolation may have added at most [any]
-      real(wp) :: peak(2) = 0.0_wp                !! (2) greatest magnitude of both [any]
+      real(wp) :: peak(2) = 0.0_wp                !! (2) greatest magnitude in the rows of each; NaN: no number [any]
       real(wp) :: peak_at(2) = 0.0_wp             !! (2) when [s]
       real(wp) :: lag = 0.0_wp                    !! of b behind a; NaN: not known [s]
       real(wp) :: magnitude = 0.0_wp              !! [1]
@@ -57,57 +60,83 @@ module differences_of_series
 contains
 
    !> Compare values at the same instants.
-   subroutine compare_values(t, a, b, modulo, difference)
+   subroutine compare_values(t, a, b, is_settled, modulo, d, difference)
       real(wp), intent(in) :: t(:)                       !! (n) instants [s]
       real(wp), intent(in) :: a(:)                       !! (n) the first [any]
       real(wp), intent(inout) :: b(:)                    !! (n) the second; brought next to the first where it counts turns [any]
+      logical, intent(in) :: is_settled(:)               !! (n) where it is known what the first is
       real(wp), intent(in) :: modulo                     !! differences are up to multiples of it; 0: not [any]
-      type(difference_t), intent(inout) :: difference    !! set, but for the verdict
+      real(wp), intent(out) :: d(:)                      !! (n) the second less the first; NaN where they are not compared [any]
+      type(difference_t), intent(inout) :: difference    !! set, but for the peaks and the verdict
 
-      real(wp), allocatable :: d(:), x(:), y(:)
-      logical, allocatable :: is_known(:)
-      integer :: k
+      real(wp), allocatable :: x(:), y(:)
+      logical :: has_a(size(a)), has_b(size(a)), is_known(size(a))
 
-      if (modulo > 0.0_wp) b = b - modulo*anint((b - a)/modulo)
-      is_known = ieee_is_finite(a) .and. ieee_is_finite(b)
-      x = pack(a, is_known)
-      y = pack(b, is_known)
-      d = y - x
-      difference%n = size(d)
+      has_a = ieee_is_finite(a)
+      has_b = ieee_is_finite(b)
+      is_known = has_a .and. has_b .and. is_settled
+      if (modulo > 0.0_wp) then
+         where (has_a .and. has_b) b = b - modulo*anint((b - a)/modulo)
+      end if
+      d = not_a_number()
+      where (is_known) d = b - a
+      difference%n = count(is_known)
+      difference%only = [count(is_settled .and. has_a .and. .not. has_b), count(is_settled .and. has_b .and. .not. has_a)]
+      difference%neither = count(is_settled .and. .not. (has_a .or. has_b))
+      difference%unsettled = count(.not. is_settled)
+      difference%mean = moments_of(pack(a, has_a), pack(b, has_b))
+      difference%square = moments_of(pack(a, has_a)**2, pack(b, has_b)**2)
       difference%lag = not_a_number()
-      if (size(d) == 0) then
+      if (difference%n == 0) then
          difference%rms = not_a_number()
          difference%greatest = not_a_number()
+         difference%at = not_a_number()
+         difference%magnitude = not_a_number()
+         difference%phase = not_a_number()
          return
       end if
-      difference%rms = sqrt(sum(d**2)/real(size(d), wp))
-      k = maxloc(abs(d), dim=1)
-      difference%greatest = abs(d(k))
-      associate (times => pack(t, is_known))
-         difference%at = times(k)
-         difference%peak = [maxval(abs(x)), maxval(abs(y))]
-         difference%peak_at = [times(maxloc(abs(x), dim=1)), times(maxloc(abs(y), dim=1))]
-      end associate
+      x = pack(a, is_known)
+      y = pack(b, is_known)
+      difference%rms = sqrt(sum((y - x)**2)/real(difference%n, wp))
+      call find_peak(t, d, difference%greatest, difference%at)
       if (sum(x**2) > 0.0_wp .and. sum(y**2) > 0.0_wp) then
          difference%magnitude = sqrt(sum(y**2)/sum(x**2)) - 1.0_wp
          difference%phase = acos(max(-1.0_wp, min(1.0_wp, sum(x*y)/(sqrt(sum(x**2))*sqrt(sum(y**2))))))/pi
       end if
-      difference%mean = moments_of(x, y)
-      difference%square = moments_of(x**2, y**2)
       if (all(is_known)) difference%lag = lag_of(t, a, b)
    end subroutine compare_values
+
+   !> The greatest magnitude of numbers, and when.
+   pure subroutine find_peak(t, x, peak, at)
+      real(wp), intent(in) :: t(:)      !! (n) instants [s]
+      real(wp), intent(in) :: x(:)      !! (n) numbers, some of them perhaps none [any]
+      real(wp), intent(out) :: peak     !! the greatest magnitude; NaN: there is no number [any]
+      real(wp), intent(out) :: at       !! its first instant; NaN: there is none [s]
+
+      integer :: k
+
+      peak = not_a_number()
+      at = not_a_number()
+      k = maxloc(abs(x), dim=1, mask=ieee_is_finite(x))
+      if (k == 0) return
+      peak = abs(x(k))
+      at = t(k)
+   end subroutine find_peak
 
    !> Means of both and the significance of their difference.
    function moments_of(x, y) result(moments)
       real(wp), intent(in) :: x(:)    !! (n) the first [any]
-      real(wp), intent(in) :: y(:)    !! (n) the second [any]
-      type(moments_t) :: moments      !! of both
+      real(wp), intent(in) :: y(:)    !! (m) the second [any]
+      type(moments_t) :: moments      !! of both; NaN of one without numbers
 
       real(wp), parameter :: normal = 1.959963984540054_wp  ! quantile 0.975 of the normal distribution [1]
       real(wp) :: apart, half
 
-      moments%a = mean_of_series(x)
-      moments%b = mean_of_series(y)
+      moments%a%value = not_a_number()
+      moments%a%half = not_a_number()
+      moments%b = moments%a
+      if (size(x) > 0) moments%a = mean_of_series(x)
+      if (size(y) > 0) moments%b = mean_of_series(y)
       moments%significance = not_a_number()
       if (.not. (ieee_is_finite(moments%a%half) .and. ieee_is_finite(moments%b%half))) return
       half = hypot(moments%a%half, moments%b%half)
@@ -119,64 +148,6 @@ contains
          moments%significance = 0.0_wp
       end if
    end function moments_of
-
-   !> Values at other instants, by the polynomial through six neighbours, and what that may add.
-   pure subroutine at_instants(t, x, times, values, worst)
-      real(wp), intent(in) :: t(:)           !! (n) instants, rising [s]
-      real(wp), intent(in) :: x(:)           !! (n) values [any]
-      real(wp), intent(in) :: times(:)       !! (m) instants wanted, within the others [s]
-      real(wp), intent(out) :: values(:)     !! (m) the values [any]
-      real(wp), intent(out) :: worst         !! greatest difference to the one through five [any]
-
-      real(wp), parameter :: same = 1.0e-9_wp   ! of an interval: it is the instant itself [1]
-      real(wp) :: fewer
-      integer :: i, k, n
-
-      worst = 0.0_wp
-      n = min(6, size(t))
-      k = 1
-      do i = 1, size(times)
-         if (k > 1) then
-            if (times(i) < t(k)) k = 1
-         end if
-         do while (k < size(t) - 1)
-            if (times(i) < t(k + 1)) exit
-            k = k + 1
-         end do
-         associate (first => max(1, min(k - 2, size(t) - n + 1)))
-            values(i) = lagrange(t(first:first + n - 1), x(first:first + n - 1), times(i))
-            if (n < 3) cycle
-            if (minval(abs(t(first:first + n - 1) - times(i))) <= same*(t(first + n - 1) - t(first))) cycle
-            fewer = lagrange(t(first:first + n - 2), x(first:first + n - 2), times(i))
-            if (ieee_is_finite(fewer) .and. ieee_is_finite(values(i))) worst = max(worst, abs(values(i) - fewer))
-         end associate
-      end do
-   end subroutine at_instants
-
-   !> The polynomial through some points.
-   pure real(wp) function lagrange(t, x, at) result(value)
-      real(wp), intent(in) :: t(:)    !! (n) abscissas [s]
-      real(wp), intent(in) :: x(:)    !! (n) values [any]
-      real(wp), intent(in) :: at      !! where it is wanted [s]
-
-      real(wp) :: weight
-      integer :: i, k
-
-      do k = 1, size(t)
-         if (abs(at - t(k)) <= 0.0_wp) then
-            value = x(k)
-            return
-         end if
-      end do
-      value = 0.0_wp
-      do k = 1, size(t)
-         weight = 1.0_wp
-         do i = 1, size(t)
-            if (i /= k) weight = weight*(at - t(i))/(t(k) - t(i))
-         end do
-         value = value + weight*x(k)
-      end do
-   end function lagrange
 
    !> The shift of b behind a with the least mean square of what is left: whole steps of a grid, then a step of Gauss and Newton.
    function lag_of(t, a, b) result(lag)

@@ -10,6 +10,8 @@ module series
       character(:), allocatable :: name   !! as `slider.velocity.x`
       character(:), allocatable :: unit   !! SI; blank: not known
       real(wp), allocatable :: x(:)       !! (n) values; NaN: none [any]
+      logical :: is_state = .false.       !! one of a few whole numbers, which it keeps until it changes
+      real(wp) :: turn = 0.0_wp           !! what it jumps by, as an angle from -pi to pi does; 0: it does not [any]
    end type series_t
 
    !> A contact that began.

@@ -13,15 +13,17 @@ module run_history
    use hdf5_read, only: has_dataset, read_reals, read_texts
    use, intrinsic :: ieee_arithmetic, only: ieee_is_nan
    use, intrinsic :: iso_c_binding, only: c_associated, c_char, c_f_pointer, c_loc, c_null_char, c_ptr
-   use kinds, only: wp
+   use kinds, only: pi, wp
    use series, only: history_t, impact_t, series_t
-   use text, only: append_text, text_t
+   use text, only: append_text, starts_with, text_t
    implicit none (type, external)
    private
    public :: read_run
 
    character(10), parameter :: rooms(10) = [character(10) :: "bodies", "joints", "drivers", "clearances", "forces", "energy", &
                                              "points", "motions", "reactions", "requests"]
+   !> Angles from -pi to pi.
+   character(*), parameter :: wrapped(2) = [character(33) :: "joints/angle", "clearances/contacts/contact_angle"]
    integer, parameter :: longest_word = 256   !! bytes of a word of /events
 
 contains
@@ -155,7 +157,8 @@ contains
       call h5dclose_f(dataset, closed)
    end subroutine shape_of
 
-   !> A quantity of all items of a group; numbers that an item does not have are left out.
+   !> A quantity of all items of a group; numbers that an item does not have are left out. A request is there
+   !> even if none of its values is a number.
    subroutine read_quantity(file, path, quantity, items, shape, history, status)
       integer(hid_t), intent(in) :: file            !! the file
       character(*), intent(in) :: path              !! of the dataset
@@ -187,11 +190,13 @@ contains
             more(i)%name = items(row)%s//"."//quantity
             if (size(shape) == 3) more(i)%name = more(i)%name//"."//trim(merge(parameters(c), axes(c), n_component == 4))
             more(i)%unit = unit
+            more(i)%is_state = path == "clearances/contacts/state"
+            if (any(wrapped == path)) more(i)%turn = 2.0_wp*pi
             more(i)%x = all(i:i + (n - 1)*size(more):size(more))
          end do
       end do
       do i = 1, size(more)
-         if (all_missing(more(i)%x)) cycle
+         if (all_missing(more(i)%x) .and. .not. starts_with(path, "requests/")) cycle
          new = more(i)
          history%list = [history%list, new]
       end do
