@@ -111,7 +111,7 @@ contains
       call text_dataset(file, "errors/long_names", words, .false., "what they are", status)
       call integer_dataset(file, "runs/ladder", [n], owner, "number of the setting, from 1", status)
       call put("asked", rungs%asked, "1 or s", "tolerance, or length of fixed steps")
-      call integer_dataset(file, "runs/state", [n], rungs%state, "0 not run, 1 done, 2 failed, 3 another sequence of contacts", &
+      call integer_dataset(file, "runs/state", [n], rungs%state, "0 not run, 1 done, 2 failed, 3 other contacts or another end", &
                            status)
       call text_dataset(file, "runs/reason", reasons, .false., "why a run failed or was not made", status)
       call real_dataset(file, "runs/error", [n_error, n], reshape(errors, [n_error*n]), "list", "errors by kind", status)

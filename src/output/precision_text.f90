@@ -307,7 +307,7 @@ contains
       character(:), allocatable :: words          !! as `: reason`
 
       words = ": "//rung%reason
-      if (rung%state == rung_other) words = ": contacts in another order or number than in the reference"
+      if (rung%state == rung_other .and. rung%reason == "") words = ": contacts in another order or number than in the reference"
    end function why
 
    !> The choice.

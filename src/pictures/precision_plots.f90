@@ -1,7 +1,7 @@
 !> The figures of a comparison of settings: cost over error, its second views, the distance of twins over time.
 !>
 !> The numbers stand in `precision.dat`, a block for each setting, then the front and the choice; scripts draw from them. What
-!> is within the error of the reference is grey; a run with another sequence of contacts is an open diamond; failures stand as
+!> is within the error of the reference is grey; a run with other contacts or another end is an open diamond; failures stand as
 !> crosses at the right edge, at the time after which they failed, their reasons in the legend.
 module precision_plots
    use beyond_plot, only: beyond_rows, beyond_script, has_beyond
@@ -101,7 +101,7 @@ contains
       call add_curves(lines, study, at_error, "($"//at_cpu//"*f)", "($"//at_least//"*f)", .true.)
       call add_failures(lines, study)
       if (any_state(study, rung_other)) call lines%line("     NaN with points pointtype 12 pointsize 1.2 linewidth 1.5 "// &
-         "linecolor rgb '#404040' title 'another sequence of contacts', \")
+         "linecolor rgb '#404040' title 'other contacts, or another end', \")
       call lines%line("     '"//data_name//"' index "//to_text(n)//" using "//at_error//":($"//at_cpu// &
                       "*f) with lines linecolor rgb '#000000' linewidth 1 dashtype 3 title 'front of best settings', \")
       call lines%line("     '"//data_name//"' index "//to_text(n + 1)//" using "//at_error//":($"//at_cpu// &

@@ -81,8 +81,8 @@ contains
             call raise(i, k, d)
          end do
       end do
-      ! a condition may end one of them an instant earlier
-      if (abs(run%n - other%n) > 1) by_instant(min(run%n, other%n) + 1:) = not_alike
+      ! a condition may end one of them an instant earlier; else they go apart where the first one ends
+      if (abs(run%n - other%n) > 1) by_instant(max(1, min(run%n, other%n + 1)):) = not_alike
       if (run%n == 0 .or. run%n /= other%n) return
       do k = 1, size(run%kind)   ! rows behind the last instant
          if (is_round(k, run%series%most(k) - run%series%least(k), other%series%most(k) - other%series%least(k))) cycle

@@ -13,7 +13,7 @@ module precision_reference
    use precision_info, only: setting_t
    use precision_results, only: error_motion, error_onsets, error_peaks, error_positions, error_reactions, error_restitution, &
       error_velocities, ladder_t, precision_t, rung_done, rung_other, rung_t
-   use run_difference, only: compare_contacts, compare_sorts, distances, scales_of
+   use run_difference, only: compare_contacts, compare_sorts, distances, ends_elsewhere, scales_of
    use scene_size, only: extent_of_scene, size_of_bodies
    use setting_run, only: job_t, outcome_t, run_setting
    use text, only: real_text
@@ -357,6 +357,10 @@ contains
       if (all(reference%run%sort /= sort_reactions)) rung%error(error_reactions) = not_a_number()
       call compare_contacts(run, reference%run, study%reference%window, rung%error(error_onsets), rung%error(error_peaks), &
                             rung%error(error_restitution), is_other)
+      if (ends_elsewhere(run, reference%run, study%reference%window)) then
+         is_other = .true.
+         rung%reason = "it ends at another time than the reference"
+      end if
       if (is_other) rung%state = rung_other
       rung%is_below = .false.
       if (ieee_is_finite(rung%error(study%wanted)) .and. ieee_is_finite(study%reference%bar(study%wanted))) then

@@ -41,7 +41,7 @@ module precision_results
    integer, parameter :: rung_unrun = 0    !! no time was left for it
    integer, parameter :: rung_done = 1     !! ran to the end
    integer, parameter :: rung_failed = 2   !! failed
-   integer, parameter :: rung_other = 3    !! ran to the end, with another sequence of contacts than the reference
+   integer, parameter :: rung_other = 3    !! ran to its end, with other contacts than the reference, or another end
    character(*), parameter :: rung_states(0:3) = [character(14) :: "not run", "done", "failed", "other sequence"]  !! in words
 
    ! statistics of the time that is not compared

@@ -28,6 +28,7 @@ module precision_study
    public :: study_precision
 
    ! parts of the budget at whose end the phases end [1]
+   real(wp), parameter :: until_stop = 0.10_wp         !! the run that tells when a condition ends the motion
    real(wp), parameter :: until_reference = 0.65_wp    !! the reference and what confirms it
    real(wp), parameter :: until_twins = 0.75_wp        !! twins
    real(wp), parameter :: until_tangent = 0.80_wp      !! the exponent by the tangent
@@ -57,6 +58,7 @@ contains
       study%end = plan%end
       study%instants = nint(scene%settings%precision%number("instants")) + 1
       study%longest_step = scene%settings%dynamic%number("maximum_step")
+      call space_instants(scene%settings%precision%number("finest"), budget, job)
       call settings_of(words, settings)
       call new_ladders(scene, settings, study)
       call run_ladders(job, budget, display, study, kept)
@@ -121,6 +123,25 @@ contains
       job%plan%strobes = [real(wp) ::]
       job%stop = stop
    end subroutine new_job
+
+   !> Where a condition ends the motion, the instants compared are equal parts of what there is of it; the last one comes before the
+   !> end, which is another by a little in every run.
+   subroutine space_instants(finest, budget, job)
+      real(wp), intent(in) :: finest                !! tolerance of the run that tells [1]
+      type(time_budget_t), intent(in) :: budget     !! the time
+      type(job_t), intent(inout) :: job             !! its plan may change
+
+      real(wp), parameter :: before = 1.0e-6_wp   ! the end, of the motion [1]
+      type(kept_run_t) :: nothing
+      type(outcome_t) :: outcome
+
+      if (job%stop%n == 0) return
+      nothing%is_kept = .false.
+      job%clock = budget%clock_left(until_stop)
+      call run_setting(job, setting_t("verner", "", ""), finest, nothing, outcome)
+      if (outcome%reason /= "" .or. .not. outcome%summary%time_end < job%plan%end) return
+      job%plan%every = job%plan%every*(1.0_wp - before)*outcome%summary%time_end/job%plan%end
+   end subroutine space_instants
 
    !> Time all runs that ended, round by round.
    subroutine time_rounds(job, budget, rounds, display, study)

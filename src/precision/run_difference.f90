@@ -10,7 +10,7 @@ module run_difference
    use kinds, only: not_a_number, wp
    implicit none (type, external)
    private
-   public :: by_onset, compare_contacts, compare_sorts, distances, first_other_contact, scales_of
+   public :: by_onset, compare_contacts, compare_sorts, distances, ends_elsewhere, first_other_contact, scales_of
 
    real(wp), parameter :: at_rest = 1.0e-8_wp   !! range of motion below which a mechanism rests, of its size [1]
    real(wp), parameter :: together = 1.0e-9_wp  !! onsets so near that their order does not count, of the time compared [1]
@@ -44,6 +44,21 @@ contains
       end if
       if (scale(sort_reactions) <= 0.0_wp) scale(sort_reactions) = 1.0_wp
    end function scales_of
+
+   !> Whether a run and its reference end at other instants within the window, by more than the one that rounding may cost: a
+   !> condition ends one of them where it does not end the other.
+   pure logical function ends_elsewhere(run, reference, window)
+      class(kept_run_t), intent(in) :: run        !! the run
+      class(kept_run_t), intent(in) :: reference  !! what it is compared with
+      real(wp), intent(in) :: window              !! time up to which they are compared [s]
+
+      real(wp), parameter :: same = 1.0e-9_wp   ! of the window [1]
+      integer :: n
+
+      n = min(run%n, reference%n)
+      ends_elsewhere = abs(run%n - reference%n) > 1
+      if (ends_elsewhere .and. n > 0) ends_elsewhere = reference%t(n) < window*(1.0_wp - same)
+   end function ends_elsewhere
 
    !> Differences of two runs at each common instant, over the scales.
    pure subroutine distances(run, reference, scale, d)

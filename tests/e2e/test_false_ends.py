@@ -1,0 +1,69 @@
+"""Conditions that end a run where its error, not the motion, meets them: against x = cos 10 t."""
+
+import math
+
+import pytest
+from support import Run, call, scratch, written
+
+OSCILLATOR = """deck = 1
+[scene]
+gravity = 0 0 m/s^2
+[bodies]
+name   mass[kg]  inertia[kg.m^2]  x[m]  y[m]  angle[deg]
+block  1         1                1     0     0
+[points]
+name  body    xi[m]  eta[m]
+o     ground  0      0
+c     block   0      0
+g     ground  5      0
+[joint.translational]
+name   i  j  axis
+slide  o  c  x
+[force.spring]
+name  i  j  stiffness[N/m]  free_length[m]
+s     g  c  100             5
+[guards]
+stop = block.position.x < LOW
+[analysis.dynamic]
+end = END
+[output]
+every = 10 ms
+channels = block.position block.velocity
+"""
+
+
+def study(gudgeon, low, end, *options):
+    """What a comparison of settings prints, and its choice."""
+    directory = scratch()
+    deck = written(directory, OSCILLATOR.replace("LOW", low).replace("END", end))
+    done = call(gudgeon, "precision", deck, "--budget", "4s", "--out", directory / "out", *options)
+    return done.stdout, [line for line in done.stdout.splitlines() if line.startswith("choice")][0]
+
+
+def test_a_setting_that_stops_too_early_is_not_chosen(gudgeon):
+    """x never falls below -1: settings with errors above 1e-10 stop at pi/10 of 2 s all the same, and are told as another motion."""
+    words, choice = study(gudgeon, "-1.0000000001 m", "2 s", "--methods", "verner dop853 adams")
+    assert "it ends at another time than the reference" in words
+    directory = scratch()
+    deck = written(directory, OSCILLATOR.replace("LOW", "-1.0000000001 m").replace("END", "2 s"))
+    method, tolerance = (choice.split(f"{key} = ")[1].split(",")[0].split(":")[0] for key in ("method", "tolerance"))
+    call(gudgeon, "run", deck, "--method", method, "--tolerance", tolerance, "--out", directory / "out", "--quiet")
+    assert Run(directory / "out").summary["time_end"] == pytest.approx(2.0)
+
+
+def test_instants_are_of_what_there_is_of_the_motion(gudgeon):
+    """A motion of 0.19 s in a deck of 100 s is compared at 201 instants: steps that go past its end are not the cheapest."""
+    words, choice = study(gudgeon, "-0.3 m", "100 s", "--methods", "verner rk4")
+    compared = [line for line in words.splitlines() if line.startswith("compared")][0]
+    assert f"{math.acos(-0.3) / 10:.6g} s" in compared and "at 201 instants" in compared
+    assert "method = verner" in choice
+
+
+def test_no_accuracy_is_claimed_of_a_false_end(gudgeon):
+    """What confirms the run goes on where it was stopped: the accuracy holds up to there, and not to the end; or it is not stopped."""
+    directory = scratch()
+    deck = written(directory, OSCILLATOR.replace("LOW", "-1.00001 m").replace("END", "2 s"))
+    done = call(gudgeon, "run", deck, "--method", "adams", "--accuracy", "1e-3", "--out", directory / "out")
+    summary = Run(directory / "out").summary
+    if summary["time_end"] < 1.0:
+        assert "up to t = 0.3" in done.stdout and "up to the end" not in done.stdout
