@@ -91,7 +91,7 @@ contains
          call lines%line("")
       else
          call lines%line(", \")
-         call lines%line("     "//source(ideal(1), axes)//" with lines linewidth 1.6 linecolor rgb '#909090' title 'ideal joints'")
+         call lines%line("     "//source(ideal(1), axes)//" with lines linewidth 1.6 linecolor rgb '#101010' title 'ideal joints'")
       end if
       call lines%line("unset output")
 

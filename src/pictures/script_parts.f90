@@ -16,6 +16,8 @@ module script_parts
    character(*), parameter :: colours(12) = &
       [character(7) :: "#1f6fb4", "#d1495b", "#2e8b57", "#c98a00", "#7b4fa3", "#4d4d4d", &
        "#17a2b8", "#e377c2", "#9acd32", "#8c564b", "#ff7f50", "#a0a0a0"]  !! of curves
+   character(*), parameter :: twin_colour = "1f6fb5"  !! the first of them as good as
+   integer, parameter :: piece_points = 100           !! of a transparent line that are drawn at once
 
    !> Pixels per unit of length in which pictures are laid out: to make a PNG file takes as long as it has pixels.
    real(wp), parameter :: pixels = 5.0_wp/6.0_wp
@@ -193,14 +195,17 @@ contains
          return
       end if
       columns = " using "//scaled(1, axes%x%factor)//":"//scaled(2, axes%y%factor)
-      colour = "#"//thinned%alpha//piece(colours(1), 2)
-      s = "'"//thinned%file//"'"//columns//" with "//thinned%style//" linecolor rgb '"//colour//"' "
-      if (thinned%style /= "dots") then
-         s = s//title
-      else  ! a dot cannot be seen in a legend: the first point stands there
-         s = s//"notitle, '"//thinned%file//"' every ::0::0:0"//columns// &
-             " with points pointtype 7 pointsize 0.5 linecolor rgb '"//colours(1)//"' "//title
+      colour = thinned%alpha//piece(colours(1), 2)
+      s = "'"//thinned%file//"'"//columns
+      if (thinned%style == "dots") then  ! a dot cannot be seen in a legend: the first point stands there
+         s = s//" with dots linecolor rgb '#"//colour//"' notitle, '"//thinned%file//"' every ::0::0:0"//columns// &
+             " with points pointtype 7 pointsize 0.5"
+      else  ! what is drawn at once covers itself only once, and a change of colour begins anew: colours with no visible difference
+         s = s//":(int($0/"//to_text(piece_points)//")%2 ? 0x"//colour//" : 0x"//thinned%alpha//twin_colour// &
+             ") with "//thinned%style//" linecolor rgb variable notitle, '"//thinned%file//"' every ::0::0:0"//columns// &
+             " with "//thinned%style
       end if
+      s = s//" linecolor rgb '"//colours(1)//"' "//title
    end function path_source
 
    !> A column, scaled.
