@@ -2,7 +2,7 @@
 module display_units
    use kind_info, only: same_dimension
    use kinds, only: pi, wp
-   use units, only: parse_unit, unit_factor, unit_t
+   use units, only: exponent_length, parse_unit, unit_factor, unit_t
    implicit none (type, external)
    private
    public :: ask_unit, choose_unit, display_unit_t
@@ -153,12 +153,12 @@ contains
       if (power < 0) s = "⁻"//s
    end function raised
 
-   !> A unit as printed: dots between factors and raised exponents.
+   !> A unit as printed: dots between factors and raised exponents; a decimal exponent stays on the line, as `N/m^1.5`.
    pure function pretty(si) result(symbol)
       character(*), intent(in) :: si         !! as in files, `kg.m^2`
       character(:), allocatable :: symbol    !! UTF-8
 
-      integer :: i
+      integer :: i, length, power, status
 
       symbol = ""
       i = 1
@@ -167,15 +167,15 @@ contains
          case (".")
             symbol = symbol//"·"
          case ("^")
-            i = i + 1
-            if (i > len(si)) exit
-            if (si(i:i) == "2") then
-               symbol = symbol//"²"
-            else if (si(i:i) == "3") then
-               symbol = symbol//"³"
+            length = exponent_length(si(i + 1:))
+            status = 1
+            if (length > 0 .and. index(si(i + 1:i + length), ".") == 0) read (si(i + 1:i + length), *, iostat=status) power
+            if (status == 0) then
+               symbol = symbol//raised(power)
             else
-               symbol = symbol//"^"//si(i:i)
+               symbol = symbol//si(i:i + length)
             end if
+            i = i + length
          case ("u")
             if (i == 1 .and. len(si) > 1) then
                symbol = symbol//"µ"

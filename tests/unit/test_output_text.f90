@@ -126,6 +126,12 @@ contains
       call check_unit(error, "m^3/s", 2.0e-6_wp, "cm³/s", 1.0e6_wp)
       call check_unit(error, "N/m", 2.0e8_wp, "10⁶ N/m", 1.0e-6_wp)
       call check_unit(error, "kg.m^2", 2.0e-5_wp, "10⁻⁶ kg·m²", 1.0e6_wp)
+      call check_unit(error, "N/m^1.5", 3.0_wp, "N/m^1.5", 1.0_wp)
+      call check_unit(error, "m^0.5.s", 3.0_wp, "m^0.5·s", 1.0_wp)
+      call check_unit(error, "kg.s^-0.5", 2.0e6_wp, "10⁶ kg·s^-0.5", 1.0e-6_wp)
+      call check_unit(error, "m^2.s^-2", 3.0_wp, "m²·s⁻²", 1.0_wp)
+      call check_unit(error, "kg^2.m^2.s^-4", 3.0_wp, "kg²·m²·s⁻⁴", 1.0_wp)
+      call check_unit(error, "kg.s^-3", 2.0e6_wp, "10⁶ kg·s⁻³", 1.0e-6_wp)
       do power = -14, 9  ! never more than five digits before the point, nor zeros behind it
          unit = choose_unit("N", 3.0_wp*10.0_wp**power)
          call check_true(error, unit%factor*3.0_wp*10.0_wp**power >= 0.009_wp .and. unit%factor*3.0_wp*10.0_wp**power < 1.0e4_wp, &
