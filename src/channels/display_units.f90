@@ -5,7 +5,7 @@ module display_units
    use units, only: exponent_length, parse_unit, unit_factor, unit_t
    implicit none (type, external)
    private
-   public :: ask_unit, choose_unit, display_unit_t
+   public :: ask_unit, choose_unit, display_unit_t, fitted_unit
 
    !> How numbers are shown.
    type :: display_unit_t
@@ -73,7 +73,7 @@ contains
          shown%factor = merge(1.0e6_wp, 1.0e9_wp, extent >= 1.0e-7_wp)
          shown%symbol = merge("cm³/s", "mm³/s", extent >= 1.0e-7_wp)
       case default
-         call scale_by_power()
+         shown = fitted_unit(shown, extent)
       end select
 
    contains
@@ -97,18 +97,24 @@ contains
          shown%symbol = "deg"
       end subroutine scale_angle
 
-      !> A power of ten before a unit that takes no prefix.
-      pure subroutine scale_by_power()
-         integer :: power
-
-         power = floor(log10(extent))
-         if (power >= readable(1) .and. power <= readable(2)) return
-         power = 3*floor(power/3.0_wp)
-         shown%factor = 10.0_wp**(-power)
-         shown%symbol = trim("10"//raised(power)//" "//shown%symbol)
-      end subroutine scale_by_power
-
    end function choose_unit
+
+   !> A unit with a power of ten before it if its numbers would be long: one that takes no prefix, or that was asked for.
+   pure function fitted_unit(unit, extent) result(shown)
+      type(display_unit_t), intent(in) :: unit  !! as it is
+      real(wp), intent(in) :: extent            !! greatest magnitude that is shown, SI [any]
+      type(display_unit_t) :: shown             !! what to show
+
+      integer :: power
+
+      shown = unit
+      if (.not. unit%factor*extent > 0.0_wp) return
+      power = floor(log10(unit%factor*extent))
+      if (power >= readable(1) .and. power <= readable(2)) return
+      power = 3*floor(power/3.0_wp)
+      shown%factor = unit%factor*10.0_wp**(-power)
+      shown%symbol = trim("10"//raised(power)//" "//unit%symbol)
+   end function fitted_unit
 
    !> The unit that was asked for, if a quantity can be shown in it.
    subroutine ask_unit(name, si, shown, message)

@@ -1,23 +1,19 @@
 !> What the panels of a figure of curves draw: which curves on which ordinate, in which units, with which labels.
-!>
-!> An ordinate whose numbers differ little beside their size shows what they are beyond a round value: ticks of the values
-!> themselves would all read the same.
 module curve_panels
    use catalogue, only: catalogue_t
    use curve_words, only: axis_t, panel_words_t
-   use display_units, only: choose_unit, display_unit_t
+   use display_units, only: choose_unit, display_unit_t, fitted_unit
    use figure_data, only: curve_t, is_visible
    use figure_words, only: figure_t
    use kinds, only: wp
-   use script_parts, only: largest, largest_y, with_unit
-   use text, only: real_text, replace, text_t
+   use round_values, only: round_value, round_value_t
+   use script_parts, only: largest, with_unit
+   use text, only: replace, text_t
    implicit none (type, external)
    private
-   public :: constant, drawn_panels, make_panel, panel_t, range_of, shown, shows_nothing
+   public :: drawn_panels, fit_side, make_panel, panel_t, range_of, shown, shows_nothing
 
    real(wp), parameter :: late = 1.0e-3_wp          !! least extent of a time axis, of the times [1]
-   real(wp), parameter :: narrow = 1.0e-4_wp        !! span of an ordinate beside its values: below it less a round value [1]
-   real(wp), parameter :: constant = 1.0e-12_wp     !! the same: less is round-off [1]
    integer, parameter :: most_overlaid = 3          !! more curves are drawn without those of the ideal twin
 
    !> A panel as it is drawn.
@@ -65,38 +61,10 @@ contains
       end if
       if (.not. allocated(panel%label)) panel%label = ""
       do side = 1, 2
-         if (any(panel%side == side) .and. .not. words%y(side)%has_range) call take_narrow(side)
+         if (any(panel%side == side)) call fit_side(panel, words%y(side), side, range_of(panel, side))
       end do
 
    contains
-
-      !> Of a narrow ordinate what differs from a round value is drawn: ticks of the values themselves would all read the same.
-      subroutine take_narrow(side)
-         integer, intent(in) :: side  !! 1 left, 2 right
-
-         type(display_unit_t) :: own
-         character(:), allocatable :: round
-         real(wp) :: range(2)
-         integer :: digits, status
-
-         range = range_of(panel, side)
-         if (range(2) - range(1) > narrow*largest(range) .or. range(2) - range(1) <= constant*largest(range)) return
-         if (allocated(words%y(side)%unit%symbol)) return
-         own = panel%unit(side)
-         do digits = 4, 15
-            round = real_text(own%factor*0.5_wp*sum(range), digits)
-            read (round, *, iostat=status) panel%less(side)
-            if (status /= 0) return
-            panel%less(side) = panel%less(side)/own%factor
-            if (range(2) - range(1) > narrow*largest(range - panel%less(side))) exit
-         end do
-         panel%unit(side) = choose_unit(words%y(side)%si, largest(range - panel%less(side)))
-         if (side == 1) then
-            panel%label = with_unit(panel%quantity(side)%s//" less "//trim(round//" "//own%symbol), panel%unit(side))
-         else
-            panel%right_label = with_unit(panel%quantity(side)%s//" less "//trim(round//" "//own%symbol), panel%unit(side))
-         end if
-      end subroutine take_narrow
 
       !> The curves of one ordinate; components too small to be seen are left out, unless they were named one by one.
       subroutine take_side(list)
@@ -115,13 +83,7 @@ contains
             panel%curves = [panel%curves, mine(i)]
             panel%side = [panel%side, side]
          end do
-         panel%unit(side) = shown(words%y(side), mine, of_y=.true.)
          panel%quantity(side)%s = name_of(list)
-         if (side == 1) then
-            panel%label = with_unit(panel%quantity(side)%s, panel%unit(side))
-         else
-            panel%right_label = with_unit(panel%quantity(side)%s, panel%unit(side))
-         end if
       end subroutine take_side
 
       !> The quantities of some curves, if they are few.
@@ -145,6 +107,39 @@ contains
       end function name_of
 
    end subroutine make_panel
+
+   !> Unit and name of an ordinate, by the greatest of what it shows. Of a narrow one what differs from a round value is drawn, in
+   !> the unit that is asked for or in one that fits it.
+   subroutine fit_side(panel, axis, side, range)
+      type(panel_t), intent(inout) :: panel        !! the panel
+      type(axis_t), intent(in) :: axis             !! what is asked of the ordinate
+      integer, intent(in) :: side                  !! 1 left, 2 right
+      real(wp), intent(in) :: range(2)             !! (2) least and greatest value shown, if no ends are asked for, SI [any]
+
+      type(display_unit_t) :: unit
+      type(round_value_t) :: less
+      character(:), allocatable :: label
+      real(wp) :: ends(2)
+
+      ends = range
+      if (axis%has_range) ends = [minval(axis%range), maxval(axis%range)]
+      unit = axis%unit
+      if (.not. allocated(unit%symbol)) unit = choose_unit(axis%si, largest(ends))
+      less = round_value(ends, unit)
+      if (len(less%words) > 0 .and. allocated(axis%unit%symbol)) then
+         unit = fitted_unit(unit, largest(ends - less%value))
+      else if (len(less%words) > 0) then
+         unit = choose_unit(axis%si, largest(ends - less%value))
+      end if
+      panel%unit(side) = unit
+      panel%less(side) = less%value
+      label = with_unit(adjustl(panel%quantity(side)%s//less%words), unit)
+      if (side == 1) then
+         panel%label = label
+      else
+         panel%right_label = label
+      end if
+   end subroutine fit_side
 
    !> Whether all curves of an axis lie beyond the ends that are asked for.
    pure logical function shows_nothing(figure, catalogue, curves)
@@ -215,11 +210,10 @@ contains
       is_member = catalogue%groups(figure%scalars(number)%group)%channel%unit == words%y(side)%si
    end function is_member
 
-   !> The unit of an axis.
-   function shown(axis, curves, of_y) result(unit)
+   !> The unit of the abscissa.
+   function shown(axis, curves) result(unit)
       type(axis_t), intent(in) :: axis               !! what is asked of it
       type(curve_t), intent(in) :: curves(:)         !! (n) what it shows
-      logical, intent(in), optional :: of_y          !! it is the ordinate
       type(display_unit_t) :: unit                   !! its unit
 
       real(wp) :: extent
@@ -228,8 +222,6 @@ contains
       if (allocated(unit%symbol)) return
       if (axis%has_range) then
          extent = largest(axis%range)
-      else if (present(of_y)) then
-         extent = largest_y(curves)
       else
          extent = max(largest(curves(1)%x_range), 0.0_wp)
          if (axis%si == "s") extent = max(curves(1)%x_range(2) - curves(1)%x_range(1), late*extent)

@@ -5,16 +5,16 @@
 module curve_script
    use catalogue, only: catalogue_t
    use channel_names, only: scalar_name
-   use curve_panels, only: constant, drawn_panels, make_panel, panel_t, range_of, shown
-   use curve_words, only: panel_words_t
-   use display_units, only: display_unit_t
+   use curve_panels, only: drawn_panels, fit_side, make_panel, panel_t, range_of, shown
+   use curve_words, only: axis_t, panel_words_t
+   use display_units, only: display_unit_t, fitted_unit
    use envelope_data, only: envelope_t
    use figure_data, only: curve_t
    use figure_words, only: figure_t
    use kinds, only: wp
    use plot_text, only: quoted
-   use script_parts, only: angle_tics, axes_t, colours, find_long_tics, hangs_from_zero, largest, largest_y, open_range, &
-      preamble, source, stands_on_zero, with_unit
+   use script_parts, only: angle_tics, axes_t, axis_range, colours, find_long_tics, hangs_from_zero, label_words, largest, &
+      largest_y, preamble, source, stands_on_zero, with_unit
    use text, only: real_text, to_text
    use text_buffer, only: buffer_t
    implicit none (type, external)
@@ -76,7 +76,7 @@ contains
          if (k == n) call lines%line("set xlabel "//label//"; set format x '"//format//"'")
          call panel_lines(lines, figure%curves%panels(place(k)), panels(k), x, envelope, n)
       end do
-      if (with_zoom) call zoom_lines(lines, panels(1), x, envelope)
+      if (with_zoom) call zoom_lines(lines, figure%curves%panels(place(1)), panels(1), x, envelope)
       if (n > 1 .or. with_zoom) call lines%line("unset multiplot")
       call lines%line("unset output")
       script = lines%get()
@@ -140,13 +140,13 @@ contains
 
       real(wp) :: range(2)
 
-      call lines%line("set ylabel "//quoted(panel%label))
+      call lines%line("set ylabel "//label_words(panel%label, heights(n)/n))
       range = range_of(panel, 1)
       call lines%line("set offsets 0, 0, "//trim(merge("0         ", "graph 0.05", hangs_from_zero(range)))//", "// &
                       trim(merge("0         ", "graph 0.05", stands_on_zero(range))))
       call ordinate_lines("y", 1)
       if (len(panel%right_label) > 0) then
-         call lines%line("set y2label "//quoted(panel%right_label))
+         call lines%line("set y2label "//label_words(panel%right_label, heights(n)/n))
          call lines%line("set y2tics nomirror textcolor rgb '#000000'")
          call ordinate_lines("y2", 2)
       else
@@ -165,15 +165,12 @@ contains
 
          associate (asked => words%y(side), unit => panel%unit(side))
             if (.not. any(panel%side == side)) return
-            ends = unit%factor*(range_of(panel, side) - panel%less(side))
             if (asked%has_range) then
-               ends = unit%factor*asked%range
+               ends = unit%factor*(asked%range - panel%less(side))
                call lines%line("set "//axis//"range ["//real_text(ends(1), 9)//":"//real_text(ends(2), 9)//"]")
-            else if (ends(2) - ends(1) <= constant*largest(ends) .and. largest(ends) > 0.0_wp) then
-               call lines%line("set "//axis//"range ["//real_text(ends(1) - 0.1_wp*abs(ends(1)), 6)//":"// &
-                               real_text(ends(2) + 0.1_wp*abs(ends(2)), 6)//"]")
             else
-               call lines%line("set "//axis//"range "//open_range(ends))
+               ends = unit%factor*(range_of(panel, side) - panel%less(side))
+               call lines%line("set "//axis//"range "//axis_range(ends))
             end if
             call lines%line("set "//axis//"tics autofreq")
             call angle_lines(lines, axis, unit, ends(2) - ends(1), n)
@@ -184,12 +181,15 @@ contains
    end subroutine panel_lines
 
    !> The same on the scale of the ideal joints.
-   subroutine zoom_lines(lines, panel, x, envelope)
+   subroutine zoom_lines(lines, words, panel, x, envelope)
       type(buffer_t), intent(inout) :: lines      !! the script
+      type(panel_words_t), intent(in) :: words    !! what the panel above is to show
       type(panel_t), intent(in) :: panel          !! what the panel above draws
       type(display_unit_t), intent(in) :: x       !! unit of the abscissa
       type(envelope_t), intent(in) :: envelope    !! ranges of curves that turn too often
 
+      type(axis_t) :: axis
+      type(panel_t) :: zoom
       real(wp) :: all(2), ends(2), ideal(2), span
 
       ideal = [minval(panel%ideal%y_range(1)), maxval(panel%ideal%y_range(2))]
@@ -199,9 +199,16 @@ contains
       if (stands_on_zero(all) .and. ideal(1) >= 0.0_wp) ends(1) = max(0.0_wp, ends(1))  ! beside high peaks what is below is nothing
       if (hangs_from_zero(all) .and. ideal(2) <= 0.0_wp) ends(2) = min(0.0_wp, ends(2))
       call lines%line("set title 'the same on the scale of the ideal joints' font ',14'")
-      call lines%line("set yrange ["//real_text(panel%unit(1)%factor*ends(1), 9)//":"// &
-                      real_text(panel%unit(1)%factor*ends(2), 9)//"]")
-      call plot_lines(lines, panel, x, envelope)
+      zoom = panel
+      axis = words%y(1)
+      if (allocated(axis%unit%symbol)) axis%unit = fitted_unit(axis%unit, largest(ends))
+      call fit_side(zoom, axis, 1, ends)
+      call lines%line("set ylabel "//label_words(zoom%label, heights(2)/2))
+      ends = zoom%unit(1)%factor*(ends - zoom%less(1))
+      call lines%line("set yrange ["//real_text(ends(1), 9)//":"//real_text(ends(2), 9)//"]")
+      call lines%line("set ytics autofreq")
+      call angle_lines(lines, "y", zoom%unit(1), ends(2) - ends(1), 2)
+      call plot_lines(lines, zoom, x, envelope)
    end subroutine zoom_lines
 
    !> Whether the ideal curve would be a flat line beside the peaks of the run.

@@ -10,7 +10,8 @@ module figure_script
    use plot_text, only: quoted
    use kinds, only: wp
    use path_data, only: path_t
-   use script_parts, only: axes_t, colours, hangs_from_zero, largest, open_range, path_source, preamble, source, &
+   use round_values, only: round_value, round_value_t
+   use script_parts, only: axes_t, axis_range, colours, hangs_from_zero, largest, path_source, preamble, source, &
       stands_on_zero, with_unit
    use text_buffer, only: buffer_t
    implicit none (type, external)
@@ -60,22 +61,14 @@ contains
 
       type(axes_t) :: axes
       character(:), allocatable :: own, width
-      real(wp) :: extent(2), x(2), y(2)
+      real(wp) :: x(2), y(2)
 
       x = [min(curves(1)%x_range(1), minval(ideal%x_range(1))), max(curves(1)%x_range(2), maxval(ideal%x_range(2)))]
       y = [min(curves(1)%y_range(1), minval(ideal%y_range(1))), max(curves(1)%y_range(2), maxval(ideal%y_range(2)))]
-      extent = [largest(x), largest(y)]
-      associate (x_unit => catalogue%groups(figure%scalars(1)%group)%channel%unit, &
-                 y_unit => catalogue%groups(figure%scalars(2)%group)%channel%unit)
-         if (x_unit == y_unit .and. maxval(extent) < one_unit*minval(extent)) extent = maxval(extent)
-         axes%x = choose_unit(x_unit, extent(1))
-         axes%y = choose_unit(y_unit, extent(2))
-      end associate
       call preamble(lines, figure%name, 1200, 800)
-      call lines%line("set xlabel "//quoted(with_unit(scalar_name(catalogue, figure%scalars(1)), axes%x)))
-      call lines%line("set ylabel "//quoted(with_unit(scalar_name(catalogue, figure%scalars(2)), axes%y)))
-      call lines%line("set xrange "//open_range(axes%x%factor*x))
-      call lines%line("set yrange "//open_range(axes%y%factor*y))
+      call choose_axes()
+      call lines%line("set xrange "//axis_range(axes%x%factor*x))
+      call lines%line("set yrange "//axis_range(axes%y%factor*y))
       call lines%line("set offsets "//room(stands_on_zero(x), "0.03")//", "//room(hangs_from_zero(x), "0.03")//", "// &
                       room(hangs_from_zero(y), "0.05")//", "//room(stands_on_zero(y), "0.05"))
       call lines%line("set title "//quoted(title)//" font ',17'")
@@ -96,6 +89,25 @@ contains
       call lines%line("unset output")
 
    contains
+
+      !> Units and names of the axes; of what differs little, what it is beyond a round value.
+      subroutine choose_axes()
+         type(round_value_t) :: less_x, less_y
+         real(wp) :: extent(2)
+
+         associate (x_unit => catalogue%groups(figure%scalars(1)%group)%channel%unit, &
+                    y_unit => catalogue%groups(figure%scalars(2)%group)%channel%unit)
+            less_x = round_value(x, choose_unit(x_unit, largest(x)))
+            less_y = round_value(y, choose_unit(y_unit, largest(y)))
+            x = x - less_x%value
+            y = y - less_y%value
+            extent = [largest(x), largest(y)]
+            if (x_unit == y_unit .and. maxval(extent) < one_unit*minval(extent)) extent = maxval(extent)
+            axes = axes_t(choose_unit(x_unit, extent(1)), choose_unit(y_unit, extent(2)), less_x%value, less_y%value)
+         end associate
+         call lines%line("set xlabel "//quoted(with_unit(scalar_name(catalogue, figure%scalars(1))//less_x%words, axes%x)))
+         call lines%line("set ylabel "//quoted(with_unit(scalar_name(catalogue, figure%scalars(2))//less_y%words, axes%y)))
+      end subroutine choose_axes
 
       !> Room between the curve and an end of its axis.
       pure function room(is_zero, part) result(words)

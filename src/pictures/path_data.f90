@@ -110,10 +110,10 @@ contains
       type(buffer_t), intent(inout) :: lines   !! the table
       real(wp), intent(in) :: point(2)         !! (2) abscissa and ordinate, SI [any]
 
-      character(36) :: numbers
+      character(50) :: numbers
 
-      write (numbers, "(es17.9e3, 1x, es17.9e3)") point
-      call lines%line(numbers)
+      write (numbers, "(es24.16e3, 1x, es24.16e3)") point
+      call lines%line(trim(numbers))
    end subroutine add_point
 
 end module path_data

@@ -4,13 +4,15 @@ module script_parts
    use figure_data, only: curve_t
    use kinds, only: wp
    use path_data, only: path_t
+   use plot_text, only: quoted
+   use round_values, only: constant
    use text, only: exact_text, piece, real_text, to_text
    use text_buffer, only: buffer_t
    implicit none (type, external)
    private
-   public :: angle_tics, axes_t, find_long_tics, hangs_from_zero, largest, largest_y, long_tics, open_range, scaled, source
-   public :: stands_on_zero
-   public :: path_source, preamble, with_unit
+   public :: angle_tics, axes_t, axis_range, find_long_tics, hangs_from_zero, largest, largest_y, long_tics, open_range
+   public :: scaled, source, stands_on_zero
+   public :: label_words, path_source, preamble, with_unit
    public :: colours, key_below
 
    character(*), parameter :: colours(12) = &
@@ -30,6 +32,7 @@ module script_parts
    type :: axes_t
       type(display_unit_t) :: x          !! abscissa
       type(display_unit_t) :: y          !! ordinate
+      real(wp) :: less_x = 0.0_wp        !! what is taken from every abscissa, SI [any]
       real(wp) :: less = 0.0_wp          !! what is taken from every ordinate, SI [any]
    end type axes_t
 
@@ -101,6 +104,18 @@ contains
       words = "["//words//"]"
    end function open_range
 
+   !> Ends of an axis that scales itself, or of one whose numbers do not change: a tenth of them to either side.
+   function axis_range(range) result(words)
+      real(wp), intent(in) :: range(2)         !! (2) least and greatest value [the unit shown]
+      character(:), allocatable :: words       !! as `[0:*]`
+
+      if (range(2) - range(1) <= constant*largest(range) .and. largest(range) > 0.0_wp) then
+         words = "["//real_text(range(1) - 0.1_wp*abs(range(1)), 6)//":"//real_text(range(2) + 0.1_wp*abs(range(2)), 6)//"]"
+      else
+         words = open_range(range)
+      end if
+   end function axis_range
+
    !> A name with the unit shown.
    pure function with_unit(name, unit) result(label)
       character(*), intent(in) :: name            !! what it is, may be blank
@@ -111,6 +126,20 @@ contains
       if (len(unit%symbol) > 0) label = trim(label//" ["//unit%symbol//"]")
       label = adjustl(label)
    end function with_unit
+
+   !> The name of an ordinate for gnuplot, smaller if it is longer than its axis.
+   function label_words(label, height) result(words)
+      character(*), intent(in) :: label        !! as `position less 1000 m [mm]`
+      integer, intent(in) :: height            !! room for it, in units of layout
+      character(:), allocatable :: words       !! in quotes, with its font
+
+      integer, parameter :: usual = 15, least = 8  ! size of letters
+      integer, parameter :: width = 10             ! of a letter of usual size, in units of layout
+      integer :: i, n
+
+      n = count([(iand(ichar(label(i:i)), 192) /= 128, i=1, len(label))])  ! bytes that begin a character of UTF-8
+      words = quoted(label)//" font ',"//to_text(max(least, min(usual, usual*height/(width*max(n, 1)))))//"'"
+   end function label_words
 
    !> Distance of the ticks of an axis in degrees: a part of a turn, or whole turns. 0: gnuplot's own are as good.
    pure integer function angle_tics(span, n) result(step)
@@ -177,7 +206,7 @@ contains
       type(axes_t), intent(in) :: axes     !! scales of the figure
       character(:), allocatable :: s       !! as `'../slider.dat' using ($1*1000):2`
 
-      s = "'"//curve%path//"' using "//scaled(curve%x, axes%x%factor)//":"//scaled(curve%y, axes%y%factor, axes%less)
+      s = "'"//curve%path//"' using "//scaled(curve%x, axes%x%factor, axes%less_x)//":"//scaled(curve%y, axes%y%factor, axes%less)
    end function source
 
    !> File, columns and line of a path, those of the run or what a picture can show of it.
@@ -194,7 +223,7 @@ contains
          s = source(curve, axes)//" with lines linewidth 1 linecolor rgb '"//colours(1)//"' "//title
          return
       end if
-      columns = " using "//scaled(1, axes%x%factor)//":"//scaled(2, axes%y%factor)
+      columns = " using "//scaled(1, axes%x%factor, axes%less_x)//":"//scaled(2, axes%y%factor, axes%less)
       colour = thinned%alpha//piece(colours(1), 2)
       s = "'"//thinned%file//"'"//columns
       if (thinned%style == "dots") then  ! a dot cannot be seen in a legend: the first point stands there

@@ -171,9 +171,7 @@ def test_mistakes_have_a_place(gudgeon):
         assert line[first : first + caret.count("^")] == part, (figures, done.stderr)
 
 
-def test_scale_of_the_ideal_joints_holds_their_curve(gudgeon, tmp_path):
-    """A block thrown against the upper side of its guide: the force on it is downward, that of the ideal guide m g upward."""
-    text = """deck = 1
+BLOCK = """deck = 1
 [scene]
 title = "Thrown block"
 gravity = 0 -9.81 m/s^2
@@ -203,12 +201,39 @@ end   = 0.001 s
 every = 0.01 ms
 figures = loose.force
 """
-    call(gudgeon, "run", written(tmp_path, text), "--out", tmp_path / "run", "--quiet")
+
+
+def test_scale_of_the_ideal_joints_holds_their_curve(gudgeon, tmp_path):
+    """A block thrown against the upper side of its guide: the force on it is downward, that of the ideal guide m g upward."""
+    call(gudgeon, "run", written(tmp_path, BLOCK), "--out", tmp_path / "run", "--quiet")
     script = (tmp_path / "run" / "figures" / "loose.force.gp").read_text(encoding="utf-8")
-    unit = {"N": 1.0, "kN": 1e3}[re.search(r"force \[(.*?)\]", script).group(1)]
     second = script.split("scale of the ideal joints")[1]
+    unit = {"N": 1.0, "kN": 1e3}[re.search(r"force \[(.*?)\]", second).group(1)]
     least, greatest = (float(end) * unit for end in re.search(r"set yrange \[(.*?):(.*?)\]", second).groups())
     assert least < 0.0 and greatest > 0.5 * 9.81
+
+
+@pytest.mark.parametrize(
+    ("figure", "changes", "first", "second"),
+    [
+        ("loose.force.y", (("0.5        1e-4", "5e-6       1e-4"), ("end   = 0.001", "end   = 0.003")), "N", "µN"),
+        ("loose.force.y in kN", (("0.5        1e-4", "5e-3       1e-4"), ("end   = 0.001", "end   = 0.003")), "kN", "10⁻⁶ kN"),
+        ("loose.force.y", (("0.5        1e-4", "5000       1e-4"), ("1         2", "1         0")), "kN", ""),
+    ],
+)
+def test_prefixes_follow_what_is_drawn(gudgeon, figure, changes, first, second):
+    """A block that hits its guide has forces far above m g: on the scale of the ideal joints they have a unit of their own. One
+    that flies between its sides has none: the unit is that of m g."""
+    text = BLOCK + "[force.point]\nname point fx fy\nshake pin {0 N} FORCE\n"
+    for old, new in changes:
+        assert old in text
+        text = text.replace(old, new)
+    text = text.replace("FORCE", "{0.02N*sin(2*pi*t*2/1ms)}" if "kN" in figure else "{0.02mN*sin(2*pi*t*2/1ms)}")
+    folder = drawn(gudgeon, text, figure)
+    script = only(folder, "*.gp").read_text(encoding="utf-8")
+    parts = script.split("scale of the ideal joints")
+    units = [re.search(r"set ylabel 'force \[(.*?)\]'", part).group(1) for part in parts]
+    assert units == [first, second][: len(parts)] and len(parts) == (2 if second else 1)
 
 
 def test_ticks_of_a_narrow_ordinate_differ(gudgeon, tmp_path):
@@ -233,3 +258,55 @@ figures = wheel.angular_velocity
     round_value = float(re.search(r"less ([0-9.]+) rad/s", script).group(1))
     span = 1e-7 / np.pi
     assert abs(round_value - 62.83185307) < 1e4 * span
+
+
+NARROW = """deck = 1
+[scene]
+gravity = 0 0 m/s^2
+[bodies]
+name  mass[kg]  inertia[kg.m^2]  x[m]  y[m]  omega[rad/s]  vx[m/s]  vy[m/s]
+fly   1         1                0     0     314.159       0        0
+far   1         1                1000  1001  0             1e-3     2e-3
+[force.torque]
+name   body   moment
+push   fly    {RIPPLE*sin(2*pi*t*5/1s)}
+[analysis.dynamic]
+start     = given
+end       = 1 s
+tolerance = 1e-12
+[output]
+every   = 10 ms
+"""
+
+
+@pytest.mark.parametrize(
+    ("figure", "ripple", "words"),
+    [
+        ("fly.angular_velocity in rpm", "0.05 N.m", r"angular velocity less 3000 rpm \[rpm\]"),
+        ("fly.angular_velocity in rpm", "5e-8 N.m", r"angular velocity less 2999.9974\d* rpm \[10⁻⁹ rpm\]"),
+        ("far.position.x in mm", "0 N.m", r"position less 1e6 mm \[mm\]"),
+        ("far.position.x from 999.9995 m to 1000.0005 m", "0 N.m", r"position less 1000 m \[mm\]"),
+    ],
+)
+def test_narrow_ordinates_in_a_unit(gudgeon, figure, ripple, words):
+    """An axis in a unit that is asked for, or with ends, shows what is beyond a round value too, and the curve is within its ends."""
+    script = only(drawn(gudgeon, NARROW.replace("RIPPLE", ripple), figure), "*.gp").read_text(encoding="utf-8")
+    assert re.search(f"set ylabel '{words}'", script), script
+    assert re.search(r"using 1:\(\(\$\d+-\([0-9.]+\)\)\*", script), script
+    if "from" in figure:
+        assert "set yrange [-0.5:0.5]" in script
+
+
+def test_narrow_portraits(gudgeon):
+    """Both axes of a portrait show what is beyond a round value; numbers that do not change have ticks that differ."""
+    folder = drawn(gudgeon, NARROW.replace("RIPPLE", "0 N.m"), "portrait(far.position.x,far.position.y) portrait(fly.angular_velocity,fly.angle)")
+    script = (folder / "portrait.far.position.x.far.position.y.gp").read_text(encoding="utf-8")
+    for axis, value in (("x", 1000), ("y", 1001)):
+        assert re.search(rf"set {axis}label 'far.position.{axis} less {value} m \[mm\]'", script), script
+    columns = re.search(r"plot '\.\./far\.dat' using \(\(\$(\d+)-\((\d+)\)\)\*1000\):\(\(\$(\d+)-\((\d+)\)\)\*1000\)", script).groups()
+    rows = np.loadtxt(folder.parent / "far.dat")
+    for column, less, speed in zip(columns[::2], columns[1::2], (1, 2)):
+        np.testing.assert_allclose((rows[:, int(column) - 1] - float(less)) * 1000, speed * rows[:, 0], atol=1e-6)
+    script = (folder / "portrait.fly.angular_velocity.fly.angle.gp").read_text(encoding="utf-8")
+    least, greatest = (float(end) for end in re.search(r"set xrange \[(.*?):(.*?)\]", script).groups())
+    assert least < 300 < 330 < greatest
