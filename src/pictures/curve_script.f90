@@ -13,8 +13,8 @@ module curve_script
    use figure_words, only: figure_t
    use kinds, only: wp
    use plot_text, only: quoted
-   use script_parts, only: angle_tics, axes_t, axis_range, colours, find_long_tics, hangs_from_zero, label_words, largest, &
-      largest_y, preamble, source, stands_on_zero, with_unit
+   use script_parts, only: angle_tics, axes_t, axis_range, colours, find_long_tics, hangs_from_zero, ideal_style, &
+      label_words, largest, largest_y, preamble, source, stands_on_zero, with_unit
    use text, only: real_text, to_text
    use text_buffer, only: buffer_t
    implicit none (type, external)
@@ -27,7 +27,6 @@ module curve_script
    integer, parameter :: heights(6) = [800, 1000, 1200, 1400, 1600, 1800]  !! of pictures with so many panels, in units of layout
 
    character(*), parameter :: range_style = " with filledcurves fillstyle transparent solid 0.35 noborder"  !! of an envelope
-   character(*), parameter :: ideal_style = " with lines linewidth 1.2 dashtype (12,8) linecolor rgb '#101010' "  !! of the twin
 
 contains
 

@@ -11,7 +11,7 @@ module figure_script
    use kinds, only: wp
    use path_data, only: path_t
    use round_values, only: round_value, round_value_t
-   use script_parts, only: axes_t, axis_range, colours, hangs_from_zero, largest, path_source, preamble, source, &
+   use script_parts, only: axes_t, axis_range, colours, hangs_from_zero, ideal_style, largest, path_source, preamble, source, &
       stands_on_zero, with_unit
    use text_buffer, only: buffer_t
    implicit none (type, external)
@@ -84,7 +84,7 @@ contains
          call lines%line("")
       else
          call lines%line(", \")
-         call lines%line("     "//source(ideal(1), axes)//" with lines linewidth 1.6 linecolor rgb '#101010' title 'ideal joints'")
+         call lines%line("     "//source(ideal(1), axes)//ideal_style//"title 'ideal joints'")
       end if
       call lines%line("unset output")
 

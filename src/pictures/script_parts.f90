@@ -13,11 +13,12 @@ module script_parts
    public :: angle_tics, axes_t, axis_range, find_long_tics, hangs_from_zero, largest, largest_y, long_tics, open_range
    public :: scaled, source, stands_on_zero
    public :: label_words, path_source, preamble, with_unit
-   public :: colours, key_below
+   public :: colours, ideal_style, key_below
 
    character(*), parameter :: colours(12) = &
       [character(7) :: "#1f6fb4", "#d1495b", "#2e8b57", "#c98a00", "#7b4fa3", "#4d4d4d", &
        "#17a2b8", "#e377c2", "#9acd32", "#8c564b", "#ff7f50", "#a0a0a0"]  !! of curves
+   character(*), parameter :: ideal_style = " with lines linewidth 1.2 dashtype (12,8) linecolor rgb '#101010' "  !! of the twin
    character(*), parameter :: twin_colour = "1f6fb5"  !! the first of them as good as
    integer, parameter :: piece_points = 100           !! of a transparent line that are drawn at once
 
@@ -134,7 +135,7 @@ contains
       character(:), allocatable :: words       !! in quotes, with its font
 
       integer, parameter :: usual = 15, least = 8  ! size of letters
-      integer, parameter :: width = 10             ! of a letter of usual size, in units of layout
+      integer, parameter :: width = 12             ! of a letter of usual size, in units of layout
       integer :: i, n
 
       n = count([(iand(ichar(label(i:i)), 192) /= 128, i=1, len(label))])  ! bytes that begin a character of UTF-8

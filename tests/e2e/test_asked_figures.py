@@ -310,3 +310,12 @@ def test_narrow_portraits(gudgeon):
     script = (folder / "portrait.fly.angular_velocity.fly.angle.gp").read_text(encoding="utf-8")
     least, greatest = (float(end) for end in re.search(r"set xrange \[(.*?):(.*?)\]", script).groups())
     assert least < 300 < 330 < greatest
+
+
+def test_long_names_fit_their_panels(gudgeon):
+    """A name that is longer than a sixth of the picture has smaller letters; in a picture of its own it has those of all."""
+    text = NARROW.replace("RIPPLE", "0.05 N.m")
+    one = "fly.angular_velocity in rpm"
+    for figure, size in ((one, 15), ("panels(" + ", ".join(6 * [one]) + ")", 10)):
+        script = only(drawn(gudgeon, text, figure), "*.gp").read_text(encoding="utf-8")
+        assert set(re.findall(r"set ylabel 'angular velocity less 3000 rpm \[rpm\]' font ',(\d+)'", script)) == {str(size)}
