@@ -99,12 +99,13 @@ contains
       real(wp), intent(in) :: axis(3)      !! (3) where z goes, of length one [1]
       real(wp) :: a(3, 3)                  !! (3, 3) the frame there [1]
 
+      real(wp), parameter :: opposed = 1.0e-10_wp  ! angle of z to where it is opposed: nearer there is no direction but of round-off
       real(wp) :: q(4), z(3)
 
       z = frame(:, 3)
       ! twice the square of the cosine of half the angle is 1 + cos
       q = [1.0_wp + dot_product(z, axis), z(2)*axis(3) - z(3)*axis(2), z(3)*axis(1) - z(1)*axis(3), z(1)*axis(2) - z(2)*axis(1)]
-      if (.not. norm2(q) > 0.0_wp) q(2:4) = frame(:, 1)
+      if (.not. norm2(q) > opposed) q = [0.0_wp, frame(:, 1)]
       a = matmul(rotation_of_parameters(q), frame)
    end function turned_onto
 

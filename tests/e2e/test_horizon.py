@@ -420,7 +420,7 @@ def test_tumbling_is_regular(gudgeon):
 
 def test_time_that_ends_early(gudgeon):
     """A limit of processor time ends the search for the exponent, which is told up to there."""
-    limit = "6 s" if IS_SANITIZED else "1 s"  # the sanitizers take most of it, and 64 of the 640 instants must be reached
+    limit = "12 s" if IS_SANITIZED else "3 s"  # the sanitizers take most of it, and 64 of the 640 instants must be reached
     text = changed(changed(plain_deck([]), "analysis.dynamic", end="2 s", limit_cpu=limit), "output", every="1 ms", figures=None)
     summary = run_with_horizon(gudgeon, text, "--write", "numbers", expect=(0, 5))
     assert summary["exponent_cut"] is True and summary["exponent_reason"] == ""
@@ -432,7 +432,7 @@ def test_time_that_ends_early(gudgeon):
 @pytest.mark.parametrize("key", [False, True])
 def test_the_horizon_keeps_its_budget(gudgeon, key):
     """Without a limit of the deck the search ends where its budget is up, given by --budget or by the section; the run does not."""
-    budget = "6 s" if IS_SANITIZED else "1 s"
+    budget = "12 s" if IS_SANITIZED else "3 s"
     text = changed(changed(plain_deck([]), "analysis.dynamic", end="4 s"), "output", every="1 ms", figures=None)
     text += f"\n[precision]\nbudget = {budget if key else '10 min'}\nexponent_instants = 2000\n"
     began = time.monotonic()
