@@ -99,7 +99,7 @@ contains
       real(wp), intent(in) :: axis(3)      !! (3) where z goes, of length one [1]
       real(wp) :: a(3, 3)                  !! (3, 3) the frame there [1]
 
-      real(wp), parameter :: opposed = 1.0e-10_wp  ! angle of z to where it is opposed: nearer there is no direction but of round-off
+      real(wp), parameter :: opposed = 1.0e-10_wp  ! angle of z to where it is opposed: nearer, a direction is round-off
       real(wp) :: q(4), z(3)
 
       z = frame(:, 3)
