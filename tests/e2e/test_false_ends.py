@@ -3,33 +3,13 @@
 import math
 
 import pytest
-from support import Run, call, scratch, written
+from support import Run, call, changed, scratch, written
+from test_rows_of_stiff_steps import OVERDAMPED
 
-OSCILLATOR = """deck = 1
-[scene]
-gravity = 0 0 m/s^2
-[bodies]
-name   mass[kg]  inertia[kg.m^2]  x[m]  y[m]  angle[deg]
-block  1         1                1     0     0
-[points]
-name  body    xi[m]  eta[m]
-o     ground  0      0
-c     block   0      0
-g     ground  5      0
-[joint.translational]
-name   i  j  axis
-slide  o  c  x
-[force.spring]
-name  i  j  stiffness[N/m]  free_length[m]
-s     g  c  100             5
-[guards]
-stop = block.position.x < LOW
-[analysis.dynamic]
-end = END
-[output]
-every = 10 ms
-channels = block.position block.velocity
-"""
+# the scene of the other test, undamped and let go at rest
+OSCILLATOR = changed(OVERDAMPED, "analysis.dynamic", start=None, end="END").replace("0           -1", "0           0")
+OSCILLATOR = OSCILLATOR.replace("1e6             5               1e6", "100             5               0")
+OSCILLATOR += "[guards]\nstop = block.position.x < LOW\n"
 
 
 def study(gudgeon, low, end, *options):
