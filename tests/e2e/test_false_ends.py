@@ -9,7 +9,7 @@ from test_rows_of_stiff_steps import OVERDAMPED
 # the scene of the other test, undamped and let go at rest
 OSCILLATOR = changed(OVERDAMPED, "analysis.dynamic", start=None, end="END").replace("0           -1", "0           0")
 OSCILLATOR = OSCILLATOR.replace("1e6             5               1e6", "100             5               0")
-OSCILLATOR += "[guards]\nstop = block.position.x < LOW\n"
+OSCILLATOR += "\n[guards]\nstop = block.position.x < LOW\n"
 
 
 def study(gudgeon, low, end, *options):
