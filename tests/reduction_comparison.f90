@@ -74,7 +74,8 @@ contains
       end associate
    end subroutine complete_state
 
-   !> All that both systems report at a time, the unknown bodies somewhat out of place, as if nothing held them exactly.
+   !> All that both systems report at a time, the unknown bodies somewhat out of place, as if nothing held them exactly. A system
+   !> that is evaluated the direct way is compared in the general one too, and one way with the other.
    subroutine compare_at(full, small, t, y, error)
       type(mechanism_t), intent(inout) :: full        !! with all bodies unknown
       type(mechanism_t), intent(inout) :: small       !! without the known ones
@@ -82,11 +83,34 @@ contains
       real(wp), intent(in) :: y(:)                        !! (small's n) a state [any]
       type(error_t), allocatable, intent(inout) :: error  !! first failure
 
+      real(wp) :: direct(small%n), general(small%n)
+      integer :: status
+      logical :: is_direct
+
+      if (allocated(error)) return
+      is_direct = small%is_direct
+      call compare_form(full, small, t, y, error)
+      if (.not. is_direct .or. allocated(error)) return
+      call small%evaluate(t, y, direct, status)
+      small%is_direct = .false.
+      call small%evaluate(t, y, general, status)
+      call compare_form(full, small, t, y, error)
+      small%is_direct = .true.
+      call check_close(error, direct, general, 1.0e-13_wp*maxval(abs(general)), "the direct way at t = "//to_text(t))
+   end subroutine compare_at
+
+   !> The same in the form that the system without them has now.
+   subroutine compare_form(full, small, t, y, error)
+      type(mechanism_t), intent(inout) :: full                !! with all bodies unknown
+      type(mechanism_t), intent(inout) :: small               !! without the known ones
+      real(wp), intent(in) :: t                               !! time [s]
+      real(wp), intent(in) :: y(:)                            !! (small's n) state [any]
+      type(error_t), allocatable, intent(inout) :: error      !! first failure
+
       type(catalogue_t) :: of_full, of_small
       real(wp) :: rate_full(full%n), rate_small(small%n), y_full(full%n)
       integer :: k, other, status
 
-      if (allocated(error)) return
       call complete_state(small, t, y, y_full)
       call build_catalogue(full, of_full)
       call build_catalogue(small, of_small)
@@ -138,7 +162,7 @@ contains
          call check_close(error, a, e, 1.0e-10_wp*max(1.0e-3_wp, maxval(abs(e))), name//" at t = "//to_text(t))
       end subroutine compare
 
-   end subroutine compare_at
+   end subroutine compare_form
 
    !> Random states about a start at random times.
    subroutine compare_often(deck, n_known, t_end, error)

@@ -128,9 +128,11 @@ contains
          call step(run, plan, error)
          if (allocated(error)) return
          call run%sampler%take(run%whole, plan, run%tally%residual, recorder, error)
-         if (.not. allocated(error)) call look_at_guards(run, error)
-         if (run%stop%met == 0 .and. .not. allocated(error)) call handle_events(run, plan, recorder, error)
-         if (run%stop%met == 0 .and. .not. allocated(error)) call pass_instants(run, plan, recorder, error)
+         if (.not. run%whole%is_smooth()) then
+            if (.not. allocated(error)) call look_at_guards(run, error)
+            if (run%stop%met == 0 .and. .not. allocated(error)) call handle_events(run, plan, recorder, error)
+            if (run%stop%met == 0 .and. .not. allocated(error)) call pass_instants(run, plan, recorder, error)
+         end if
          n_since_progress = n_since_progress + 1
          if (n_since_progress == progress_every) then
             n_since_progress = 0

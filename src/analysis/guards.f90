@@ -227,7 +227,7 @@ contains
                   values(guard_strength) = contact%peak_force
                end associate
                ! no more is told of what was passed by more before
-               if (any(values > max(self%limit(:, m), self%breach(:, m)%value))) call note(self, set, c, values, t)
+               if (are_beyond(values, self%limit(:, m), self%breach(:, m))) call note(self, set, c, values, t)
             end do
          end associate
       end do
@@ -243,6 +243,21 @@ contains
          end do
       end associate
    end subroutine guards_look
+
+   !> Whether a value is beyond its limit, and the greatest there was.
+   pure logical function are_beyond(values, limit, breach)
+      real(wp), intent(in) :: values(n_contact_guard)         !! (guards of a contact) the values [m, m/s or N]
+      real(wp), intent(in) :: limit(n_contact_guard)          !! (guards of a contact) their limits [m, m/s or N]
+      type(breach_t), intent(in) :: breach(n_contact_guard)   !! (guards of a contact) where these were passed
+
+      integer :: g
+
+      are_beyond = .true.
+      do g = 1, n_contact_guard
+         if (values(g) > limit(g) .and. values(g) > breach(g)%value) return
+      end do
+      are_beyond = .false.
+   end function are_beyond
 
    !> Whether all bodies are near their starts, and none is too fast.
    pure logical function are_near(n, r, v, start, way_2, speed_2)

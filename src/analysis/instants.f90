@@ -50,6 +50,8 @@ module instants
       real(wp) :: omega = 0.0_wp                 !! greatest angular speed of a body that a contact may touch [rad/s]
       real(wp) :: known_omega = 0.0_wp           !! greatest one of a body whose motion is known [rad/s]
       logical :: is_still = .false.              !! whether nothing else can move
+      real(wp) :: tolerance = -1.0_wp            !! that the next are of [1]
+      real(wp) :: known_turn(2) = 0.0_wp         !! (2) greatest turns of such a body in a step: others move too, none does [rad]
    contains
       procedure :: begin => instants_begin
       procedure :: is_at => instants_is_at
@@ -257,7 +259,9 @@ contains
       self%known_omega = 0.0_wp
       associate (linkage => system%linkage, known => system%linkage%reduced%known, omega => system%linkage%motion%omega)
          do k = 1, known%n
-            self%known_omega = max(self%known_omega, maxval(abs(omega(:, known%held(k)%body))))
+            associate (w => omega(:, known%held(k)%body))
+               self%known_omega = max(self%known_omega, abs(w(1)), abs(w(2)), abs(w(3)))
+            end associate
          end do
          self%is_still = linkage%n_rate <= linkage%rows%n_solve .and. .not. linkage%solution%is_redundant
       end associate
@@ -311,10 +315,12 @@ contains
       end if
       if (self%omega*(stop - method%t) > turn) stop = method%t + turn/self%omega
       if (self%known_omega > 0.0_wp .and. (self%is_still .or. .not. method%begins_anew())) then
-         associate (tolerance => method%controls%tolerance)
-            known_turn = merge(alone(1)*tolerance**(1.0_wp/alone(2)), beside(1)*tolerance**(1.0_wp/beside(2)), self%is_still)
-         end associate
-         known_turn = min(turn, known_turn)
+         if (abs(method%controls%tolerance - self%tolerance) > 0.0_wp) then
+            self%tolerance = method%controls%tolerance
+            self%known_turn(1) = min(turn, beside(1)*self%tolerance**(1.0_wp/beside(2)))
+            self%known_turn(2) = min(turn, alone(1)*self%tolerance**(1.0_wp/alone(2)))
+         end if
+         known_turn = merge(self%known_turn(2), self%known_turn(1), self%is_still)
          if (self%known_omega*(stop - method%t) > known_turn) stop = method%t + known_turn/self%known_omega
       end if
    end subroutine instants_stop_after

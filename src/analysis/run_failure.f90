@@ -37,6 +37,7 @@ contains
       integer :: code, row
 
       where_singular = ""
+      if (system%is_direct) call system%gather_loads()
       associate (linkage => system%linkage, bad_row => system%linkage%solution%bad_row)
          if (bad_row > 0) where_singular = ": they are singular at joint or driver '"//linkage%row_name(bad_row)//"'"
          if (linkage%rows%n > linkage%rows%n_solve) then

@@ -8,7 +8,7 @@ module whole_motion
    use friction_law, only: memory_bristle
    use guards, only: guards_t
    use instants, only: instants_t
-   use integrator, only: integrator_t
+   use integrator, only: advance_event, integrator_t
    use kinds, only: wp
    use mechanism, only: mechanism_t
    use moving_part, only: moving_part_t, new_part
@@ -37,6 +37,7 @@ module whole_motion
       procedure :: scatter => whole_scatter
       procedure :: note_step => whole_note_step
       procedure :: move_front => whole_move_front
+      procedure :: is_smooth => whole_is_smooth
       procedure :: next_peak => whole_next_peak
       procedure :: drop_peaks => whole_drop_peaks
       procedure :: note_row => whole_note_row
@@ -132,6 +133,21 @@ contains
       self%n_peak = self%n_peak + 1
       self%with_peak(self%n_peak) = part
    end subroutine whole_note_step
+
+   !> Whether the motion goes on as it is: no part at the front has an event or an instant there, or a guard that ends the run.
+   pure logical function whole_is_smooth(self) result(is_smooth)
+      class(whole_motion_t), intent(in) :: self  !! the motion
+
+      integer :: k
+
+      is_smooth = .false.
+      do k = 1, self%n_front
+         associate (part => self%parts(self%front(k)))
+            if (part%status == advance_event .or. part%method%t >= part%instants%next%at .or. allocated(part%guards%reason)) return
+         end associate
+      end do
+      is_smooth = .true.
+   end function whole_is_smooth
 
    !> All parts of the front have made a step: those that are behind now are the front.
    pure subroutine whole_move_front(self)

@@ -85,12 +85,12 @@ contains
       system%n = system%linkage%n_position + system%linkage%n_rate + system%n_quadrature
       call count_grips(system)
       call add_event_functions(system)
-      system%n_event = system%loose%functions%n
       system%is_large = is_large(scene) .and. system%linkage%reduced%guided%n == 0 .and. system%friction%grips%n_bristle == 0 &
                         .and. system%friction%rubbing%n == 0 .and. .not. sees_motion(scene)
       ! forces of contacts that stick hang on all that they are joined with, which the pattern of a Newton matrix does not know
       if (system%friction%grips%n_slip > 0 .and. scene%settings%dynamic%word("method") == "ida") system%is_large = .false.
       call bind_reactions(system)
+      call system%choose_form()
    end subroutine new_system
 
    !> The blocks of event functions that the contacts have.
@@ -108,6 +108,7 @@ contains
       if (any([(has_transition(system%loose%sets(k)%set), k=1, size(system%loose%sets))])) then
          call system%loose%functions%add(transition_function)
       end if
+      system%n_event = system%loose%functions%n
    end subroutine add_event_functions
 
    !> Whether films of a set go out over a transition.

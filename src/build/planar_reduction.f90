@@ -50,6 +50,7 @@ contains
          guide%s_base = guide%s_base - turn(guide%turned, s_body)
          guide%ease = 1.0_wp/guide%mass
       else
+         guide%turns = 1.0_wp
          guide%arm = -s_body
          guide%ease = 1.0_wp/(mass(3) + guide%mass*dot_product(s_body, s_body))
       end if

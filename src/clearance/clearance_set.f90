@@ -138,12 +138,12 @@ module clearance_set
 
       !> Add the forces of the contacts that act, and set what is integrated of them. No allocation.
       subroutine evaluate_interface(self, motion, loads, integrands)
-         import :: clearance_set_t, loads_t, motion_t, wp
+         import :: clearance_set_t, loads_t, motion_t, n_integrand, wp
          implicit none (type, external)
          class(clearance_set_t), intent(inout) :: self   !! the set
          type(motion_t), intent(in) :: motion            !! positions and velocities
          type(loads_t), intent(inout) :: loads           !! loads on the bodies, added to
-         real(wp), intent(inout), contiguous :: integrands(:, :)  !! (3, all contacts) power lost, normal force: set here [W and N]
+         real(wp), intent(inout) :: integrands(n_integrand, self%n_contact)  !! (3, contacts) set: power lost, force [W and N]
       end subroutine evaluate_interface
 
       !> Penetration and its rate for all contacts, touching or not. No allocation.
@@ -152,8 +152,8 @@ module clearance_set
          implicit none (type, external)
          class(clearance_set_t), intent(in) :: self  !! the set
          type(motion_t), intent(in) :: motion        !! positions and velocities
-         real(wp), intent(inout) :: delta(:)         !! (all contacts) penetration, negative: apart [m]
-         real(wp), intent(inout) :: rate(:)          !! (all contacts) its rate [m/s]
+         real(wp), intent(inout), contiguous :: delta(:)  !! (all contacts) penetration, negative: apart [m]
+         real(wp), intent(inout), contiguous :: rate(:)   !! (all contacts) its rate [m/s]
       end subroutine gaps_interface
 
       !> Normal force of a contact that acts and its rate, for the location of its maximum.

@@ -109,8 +109,8 @@ module point_contacts
          implicit none (type, external)
          class(point_contacts_t), intent(in) :: self  !! the set
          type(motion_t), intent(in) :: motion         !! positions and velocities
-         real(wp), intent(inout) :: delta(:)          !! (all contacts) penetration [m]
-         real(wp), intent(inout) :: rate(:)           !! (all contacts) its rate [m/s]
+         real(wp), intent(inout), contiguous :: delta(:)  !! (all contacts) penetration [m]
+         real(wp), intent(inout), contiguous :: rate(:)   !! (all contacts) its rate [m/s]
       end subroutine point_gaps
 
       !> Normal force of a touching contact and its rate, F' = dF/ddelta delta' + dF/drate delta''.

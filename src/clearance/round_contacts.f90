@@ -60,7 +60,7 @@ contains
       class(round_contacts_t), intent(inout) :: self        !! the set
       type(motion_t), intent(in) :: motion                  !! positions and velocities
       type(loads_t), intent(inout) :: loads                 !! loads on the bodies
-      real(wp), intent(inout), contiguous :: integrands(:, :)  !! (3, all contacts) power lost and normal force [W and N]
+      real(wp), intent(inout) :: integrands(n_integrand, self%n_contact)  !! (3, contacts) power lost and normal force [W and N]
 
       include "point_way.inc"
    end subroutine round_evaluate
@@ -189,19 +189,37 @@ contains
       type(motion_t), intent(in) :: motion           !! positions, velocities and accelerations
       type(point_contact_t), intent(in) :: contact   !! its kinematics
 
-      real(wp) :: a(2), distance, e_dot(2), s_i(2), s_j(2)
+      acceleration = acceleration_along(self%items%body(:, k), self%items%s_i(:, k), self%items%s_j(:, k), self%journal(k)%side, &
+                                        ubound(motion%angle, 1), motion%r, motion%rot, motion%v, motion%omega, motion%a, &
+                                        motion%alpha, contact%normal, contact%rate)
+   end function round_penetration_acceleration
+
+   !> The same on plain arrays.
+   pure real(wp) function acceleration_along(body, s_bearing, s_journal, side, n_body, r, rot, v, omega, a, alpha, normal, rate) &
+      result(acceleration)
+      integer, intent(in) :: body(2)                     !! (2) bodies of bearing and journal
+      real(wp), intent(in) :: s_bearing(3)               !! (3) centre of the bearing, frame of its body [m]
+      real(wp), intent(in) :: s_journal(3)               !! (3) centre of the journal, frame of its body [m]
+      real(wp), intent(in) :: side                       !! 1: in a hole; -1: beside a disc [1]
+      integer, intent(in) :: n_body                      !! number of bodies
+      real(wp), intent(in) :: r(3, 0:n_body)             !! (3, 0:bodies) centres of mass [m]
+      real(wp), intent(in) :: rot(3, 3, 0:n_body)        !! (3, 3, 0:bodies) body frames to world frame [1]
+      real(wp), intent(in) :: v(3, 0:n_body)             !! (3, 0:bodies) velocities [m/s]
+      real(wp), intent(in) :: omega(3, 0:n_body)         !! (3, 0:bodies) angular velocities [rad/s]
+      real(wp), intent(in) :: a(3, 0:n_body)             !! (3, 0:bodies) accelerations [m/s^2]
+      real(wp), intent(in) :: alpha(3, 0:n_body)         !! (3, 0:bodies) angular accelerations [rad/s^2]
+      real(wp), intent(in) :: normal(3)                  !! (3) normal of the contact [1]
+      real(wp), intent(in) :: rate                       !! rate of the penetration [m/s]
+
+      real(wp) :: e(2), e_ddot(2), e_dot(2), s_i(2), s_j(2)
       integer :: i, j
 
-      i = self%items%body(1, k)
-      j = self%items%body(2, k)
-      call find_centres(self, k, motion, s_i, s_j, distance)
-      e_dot = motion%v(1:2, j) - motion%v(1:2, i) + motion%omega(3, j)*[-s_j(2), s_j(1)] - motion%omega(3, i)*[-s_i(2), s_i(1)]
-      a = motion%a(1:2, j) - motion%a(1:2, i) &
-          + motion%alpha(3, j)*[-s_j(2), s_j(1)] - motion%omega(3, j)**2*s_j &
-          - motion%alpha(3, i)*[-s_i(2), s_i(1)] + motion%omega(3, i)**2*s_i
-      acceleration = contact%normal(1)*a(1) + contact%normal(2)*a(2) &
-                     + (e_dot(1)**2 + e_dot(2)**2 - contact%rate**2)/(self%journal(k)%side*max(distance, tiny(1.0_wp)))
-   end function round_penetration_acceleration
+      include "eccentricity.inc"
+      e_ddot(1) = a(1, j) - a(1, i) - alpha(3, j)*s_j(2) - omega(3, j)**2*s_j(1) + alpha(3, i)*s_i(2) + omega(3, i)**2*s_i(1)
+      e_ddot(2) = a(2, j) - a(2, i) + alpha(3, j)*s_j(1) - omega(3, j)**2*s_j(2) - alpha(3, i)*s_i(1) + omega(3, i)**2*s_i(2)
+      acceleration = normal(1)*e_ddot(1) + normal(2)*e_ddot(2) &
+                     + (e_dot(1)**2 + e_dot(2)**2 - rate**2)/(side*max(sqrt(e(1)**2 + e(2)**2), tiny(1.0_wp)))
+   end function acceleration_along
 
    !> The normal turns with e' . t / |e|, and the point of contact goes along with it: of its velocity only the part along the
    !> normal counts, that of the centre P_k and the rate at which it comes nearer to it.

@@ -82,8 +82,8 @@ contains
    subroutine slider_gaps(self, motion, delta, rate)
       class(slider_contacts_t), intent(in) :: self  !! the set
       type(motion_t), intent(in) :: motion                  !! positions and velocities
-      real(wp), intent(inout) :: delta(:)                   !! (all contacts) penetration [m]
-      real(wp), intent(inout) :: rate(:)                    !! (all contacts) its rate [m/s]
+      real(wp), intent(inout), contiguous :: delta(:)       !! (all contacts) penetration [m]
+      real(wp), intent(inout), contiguous :: rate(:)        !! (all contacts) its rate [m/s]
 
       type(point_contact_t) :: contact
       integer :: k, m

@@ -44,7 +44,7 @@ contains
       class(spatial_contacts_t), intent(inout) :: self      !! the set
       type(motion_t), intent(in) :: motion                  !! positions and velocities
       type(loads_t), intent(inout) :: loads                 !! loads on the bodies
-      real(wp), intent(inout), contiguous :: integrands(:, :)  !! (3, all contacts) power lost and normal force [W and N]
+      real(wp), intent(inout) :: integrands(n_integrand, self%n_contact)  !! (3, contacts) power lost and normal force [W and N]
 
       include "point_way.inc"
    end subroutine spatial_evaluate

@@ -322,7 +322,7 @@ contains
       real(wp), intent(in) :: length         !! the length [m]
       real(wp) :: rate                       !! the rate [1/s]
 
-      rate = max(maxval(abs(motion%v(1:2, body)))/length, abs(motion%omega(3, body)))
+      rate = max(max(abs(motion%v(1, body)), abs(motion%v(2, body)))/length, abs(motion%omega(3, body)))
    end function planar_rate_of
 
    !> Derivatives of the rates of a body.

@@ -332,10 +332,14 @@ contains
    subroutine begin_step(self)
       class(integrator_t), intent(inout) :: self  !! the integrator
 
+      integer :: k
+
       self%events%n_happened = 0
       self%step%t0 = self%t
-      self%events%g0(:) = self%events%g1
-      self%events%rate0(:) = self%events%rate1
+      do k = 1, size(self%events%g1)
+         self%events%g0(k) = self%events%g1(k)
+         self%events%rate0(k) = self%events%rate1(k)
+      end do
       self%step%has_inner = .false.
    end subroutine begin_step
 

@@ -90,8 +90,8 @@ module ode_system
          class(ode_system_t), intent(inout) :: self  !! the system
          real(wp), intent(in) :: t                   !! time [s]
          real(wp), intent(in) :: y(:)                !! (n) state [any]
-         real(wp), intent(out) :: g(:)               !! (n_event) event functions [any]
-         real(wp), intent(out) :: rate(:)            !! (n_event) their rates [any]
+         real(wp), intent(out), contiguous :: g(:)     !! (n_event) event functions [any]
+         real(wp), intent(out), contiguous :: rate(:)  !! (n_event) their rates [any]
       end subroutine events_interface
    end interface
 
@@ -103,8 +103,8 @@ contains
       class(ode_system_t), intent(inout) :: self  !! the system
       real(wp), intent(in) :: t                   !! time of the last evaluation [s]
       real(wp), intent(in) :: y(:)                !! (n) its state [any]
-      real(wp), intent(out) :: g(:)               !! (n_event) event functions [any]
-      real(wp), intent(out) :: rate(:)            !! (n_event) their rates [any]
+      real(wp), intent(out), contiguous :: g(:)     !! (n_event) event functions [any]
+      real(wp), intent(out), contiguous :: rate(:)  !! (n_event) their rates [any]
 
       call self%events(t, y, g, rate)
    end subroutine ode_last_events
@@ -115,8 +115,8 @@ contains
       class(ode_system_t), intent(inout) :: self  !! the system
       real(wp), intent(in) :: t                   !! time [s]
       real(wp), intent(in) :: y(:)                !! (n) state [any]
-      real(wp), intent(inout) :: g(:)             !! (n_event) scratch [any]
-      real(wp), intent(inout) :: rate(:)          !! (n_event) scratch [any]
+      real(wp), intent(inout), contiguous :: g(:)     !! (n_event) scratch [any]
+      real(wp), intent(inout), contiguous :: rate(:)  !! (n_event) scratch [any]
 
       call self%events(t, y, g, rate)
    end subroutine ode_settle

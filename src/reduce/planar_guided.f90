@@ -27,6 +27,7 @@ module planar_guided
       real(wp) :: s_base(2) = 0.0_wp       !! (2) P, sliding: centre of mass at x = 0; frame of the base [m]
       real(wp) :: turned(2) = 0.0_wp       !! (2) sliding: cosine and sine of the next [1]
       real(wp) :: offset = 0.0_wp          !! sliding: angle of the body less that of its base [rad]
+      real(wp) :: turns = 0.0_wp           !! 1: the body turns with the coordinate, 0: it slides [1]
       real(wp) :: mass = 0.0_wp            !! mass of the body [kg]
       real(wp) :: ease = 0.0_wp            !! one over what the freedom moves: I + m |d|^2, or m [1/(kg.m^2) or 1/kg]
       ! of the motion that is set
@@ -49,6 +50,7 @@ module planar_guided
 contains
 
    include "../math/sine_cosine.inc"
+   include "planar_guided.inc"
 
    !> Positions and velocities of the guided bodies; the motion of their bases is set, accelerations too.
    pure subroutine planar_move(self, x, x_dot, motion)
@@ -66,123 +68,6 @@ contains
       end associate
    end subroutine planar_move
 
-   !> The bodies that turn, on plain arrays.
-   pure subroutine place_turning(n, held, item, x, x_dot, n_body, acceleration, alpha, r, rot, v, omega, angle)
-      integer, intent(in) :: n                              !! number of bodies that turn
-      type(held_t), intent(in) :: held(n)                   !! (n) how they are held
-      type(planar_guide_t), intent(inout) :: item(n)         !! (n) these bodies, moved
-      real(wp), intent(in) :: x(n)                          !! (n) coordinates [rad]
-      real(wp), intent(in) :: x_dot(n)                      !! (n) their rates [rad/s]
-      integer, intent(in) :: n_body                         !! number of bodies
-      real(wp), intent(in) :: acceleration(3, 0:n_body)     !! (3, 0:bodies) accelerations, those of the bases [m/s^2]
-      real(wp), intent(in) :: alpha(3, 0:n_body)            !! (3, 0:bodies) angular accelerations, those of the bases [rad/s^2]
-      real(wp), intent(inout) :: r(3, 0:n_body)             !! (3, 0:bodies) centres of mass [m]
-      real(wp), intent(inout) :: rot(3, 3, 0:n_body)        !! (3, 3, 0:bodies) body frames to world frame [1]
-      real(wp), intent(inout) :: v(3, 0:n_body)             !! (3, 0:bodies) velocities [m/s]
-      real(wp), intent(inout) :: omega(3, 0:n_body)         !! (3, 0:bodies) angular velocities [rad/s]
-      real(wp), intent(inout) :: angle(0:n_body)            !! (0:bodies) angles [rad]
-
-      real(wp) :: c, d(2), e, p(2), s, w
-      integer :: a, b, k
-
-      do k = 1, n
-         b = held(k)%body
-         w = x_dot(k)
-         call sine_cosine(x(k), s, c)
-         d(1) = c*item(k)%arm(1) - s*item(k)%arm(2)
-         d(2) = s*item(k)%arm(1) + c*item(k)%arm(2)
-         angle(b) = x(k)
-         rot(1, 1, b) = c
-         rot(2, 1, b) = s
-         rot(1, 2, b) = -s
-         rot(2, 2, b) = c
-         omega(3, b) = w
-         item(k)%along(1) = -d(2)
-         item(k)%along(2) = d(1)
-         r(1, b) = item(k)%s_base(1) + d(1)
-         r(2, b) = item(k)%s_base(2) + d(2)
-         v(1, b) = -w*d(2)
-         v(2, b) = w*d(1)
-         item(k)%a_0(1) = -w*w*d(1)
-         item(k)%a_0(2) = -w*w*d(2)
-         if (held(k)%base == 0) cycle
-         ! what the motion of the base adds
-         a = held(k)%base
-         w = omega(3, a)
-         e = alpha(3, a)
-         p(1) = rot(1, 1, a)*item(k)%s_base(1) + rot(1, 2, a)*item(k)%s_base(2)
-         p(2) = rot(2, 1, a)*item(k)%s_base(1) + rot(2, 2, a)*item(k)%s_base(2)
-         r(1, b) = r(1, a) + p(1) + d(1)
-         r(2, b) = r(2, a) + p(2) + d(2)
-         v(1, b) = v(1, b) + v(1, a) - w*p(2)
-         v(2, b) = v(2, b) + v(2, a) + w*p(1)
-         item(k)%a_0(1) = item(k)%a_0(1) + acceleration(1, a) - e*p(2) - w*w*p(1)
-         item(k)%a_0(2) = item(k)%a_0(2) + acceleration(2, a) + e*p(1) - w*w*p(2)
-      end do
-   end subroutine place_turning
-
-   !> The bodies that slide, on plain arrays.
-   pure subroutine place_sliding(n_turning, n, held, item, x, x_dot, n_body, acceleration, alpha, r, rot, v, omega, angle)
-      integer, intent(in) :: n_turning                      !! number of bodies that turn, the first ones
-      integer, intent(in) :: n                              !! number of guided bodies
-      type(held_t), intent(in) :: held(n)                   !! (n) how they are held
-      type(planar_guide_t), intent(inout) :: item(n)         !! (n) the bodies, those that slide are moved
-      real(wp), intent(in) :: x(n)                          !! (n) coordinates [m]
-      real(wp), intent(in) :: x_dot(n)                      !! (n) their rates [m/s]
-      integer, intent(in) :: n_body                         !! number of bodies
-      real(wp), intent(in) :: acceleration(3, 0:n_body)     !! (3, 0:bodies) accelerations, those of the bases [m/s^2]
-      real(wp), intent(in) :: alpha(3, 0:n_body)            !! (3, 0:bodies) angular accelerations, those of the bases [rad/s^2]
-      real(wp), intent(inout) :: r(3, 0:n_body)             !! (3, 0:bodies) centres of mass [m]
-      real(wp), intent(inout) :: rot(3, 3, 0:n_body)        !! (3, 3, 0:bodies) body frames to world frame [1]
-      real(wp), intent(inout) :: v(3, 0:n_body)             !! (3, 0:bodies) velocities [m/s]
-      real(wp), intent(inout) :: omega(3, 0:n_body)         !! (3, 0:bodies) angular velocities [rad/s]
-      real(wp), intent(inout) :: angle(0:n_body)            !! (0:bodies) angles [rad]
-
-      real(wp) :: d(2), e, p(2), q(2), w
-      integer :: a, b, k
-
-      do k = n_turning + 1, n
-         b = held(k)%body
-         p(1) = item(k)%s_base(1) + x(k)*item(k)%arm(1)
-         p(2) = item(k)%s_base(2) + x(k)*item(k)%arm(2)
-         if (held(k)%base == 0) then
-            angle(b) = item(k)%offset
-            rot(1, 1, b) = item(k)%turned(1)
-            rot(2, 1, b) = item(k)%turned(2)
-            rot(1, 2, b) = -item(k)%turned(2)
-            rot(2, 2, b) = item(k)%turned(1)
-            item(k)%along(1) = item(k)%arm(1)
-            item(k)%along(2) = item(k)%arm(2)
-            r(1, b) = p(1)
-            r(2, b) = p(2)
-            v(1, b) = x_dot(k)*item(k)%arm(1)
-            v(2, b) = x_dot(k)*item(k)%arm(2)
-            cycle
-         end if
-         a = held(k)%base
-         w = omega(3, a)
-         e = alpha(3, a)
-         d(1) = rot(1, 1, a)*item(k)%arm(1) + rot(1, 2, a)*item(k)%arm(2)
-         d(2) = rot(2, 1, a)*item(k)%arm(1) + rot(2, 2, a)*item(k)%arm(2)
-         q(1) = rot(1, 1, a)*p(1) + rot(1, 2, a)*p(2)
-         q(2) = rot(2, 1, a)*p(1) + rot(2, 2, a)*p(2)
-         angle(b) = angle(a) + item(k)%offset
-         rot(1, 1, b) = rot(1, 1, a)*item(k)%turned(1) + rot(1, 2, a)*item(k)%turned(2)
-         rot(2, 1, b) = rot(2, 1, a)*item(k)%turned(1) + rot(2, 2, a)*item(k)%turned(2)
-         rot(1, 2, b) = -rot(2, 1, b)
-         rot(2, 2, b) = rot(1, 1, b)
-         omega(3, b) = w
-         item(k)%along(1) = d(1)
-         item(k)%along(2) = d(2)
-         r(1, b) = r(1, a) + q(1)
-         r(2, b) = r(2, a) + q(2)
-         v(1, b) = v(1, a) - w*q(2) + x_dot(k)*d(1)
-         v(2, b) = v(2, a) + w*q(1) + x_dot(k)*d(2)
-         item(k)%a_0(1) = acceleration(1, a) - e*q(2) - w*w*q(1) - 2.0_wp*w*x_dot(k)*d(2)
-         item(k)%a_0(2) = acceleration(2, a) + e*q(1) - w*w*q(2) + 2.0_wp*w*x_dot(k)*d(1)
-      end do
-   end subroutine place_sliding
-
    !> Rates of the coordinates and their derivatives at the motion that is set. Status 1 if one is not a finite number.
    pure subroutine planar_rates(self, n_v, n_body, g, x_dot, rate, x_ddot, status)
       class(planar_guided_t), intent(in) :: self       !! the bodies, moved
@@ -194,37 +79,8 @@ contains
       real(wp), intent(inout) :: x_ddot(self%n)        !! (n) second derivatives [rad/s^2 or m/s^2]
       integer, intent(out) :: status                   !! 0: all finite
 
-      call find_rates(self%n, self%n_turning, self%held, self%item, n_body, g, x_dot, rate, x_ddot, status)
+      call find_rates(self%n, self%held, self%item, n_body, g, g, x_dot, rate, x_ddot, status)
    end subroutine planar_rates
-
-   !> The same on plain arrays.
-   pure subroutine find_rates(n, n_turning, held, item, n_body, g, x_dot, rate, x_ddot, status)
-      integer, intent(in) :: n                         !! number of guided bodies
-      integer, intent(in) :: n_turning                 !! those that turn
-      type(held_t), intent(in) :: held(n)              !! (n) how they are held
-      type(planar_guide_t), intent(in) :: item(n)      !! (n) the bodies, moved
-      integer, intent(in) :: n_body                    !! number of bodies
-      real(wp), intent(in) :: g(3, 0:n_body)           !! (3, 0:bodies) applied loads [N, N, N.m]
-      real(wp), intent(in) :: x_dot(n)                 !! (n) rates of the coordinates [rad/s or m/s]
-      real(wp), intent(inout) :: rate(n)               !! (n) the same, first derivatives of the coordinates [rad/s or m/s]
-      real(wp), intent(inout) :: x_ddot(n)             !! (n) second derivatives [rad/s^2 or m/s^2]
-      integer, intent(out) :: status                   !! 0: all finite
-
-      real(wp) :: load, sum
-      integer :: b, k
-
-      sum = 0.0_wp
-      !GCC$ novector
-      do k = 1, n
-         b = held(k)%body
-         rate(k) = x_dot(k)
-         load = item(k)%along(1)*(g(1, b) - item(k)%mass*item(k)%a_0(1)) + item(k)%along(2)*(g(2, b) - item(k)%mass*item(k)%a_0(2))
-         if (k <= n_turning) load = load + g(3, b)
-         x_ddot(k) = load*item(k)%ease
-         sum = sum + abs(x_ddot(k))
-      end do
-      status = merge(0, 1, ieee_is_finite(sum))
-   end subroutine find_rates
 
    !> Accelerations of the guided bodies under loads, with those that they have by their motion or without: then what the loads
    !> add to them.

@@ -34,6 +34,7 @@ module planar_known
 contains
 
    include "../math/sine_cosine.inc"
+   include "planar_known.inc"
 
    !> Positions, velocities and accelerations of the known bodies at a time; nothing to do if that is their present time.
    subroutine planar_move(self, joints, t, motion)
@@ -47,85 +48,6 @@ contains
       call place_bodies(self%n, self%held, self%item, size(joints), joints, t, ubound(motion%angle, 1), motion%r, motion%rot, &
                         motion%v, motion%omega, motion%angle, motion%a, motion%alpha, self%is_finite)
    end subroutine planar_move
-
-   !> The same on plain arrays, up to the first body whose driver says what is no finite number.
-   subroutine place_bodies(n, held, item, n_set, joints, t, n_body, r, rot, v, omega, angle, acceleration, alpha, is_finite)
-      integer, intent(in) :: n                              !! number of known bodies
-      type(held_t), intent(in) :: held(n)                   !! (n) how they are held
-      type(planar_link_t), intent(in) :: item(n)            !! (n) the bodies
-      integer, intent(in) :: n_set                          !! number of sets of joints
-      type(joint_slot_t), intent(in) :: joints(n_set)       !! (sets) joints and drivers
-      real(wp), intent(in) :: t                             !! time [s]
-      integer, intent(in) :: n_body                         !! number of bodies
-      real(wp), intent(inout) :: r(3, 0:n_body)             !! (3, 0:bodies) centres of mass [m]
-      real(wp), intent(inout) :: rot(3, 3, 0:n_body)        !! (3, 3, 0:bodies) body frames to world frame [1]
-      real(wp), intent(inout) :: v(3, 0:n_body)             !! (3, 0:bodies) velocities [m/s]
-      real(wp), intent(inout) :: omega(3, 0:n_body)         !! (3, 0:bodies) angular velocities [rad/s]
-      real(wp), intent(inout) :: angle(0:n_body)            !! (0:bodies) angles [rad]
-      real(wp), intent(inout) :: acceleration(3, 0:n_body)  !! (3, 0:bodies) accelerations [m/s^2]
-      real(wp), intent(inout) :: alpha(3, 0:n_body)         !! (3, 0:bodies) angular accelerations [rad/s^2]
-      logical, intent(out) :: is_finite                     !! whether what the drivers say are finite numbers
-
-      real(wp) :: c, e, f, f_dot, f_dot_dot, s, theta, w, x, y
-      integer :: a, b, k
-
-      do k = 1, n
-         a = held(k)%base
-         b = held(k)%body
-         theta = angle(a) + item(k)%offset
-         w = omega(3, a)
-         e = alpha(3, a)
-         if (held(k)%slot > 0) then
-            call joints(held(k)%slot)%set%prescription(held(k)%item, t, f, f_dot, f_dot_dot)
-            is_finite = ieee_is_finite(f + f_dot + f_dot_dot)
-            if (.not. is_finite) return
-            theta = theta + item(k)%sign*f
-            w = w + item(k)%sign*f_dot
-            e = e + item(k)%sign*f_dot_dot
-         end if
-         call sine_cosine(theta, s, c)
-         ! from the common point to the centre of mass
-         x = s*item(k)%s_body(2) - c*item(k)%s_body(1)
-         y = -s*item(k)%s_body(1) - c*item(k)%s_body(2)
-         angle(b) = theta
-         omega(3, b) = w
-         alpha(3, b) = e
-         rot(1, 1, b) = c
-         rot(2, 1, b) = s
-         rot(1, 2, b) = -s
-         rot(2, 2, b) = c
-         r(1, b) = item(k)%s_base(1) + x
-         r(2, b) = item(k)%s_base(2) + y
-         v(1, b) = -w*y
-         v(2, b) = w*x
-         acceleration(1, b) = -e*y - w*w*x
-         acceleration(2, b) = e*x - w*w*y
-         if (a > 0) call add_base(a, b, item(k)%s_base, n_body, r, rot, v, omega, acceleration, alpha)
-      end do
-      is_finite = .true.
-   end subroutine place_bodies
-
-   !> What the motion of the body that carries the common point adds to that of a body.
-   pure subroutine add_base(a, b, s_base, n_body, r, rot, v, omega, acceleration, alpha)
-      integer, intent(in) :: a                              !! the body that carries
-      integer, intent(in) :: b                              !! the body that is carried
-      real(wp), intent(in) :: s_base(2)                     !! (2) common point in the frame of a; in the position of b already [m]
-      integer, intent(in) :: n_body                         !! number of bodies
-      real(wp), intent(inout) :: r(3, 0:n_body)             !! (3, 0:bodies) centres of mass; that of b is added to [m]
-      real(wp), intent(in) :: rot(3, 3, 0:n_body)           !! (3, 3, 0:bodies) body frames to world frame [1]
-      real(wp), intent(inout) :: v(3, 0:n_body)             !! (3, 0:bodies) velocities; that of b is added to [m/s]
-      real(wp), intent(in) :: omega(3, 0:n_body)            !! (3, 0:bodies) angular velocities [rad/s]
-      real(wp), intent(inout) :: acceleration(3, 0:n_body)  !! (3, 0:bodies) accelerations; that of b is added to [m/s^2]
-      real(wp), intent(in) :: alpha(3, 0:n_body)            !! (3, 0:bodies) angular accelerations [rad/s^2]
-
-      real(wp) :: s(2), w
-
-      s = rot(1:2, 1, a)*s_base(1) + rot(1:2, 2, a)*s_base(2)
-      w = omega(3, a)
-      r(1:2, b) = r(1:2, b) + (r(1:2, a) + s - s_base)
-      v(1:2, b) = v(1:2, b) + v(1:2, a) + w*[-s(2), s(1)]
-      acceleration(1:2, b) = acceleration(1:2, b) + acceleration(1:2, a) + alpha(3, a)*[-s(2), s(1)] - w*w*s
-   end subroutine add_base
 
    !> Power that the drivers of known bodies give to the mechanism.
    pure real(wp) function planar_power(driven, rows, mass, g, lambda, motion) result(power)

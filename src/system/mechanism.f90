@@ -24,12 +24,15 @@ module mechanism
    !> Components: those of its state.
    type, extends(mechanism_state_t) :: mechanism_t
       real(wp), allocatable, private :: held(:)   !! (positions + rates) state corrected for an evaluation [any]
+      logical :: is_direct = .false.              !! accelerations follow from the loads at once: see `mechanism_direct`
    contains
       procedure :: evaluate => mechanism_evaluate, begin_form => mechanism_begin_form, leaves_out => mechanism_leaves_out
       procedure :: dae_residual => mechanism_dae_residual
-      procedure :: evaluate_loads => mechanism_evaluate_loads, multipliers => mechanism_multipliers
+      procedure :: evaluate_loads => mechanism_evaluate_loads, gather_loads => mechanism_gather_loads
+      procedure :: multipliers => mechanism_multipliers
       procedure :: effect_of => mechanism_effect_of
-      procedure, private :: evaluate_terms, ledger_rates
+      procedure :: choose_form => mechanism_choose_form
+      procedure, private :: evaluate_terms, evaluate_directly, ledger_rates
       procedure :: events => mechanism_events, last_events => mechanism_last_events, settle => mechanism_settle
       procedure :: set_step => mechanism_set_step
       procedure :: hold => mechanism_hold, mend => mechanism_mend, take_way => mechanism_take_way
@@ -49,6 +52,22 @@ module mechanism
          real(wp), intent(out) :: ydot(self%n)      !! (n) its derivative [any]
          integer, intent(out) :: status             !! outcome
       end subroutine mechanism_evaluate
+
+      !> Look whether accelerations follow from the loads at once. The system is built.
+      module subroutine mechanism_choose_form(self)
+         implicit none (type, external)
+         class(mechanism_t), intent(inout) :: self  !! the system
+      end subroutine mechanism_choose_form
+
+      !> Rates of the coordinates and their derivatives where they do. Status 1 if they, or a known motion, are not finite numbers.
+      module subroutine evaluate_directly(self, t, y, ydot, status)
+         implicit none (type, external)
+         class(mechanism_t), intent(inout) :: self  !! the system
+         real(wp), intent(in) :: t                  !! time, in the smooth stretch [s]
+         real(wp), intent(in) :: y(self%n)          !! (n) state [any]
+         real(wp), intent(inout) :: ydot(self%n)    !! (n) its derivative, but for quadratures [any]
+         integer, intent(out) :: status             !! outcome
+      end subroutine evaluate_directly
 
       !> Loads and solved rows at the present motion. Status 1 if a known motion is not finite.
       module subroutine evaluate_terms(self, t, status)
@@ -73,6 +92,12 @@ module mechanism
          class(mechanism_t), intent(inout) :: self  !! the system, its motion set
          real(wp), intent(in) :: t                  !! time [s]
       end subroutine mechanism_evaluate_loads
+
+      !> The loads of the last evaluation on the rates, which one that goes the direct way leaves to those who read them.
+      module subroutine mechanism_gather_loads(self)
+         implicit none (type, external)
+         class(mechanism_t), intent(inout) :: self  !! the system, evaluated
+      end subroutine mechanism_gather_loads
 
       !> Correct a state at the end of a step; what that does to the energy is work of the stabilisation.
       module subroutine mechanism_hold(self, t, y, status)
@@ -187,7 +212,7 @@ module mechanism
          implicit none (type, external)
          class(mechanism_t), intent(inout) :: self  !! the system
          real(wp), intent(in) :: t, y(:)            !! time [s] and (n) state [any]
-         real(wp), intent(out) :: g(:), rate(:)     !! (n_event) event functions and their rates [m, m/s]
+         real(wp), intent(out), contiguous :: g(:), rate(:)     !! (n_event) event functions and their rates [m, m/s]
       end subroutine mechanism_events
 
       !> The same at the present motion.
@@ -195,7 +220,7 @@ module mechanism
          implicit none (type, external)
          class(mechanism_t), intent(inout) :: self  !! the system
          real(wp), intent(in) :: t, y(:)            !! time of the last evaluation [s] and (n) its state [any]
-         real(wp), intent(out) :: g(:), rate(:)     !! (n_event) event functions and their rates [m, m/s]
+         real(wp), intent(out), contiguous :: g(:), rate(:)     !! (n_event) event functions and their rates [m, m/s]
       end subroutine mechanism_last_events
 
       !> Leave the system at a state after events were looked for elsewhere.
@@ -203,7 +228,7 @@ module mechanism
          implicit none (type, external)
          class(mechanism_t), intent(inout) :: self  !! the system
          real(wp), intent(in) :: t, y(:)            !! time [s] and (n) state [any]
-         real(wp), intent(inout) :: g(:), rate(:)   !! (n_event) scratch [any]
+         real(wp), intent(inout), contiguous :: g(:), rate(:)   !! (n_event) scratch [any]
       end subroutine mechanism_settle
 
    end interface

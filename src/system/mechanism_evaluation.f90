@@ -1,7 +1,7 @@
 !> The right-hand side: loads, rows, accelerations, and what is integrated besides.
 submodule(mechanism) mechanism_evaluation
    use contact_places, only: impulse_rates
-   use loading, only: start_loads
+   use loading, only: loading_t, start_loads
    use mechanism_parts, only: loose_t
    use motion, only: loads_t, motion_t
    implicit none (type, external)
@@ -11,12 +11,35 @@ contains
    !> Right-hand side. Status 1: singular or not a number, try a smaller step.
    module procedure mechanism_evaluate
       real(wp) :: inside
-      logical :: with_powers
 
-      with_powers = self%ledger%is_kept .and. self%traits%with_quadratures
       ! in the smooth stretch: `smooth_piece`, without its call
       inside = min(max(t, self%linkage%piece%low), self%linkage%piece%high)
       self%n_evaluations = self%n_evaluations + 1
+      if (self%is_direct) then
+         call self%evaluate_directly(inside, y, ydot, status)
+      else
+         call evaluate_any(self, t, inside, y, ydot, status)
+      end if
+      if (status /= 0 .or. .not. self%traits%with_quadratures) return
+      if (self%ledger%is_kept) then
+         associate (guided => self%linkage%reduced%guided, last => self%linkage%n_position + self%linkage%n_rate)
+            if (guided%n > 0) call guided%set_acceleration(ydot(last - guided%n + 1:), self%linkage%motion)
+         end associate
+         if (self%is_direct) call self%gather_loads()
+         call self%ledger_rates(ydot(self%n - self%n_quadrature + 1:))
+      end if
+      call impulse_rates(self%n_impulse, self%loose%integrands, ydot(self%n - self%n_impulse + 1:))
+   end procedure mechanism_evaluate
+
+   !> Rates of the coordinates and their derivatives, and those of bristles, in any scene. Status 1: singular or not a number.
+   subroutine evaluate_any(self, t, inside, y, ydot, status)
+      class(mechanism_t), intent(inout) :: self  !! the system
+      real(wp), intent(in) :: t                  !! time [s]
+      real(wp), intent(in) :: inside             !! the same in the smooth stretch [s]
+      real(wp), intent(in) :: y(self%n)          !! (n) state [any]
+      real(wp), intent(inout) :: ydot(self%n)    !! (n) its derivative, but for quadratures [any]
+      integer, intent(out) :: status             !! outcome
+
       if (self%friction%grips%n_bristle > 0) call self%take_bristles(y)
       if (self%way%at_stages) then
          call move_corrected(self, t, y, status)
@@ -45,16 +68,11 @@ contains
             associate (last => nq + linkage%n_rate - guided%n)
                call guided%rates(linkage%coordinates%n_v, linkage%bodies%n, self%loading%g, y(last + 1:), &
                                  ydot(nq - guided%n + 1:), ydot(last + 1:), status)
-               if (with_powers) call guided%set_acceleration(ydot(last + 1:), linkage%motion)
             end associate
          end if
       end associate
       if (self%friction%grips%n_bristle > 0) call self%bristle_rates(ydot)
-      if (with_powers) call self%ledger_rates(ydot(self%n - self%n_quadrature + 1:))
-      if (self%traits%with_quadratures) then
-         call impulse_rates(self%n_impulse, self%loose%integrands, ydot(self%n - self%n_impulse + 1:))
-      end if
-   end procedure mechanism_evaluate
+   end subroutine evaluate_any
 
    !> Loads and solved rows at the present motion. Status 1 if a known motion is not finite.
    module procedure evaluate_terms
@@ -65,45 +83,22 @@ contains
       if (self%linkage%rows%n_solve > 0) call self%linkage%evaluate_rows(t)
    end procedure evaluate_terms
 
-   !> Loads of gravity, force elements, touching contacts and films at the present motion.
+   !> Loads of gravity, force elements, touching contacts and films at the present motion, on the rates.
    module procedure mechanism_evaluate_loads
-      real(wp) :: inside
-      integer :: k
-
-      inside = min(max(t, self%linkage%piece%low), self%linkage%piece%high)
-      associate (loading => self%loading, motion => self%linkage%motion, n_body => self%linkage%bodies%n)
-         if (.not. loading%loads%is_weight) then
-            call start_loads(n_body, loading%weight, loading%loads%force, loading%loads%moment)
-         end if
-         loading%power = 0.0_wp
-         do k = 1, size(loading%forces)
-            call loading%forces(k)%set%evaluate(inside, motion, loading%loads, loading%power)
-         end do
-         do k = 1, size(self%loose%sets)
-            call self%loose%sets(k)%set%evaluate(motion, loading%loads, self%loose%integrands)
-         end do
-         if (self%loose%has_films) call evaluate_films(self%loose, motion, loading%loads)
-         call self%linkage%coordinates%gather(n_body, self%linkage%mass, motion, loading%loads, loading%g)
+      associate (linkage => self%linkage, loading => self%loading)
+         call sum_loads(min(max(t, linkage%piece%low), linkage%piece%high), linkage%motion, linkage%bodies%n, loading, self%loose)
       end associate
+      call self%gather_loads()
    end procedure mechanism_evaluate_loads
 
-   !> Loads of lubricant films.
-   subroutine evaluate_films(loose, motion, loads)
-      type(loose_t), intent(inout) :: loose    !! loose joints, some of them with films
-      type(motion_t), intent(in) :: motion     !! positions and velocities
-      type(loads_t), intent(inout) :: loads    !! loads on the bodies, added to
+   !> The loads that were summed, on the rates.
+   module procedure mechanism_gather_loads
+      associate (linkage => self%linkage)
+         call linkage%coordinates%gather(linkage%bodies%n, linkage%mass, linkage%motion, self%loading%loads, self%loading%g)
+      end associate
+   end procedure mechanism_gather_loads
 
-      integer :: k
-
-      do k = 1, size(loose%sets)
-         associate (set => loose%sets(k)%set)
-            if (.not. allocated(set%laws%films)) cycle
-            if (set%laws%films%acts) then
-               call set%laws%films%bear(set%items%body, set%items%s_i, set%items%s_j, motion, loads)
-            end if
-         end associate
-      end do
-   end subroutine evaluate_films
+   include "sum_loads.inc"
 
    !> Accelerations of the bodies without their joints: loads over masses.
    module procedure mechanism_evaluate_unheld

@@ -93,8 +93,8 @@ contains
    !> Event functions of the contacts at the present motion.
    subroutine contact_events(self, g, rate)
       class(mechanism_t), intent(in) :: self     !! the system
-      real(wp), intent(inout) :: g(:)                !! (n_event) event functions [m]
-      real(wp), intent(inout) :: rate(:)             !! (n_event) their rates [m/s]
+      real(wp), intent(inout), contiguous :: g(:)    !! (n_event) event functions [m]
+      real(wp), intent(inout), contiguous :: rate(:) !! (n_event) their rates [m/s]
 
       integer :: first, i, k
 

@@ -35,6 +35,7 @@ contains
          call system%linkage%set_acceleration(ydot)
       end if
       if (size(catalogue%readings%rows%sets) > 0) then
+         if (system%is_direct) call system%gather_loads()
          call system%linkage%find_reactions(t, system%loading%g, catalogue%readings%rows)
       end if
       call fill_catalogue(system, t, y, residual, catalogue)

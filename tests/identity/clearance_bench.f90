@@ -350,7 +350,7 @@ contains
       integrands = -1.0_wp
       call new_loads(n_body, loads)
       call move_to(bench, 0.0_wp)
-      call bench%set%evaluate(bench%motion, loads, integrands)
+      call bench%set%evaluate(bench%motion, loads, integrands(:, bench%set%before%contacts + 1:))
    end subroutine evaluate_loads
 
 end module clearance_bench

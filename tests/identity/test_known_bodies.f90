@@ -3,7 +3,7 @@
 module test_known_bodies
    use augmented, only: augmented_t
    use check, only: check_close, check_equal, check_true, suite_t
-   use clearance_set, only: loss_contact
+   use clearance_set, only: loss_contact, loss_friction
    use errors, only: error_t
    use kinds, only: two_pi, wp
    use mechanism, only: mechanism_t
@@ -40,6 +40,8 @@ contains
 
       call suite%test("slider_crank", test_slider_crank)
       call suite%test("contact_on_a_known_body", test_contact_on_a_known_body)
+      call suite%test("contact_of_guided_bodies", test_contact_of_guided_bodies)
+      call suite%test("direct_where_nothing_is_solved", test_direct)
       call suite%test("robot_arm", test_robot_arm)
       call suite%test("guided_bodies", test_guided)
       call suite%test("loop_between_known_bodies", test_loop)
@@ -87,6 +89,56 @@ contains
       end do
    end subroutine test_contact_on_a_known_body
 
+   !> The loose pin between a rod guided by the crank and a slider guided by the ground, touching, with friction.
+   subroutine test_contact_of_guided_bodies(error)
+      type(error_t), allocatable, intent(out) :: error  !! what failed
+
+      type(mechanism_t) :: full, small
+      real(wp), allocatable :: start(:), y(:)
+      integer :: k
+
+      call both_systems(slider_crank("", "damped", "rubbing", "clearance"), 1, full, small, start, error)
+      if (allocated(error)) return
+      call check_true(error, small%is_direct .and. .not. full%is_direct, "nothing is solved with the fewest coordinates")
+      call full%loose%sets(1)%set%begin_contact(1, 0.0_wp, 2.0_wp, 0.0_wp)
+      call small%loose%sets(1)%set%begin_contact(1, 0.0_wp, 2.0_wp, 0.0_wp)
+      do k = 1, 8
+         y = start
+         ! the slider aside by more than the clearance, the rod turned somewhat
+         y(1:2) = y(1:2) + [1.0e-4_wp*k, 0.51e-3_wp*(-1)**k]
+         y(3:4) = y(3:4) + [20.0_wp, -0.3_wp]*k
+         call compare_at(full, small, 1.0e-4_wp*k, y, error)
+         if (allocated(error)) return
+         call check_true(error, abs(small%loose%integrands(loss_friction, 1)) > 0.0_wp, "the contact rubs")
+      end do
+   end subroutine test_contact_of_guided_bodies
+
+   !> Which scenes are evaluated the direct way, and that a driver that says no number fails there as elsewhere.
+   subroutine test_direct(error)
+      type(error_t), allocatable, intent(out) :: error  !! what failed
+
+      character(*), parameter :: pendulum = "[bodies]"//nl//"name mass[kg] inertia[kg.m^2] x[m] y[m]"//nl//"plate 3 0.2 0.1 0"// &
+         nl//"bob 0.5 0.004 0.4 0"//nl//"[points]"//nl//"name body xi[m] eta[m]"//nl//"base ground 0 0"//nl// &
+         "hub plate -0.1 0"//nl//"edge plate 0.1 0"//nl//"top bob -0.2 0"//nl//"[joint.revolute]"//nl//"name i j"//nl// &
+         "axle base hub"//nl//"hinge edge top"//nl
+      character(*), parameter :: driven = "[driver.angle]"//nl//"name joint angle"//nl, last = "[analysis.dynamic]"//nl//"end = 1 s"
+      type(mechanism_t) :: system
+      real(wp), allocatable :: start(:), ydot(:)
+      integer :: status
+
+      call start_text(pendulum//last, system, start, error)
+      if (allocated(error)) return
+      call check_true(error, .not. system%is_direct, "a pendulum on another has unknown bodies")
+      call start_text(pendulum//driven//"motor axle {1 rad*sqrt(1 - t/1s)}"//nl//last, system, start, error)
+      if (allocated(error)) return
+      call check_true(error, system%is_direct, "one on a driven plate has none")
+      ydot = start
+      call system%evaluate(0.5_wp, start, ydot, status)
+      call check_equal(error, status, 0, "where the driver has an angle")
+      call system%evaluate(1.5_wp, start, ydot, status)
+      call check_equal(error, status, 1, "where it has none")
+   end subroutine test_direct
+
    !> Drivers in series and of either sense, a weld, loads on known bodies.
    subroutine test_robot_arm(error)
       type(error_t), allocatable, intent(out) :: error  !! what failed
@@ -127,6 +179,7 @@ contains
       call check_equal(error, small%linkage%reduced%guided%n_turning, 3, "those that turn")
       call check_equal(error, small%n_position, 7, "coordinates")
       call check_equal(error, small%linkage%rows%n_solve, 0, "rows that are solved")
+      call check_true(error, small%is_direct, "its evaluation is direct")
       call compare_often(deck, 1, 1.0_wp, error)
    end subroutine test_guided
 

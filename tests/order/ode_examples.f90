@@ -109,8 +109,8 @@ contains
       class(plain_t), intent(inout) :: self   !! the system
       real(wp), intent(in) :: t                !! time [s]
       real(wp), intent(in) :: y(:)             !! (n) state [any]
-      real(wp), intent(out) :: g(:)            !! (n_event) none [any]
-      real(wp), intent(out) :: rate(:)         !! (n_event) none [any]
+      real(wp), intent(out), contiguous :: g(:)            !! (n_event) none [any]
+      real(wp), intent(out), contiguous :: rate(:)         !! (n_event) none [any]
 
       g = -1.0_wp
       rate = 0.0_wp
@@ -294,8 +294,8 @@ contains
       class(particles_t), intent(inout) :: self   !! the system
       real(wp), intent(in) :: t                   !! time [s]
       real(wp), intent(in) :: y(:)                !! (n) state [any]
-      real(wp), intent(out) :: g(:)               !! (n_event) distance beyond the wall [m]
-      real(wp), intent(out) :: rate(:)            !! (n_event) its rate [m/s]
+      real(wp), intent(out), contiguous :: g(:)               !! (n_event) distance beyond the wall [m]
+      real(wp), intent(out), contiguous :: rate(:)            !! (n_event) its rate [m/s]
 
       g = self%side*(y(self%subject) - self%wall)
       rate = self%side*y(self%n_position + self%subject)

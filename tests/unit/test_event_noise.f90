@@ -46,8 +46,8 @@ contains
       class(distant_t), intent(inout) :: self     !! the system
       real(wp), intent(in) :: t                   !! time [s]
       real(wp), intent(in) :: y(:)                !! (n) state [any]
-      real(wp), intent(out) :: g(:)               !! (n_event) distance beyond the wall [m]
-      real(wp), intent(out) :: rate(:)            !! (n_event) its rate [m/s]
+      real(wp), intent(out), contiguous :: g(:)               !! (n_event) distance beyond the wall [m]
+      real(wp), intent(out), contiguous :: rate(:)            !! (n_event) its rate [m/s]
 
       g = self%side*((y(self%subject) + self%far) - (self%wall + self%far))
       rate = self%side*y(self%n_position + self%subject)

@@ -69,8 +69,8 @@ contains
       class(circle_t), intent(inout) :: self   !! the system
       real(wp), intent(in) :: t                !! time [s]
       real(wp), intent(in) :: y(:)             !! (n) state [any]
-      real(wp), intent(out) :: g(:)            !! (1) distance beyond the wall [m]
-      real(wp), intent(out) :: rate(:)         !! (1) its rate [m/s]
+      real(wp), intent(out), contiguous :: g(:)            !! (1) distance beyond the wall [m]
+      real(wp), intent(out), contiguous :: rate(:)         !! (1) its rate [m/s]
 
       g = y(1) - self%wall
       rate = -y(2)
