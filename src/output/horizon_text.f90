@@ -1,7 +1,8 @@
 !> The largest Lyapunov exponent and the horizon in words, and for scripts.
 module horizon_text
    use batch_means, only: estimate_t
-   use exponent, only: exponent_t, horizon_t, verdict, verdict_apart, verdict_together, verdict_unclear, verdict_unknown
+   use exponent, only: exponent_t, horizon_t, verdict, verdict_apart, verdict_differ, verdict_together, verdict_unclear, &
+      verdict_unknown
    use growth, only: n_digit
    use, intrinsic :: ieee_arithmetic, only: ieee_is_finite
    use json_text, only: json_object_t
@@ -45,7 +46,9 @@ contains
       if (horizon%n_together > 0) call lines%line("           "//to_text(horizon%n_together)// &
          " instants have several events: the tangent knows of the first only")
       if (horizon%tangent%reason /= "") return
-      call lines%line("           digits in double precision: "//digits_text(horizon%digits, horizon%is_cut))
+      call lines%line("           digits in double precision"// &
+                      trim(merge(", by the tangent", "                ", verdict(horizon) == verdict_differ))//": "// &
+                      digits_text(horizon%digits, horizon%is_cut))
       if (horizon%asked > 0.0_wp) call lines%line("           digits of a run of tolerance "//to_text(horizon%asked)//": "// &
                                                   digits_text(horizon%run_digits, horizon%is_cut))
    end subroutine add_horizon
@@ -78,6 +81,8 @@ contains
          words = "neighbouring motions part exponentially: chaotic, or unstable"
       case (verdict_together)
          words = "neighbouring motions come together: the motion is stable"
+      case (verdict_differ)
+         words = "no verdict: the two methods differ by more than their intervals allow, and neither is claimed"
       case (verdict_unclear)
          words = "not told from zero: its interval has both signs; a longer motion (exponent_end) tells more"
       case default

@@ -18,13 +18,14 @@ module exponent
    implicit none (type, external)
    private
    public :: digits_of, exponent_t, find_exponent, horizon_t, verdict
-   public :: verdict_apart, verdict_even, verdict_together, verdict_unclear, verdict_unknown
+   public :: verdict_apart, verdict_differ, verdict_even, verdict_together, verdict_unclear, verdict_unknown
 
    integer, parameter :: verdict_unknown = 0    !! the exponent is not known
    integer, parameter :: verdict_apart = 1      !! neighbouring motions part exponentially
    integer, parameter :: verdict_even = 2       !! neighbouring motions part no faster than a power of time
    integer, parameter :: verdict_together = 3   !! neighbouring motions come together
    integer, parameter :: verdict_unclear = 4    !! the interval has both signs
+   integer, parameter :: verdict_differ = 5     !! both methods are known, and differ by more than their intervals
 
    !> What a method says of it.
    type :: exponent_t
@@ -86,7 +87,7 @@ contains
       exponent%reason = "there are too few instants behind the transient"
    end subroutine find_exponent
 
-   !> What the exponent means; of the tangent if it is known, else of the twin.
+   !> What the exponent means; of the tangent if it is known, else of the twin, and nothing where they differ.
    pure integer function verdict(horizon)
       type(horizon_t), intent(in) :: horizon   !! what is known
 
@@ -95,6 +96,8 @@ contains
       type(estimate_t) :: rate
       real(wp) :: end, from
 
+      verdict = verdict_differ
+      if (horizon%tangent%reason == "" .and. horizon%twin%reason == "" .and. .not. horizon%is_agreed) return
       verdict = verdict_unknown
       if (horizon%tangent%reason == "") then
          rate = horizon%tangent%rate
