@@ -68,8 +68,12 @@ contains
       call make_plan(options, loaded, directory%path, plan)
       call begin_study(options, loaded, study)
       call display%start(.not. options%is_quiet)
-      call study_precision(loaded%scene, loaded%plan, limits%stop, words, display, study)
+      call study_precision(loaded%scene, loaded%plan, limits%stop, words, display, study, error)
       call display%finish()
+      if (allocated(error)) then
+         call directory%close()
+         return
+      end if
       call write_results(loaded, plan, study, pictures, warnings, error)
       if (.not. allocated(error)) call report(options, loaded, plan, study, pictures, warnings, error)
       if (.not. allocated(error) .and. study%reference%what == "") then

@@ -2,11 +2,12 @@
 module precision_text
    use bend_text, only: add_bends
    use beyond_text, only: add_statistics
+   use failure_reasons, only: is_same_reason
    use growth, only: growth_t, n_digit
    use horizon_text, only: add_horizon
    use, intrinsic :: ieee_arithmetic, only: ieee_is_finite
    use kinds, only: wp
-   use precision_results, only: error_names, error_units, error_words, ladder_t, n_compared, precision_t, rung_done, &
+   use precision_results, only: error_names, error_onsets, error_units, error_words, ladder_t, n_compared, precision_t, rung_done, &
       rung_failed, rung_other, rung_states, rung_t, rung_unrun
    use text, only: real_text, replace, split_blank, starts_with, text_t, to_text
    use text_buffer, only: buffer_t
@@ -114,7 +115,8 @@ contains
       call lines%line("reference  "//study%reference%what//", confirmed by "//study%reference%confirmation//"; they differ by")
       do k = 2, n_compared
          if (.not. ieee_is_finite(study%reference%bar(k))) cycle
-         call lines%line("           "//with_unit(study%reference%bar(k), k)//"  "//trim(error_words(k)))
+         call lines%line("           "//with_unit(study%reference%bar(k), k)//"  "//trim(error_words(k))// &
+                         trim(merge(" and of the end", "               ", k == error_onsets .and. study%is_stopped)))
       end do
       if (study%reference%is_poor) then
          call lines%line("           a tighter one failed or took too long: a greater budget may give a better one")
@@ -264,7 +266,8 @@ contains
       end do
    end function least_error
 
-   !> Runs that failed, were not made, or had other contacts, with their reasons, each reason of a setting once.
+   !> Runs that failed, were not made, or had other contacts, with their reasons, each reason of a setting once, however
+   !> its numbers differ.
    subroutine add_failures(lines, study)
       type(buffer_t), intent(inout) :: lines      !! grown
       type(precision_t), intent(in) :: study      !! results
@@ -279,7 +282,7 @@ contains
                if (rungs(i)%state == rung_done) cycle
                n = i
                do while (n < size(rungs))
-                  if (rungs(n + 1)%state /= rungs(i)%state .or. rungs(n + 1)%reason /= rungs(i)%reason) exit
+                  if (rungs(n + 1)%state /= rungs(i)%state .or. .not. is_same_reason(rungs(n + 1)%reason, rungs(i)%reason)) exit
                   n = n + 1
                end do
                call lines%line(trim(rung_states(rungs(i)%state))//": "//study%ladders(k)%name//" "//short(rungs(i)%asked)// &

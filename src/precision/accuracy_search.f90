@@ -6,13 +6,14 @@
 !> taken and confirmed by another integrator, which is made tighter until it differs by no more; where that is not to be had, by a
 !> run of the same one at a hundredth of the tolerance. The error claimed is the greater difference times a safety factor, a
 !> greater one where round-off makes the differences: they are chance there. Where no tolerance keeps it to the end it is claimed
-!> up to the last instant to which it is kept.
+!> up to the last instant to which it is kept. Where a condition ends the run, but not another integrator's that goes the same
+!> way, an error meets it and not the motion: the search goes on with tighter tolerances.
 !>
 !> Limits: an error that all of these runs share, as of a start or of a law, is none here.
 module accuracy_search
    use accuracy_claim, only: safety, set_claim
    use accuracy_results, only: accuracy_t, claim_reached, claim_window
-   use accuracy_trial, only: agreement, is_better, make_trial, no_time, same, search_t, trial_t
+   use accuracy_trial, only: agreement, ends_falsely, is_better, make_trial, no_time, same, search_t, trial_t
    use channel_difference, only: channel_scales
    use kept_run, only: n_sort
    use kinds, only: least_tolerance, wp
@@ -59,6 +60,8 @@ contains
       type(accuracy_t), intent(inout) :: found        !! `asked` is set, the rest follows
 
       type(search_t) :: search
+      type(trial_t) :: before, fresh
+      real(wp) :: first
 
       found%evidence%coarser = ""
       found%evidence%confirmation = ""
@@ -67,8 +70,20 @@ contains
       search%asked = asked
       search%stride = stride
       search%reason = ""
-      call descend(job, budget, method, display, search)
-      if (search%coarser%is_there) call confirm(job, budget, search)
+      first = max(finest, min(coarsest, 10.0_wp**floor(log10(first_part*search%limit))))
+      do
+         call descend(job, budget, method, first, display, search)
+         if (.not. search%coarser%is_there .or. (search%is_false_end .and. search%taken%what%asked > first)) exit
+         before = search%other
+         search%other = fresh
+         search%is_false_end = .false.
+         call confirm(job, budget, search)
+         if (.not. search%other%is_there) search%other = before
+         if (.not. search%is_false_end .or. search%reason == no_time) exit
+         if (search%taken%what%asked <= same*least_tolerance) exit
+         first = max(least_tolerance, step*search%taken%what%asked)
+         search%reason = ""
+      end do
       call display%update(0.9_wp)
       call set_claim(search, found)
       if (found%claim == claim_window .or. found%claim == claim_reached) call explain(job, budget, search, found)
@@ -77,10 +92,11 @@ contains
    end subroutine find_accuracy
 
    !> From tolerance to tolerance, until two runs agree, nothing is gained, or the time is used up.
-   subroutine descend(job, budget, method, display, search)
+   subroutine descend(job, budget, method, first, display, search)
       type(job_t), intent(inout) :: job               !! what runs share
       type(time_budget_t), intent(in) :: budget       !! the time
       character(*), intent(in) :: method              !! the integrator
+      real(wp), intent(in) :: first                   !! greatest tolerance [1]
       type(progress_t), intent(inout) :: display      !! shows how far it is
       type(search_t), intent(inout) :: search         !! two runs are found, or one, or none
 
@@ -88,7 +104,7 @@ contains
       real(wp) :: best(2), now(2), tolerance, until
       integer :: futile, k
 
-      tolerance = max(finest, min(coarsest, 10.0_wp**floor(log10(first_part*search%limit))))
+      tolerance = first
       best = [-1.0_wp, huge(1.0_wp)]
       futile = 0
       do k = 1, nint(-log10(least_tolerance)) + 1
@@ -145,7 +161,7 @@ contains
             if (others(k) == own%setting%method .or. search%other%is_there) cycle
             call confirm_by(trim(others(k)), own%asked)
          end do
-         if (best(1) < pair(1) .and. own%asked > same*least_tolerance) then
+         if (best(1) < pair(1) .and. own%asked > same*least_tolerance .and. .not. search%is_false_end) then
             call take(own%setting%method, max(least_tolerance, tightest_part*own%asked), 1.0_wp)
          end if
       end associate
@@ -206,6 +222,9 @@ contains
          end if
          call make_trial(job, budget, budget%part_after(part*left), setting_t(name, "", ""), tolerance, search, next)
          if (.not. next%is_there) return
+         if (name /= search%taken%what%setting%method) then
+            search%is_false_end = ends_falsely(search%taken%run, next%run, search)
+         end if
          now = agreement(search%taken%run, next%run, search)
          if (.not. is_better(now, best)) return
          best = now

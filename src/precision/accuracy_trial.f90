@@ -5,11 +5,12 @@ module accuracy_trial
    use kinds, only: least_tolerance, wp
    use precision_info, only: setting_t
    use precision_reference, only: arms_of, last_within, reference_t
+   use run_difference, only: ends_elsewhere
    use setting_run, only: job_t, outcome_t, run_setting
    use time_budget, only: time_budget_t
    implicit none (type, external)
    private
-   public :: agreement, is_better, make_trial, no_time, same, search_t, trial_t
+   public :: agreement, ends_falsely, is_better, make_trial, no_time, same, search_t, trial_t
 
    real(wp), parameter :: same = 3.0_wp              !! ratio below which the difference of two tolerances tells nothing [1]
    character(*), parameter :: no_time = "the budget is used up"  !! why no more was reached
@@ -31,6 +32,7 @@ module accuracy_trial
       integer :: stride = 1                    !! output instants from one that is compared to the next
       real(wp), allocatable :: scale(:)        !! (kinds) scales of the channels [any]
       real(wp) :: limit = 0.0_wp               !! greatest difference allowed [1]
+      logical :: is_false_end = .false.  !! another integrator goes the way of the run that is taken, and ends elsewhere
       integer :: runs = 0                      !! runs made
       character(:), allocatable :: reason      !! why no more was reached; blank: it was
    end type search_t
@@ -84,6 +86,23 @@ contains
       call set_differences(run, other, search%scale, 0.0_wp, by_instant, by_channel, worst)
       time_and_difference = [last_within(by_instant, run%t, search%limit), maxval(by_instant)]
    end function agreement
+
+   !> Whether a condition ends a run where it does not end another one, though both go the same way up to there: an error meets
+   !> it, or misses it, not the motion.
+   logical function ends_falsely(run, other, search)
+      type(kept_channels_t), intent(in) :: run     !! a run
+      type(kept_channels_t), intent(in) :: other   !! another one
+      type(search_t), intent(in) :: search         !! scales and limit
+
+      real(wp) :: pair(2)
+      integer :: n
+
+      n = min(run%n, other%n)
+      ends_falsely = ends_elsewhere(run, other, huge(1.0_wp)) .and. n > 1
+      if (.not. ends_falsely) return
+      pair = agreement(run, other, search)
+      ends_falsely = pair(1) >= run%t(n - 1)
+   end function ends_falsely
 
    !> Whether two runs agree longer than two others, or as long and better.
    pure logical function is_better(now, best)

@@ -37,6 +37,7 @@ module kept_run
       logical :: is_kept = .true.                   !! .false.: nothing is kept, as in a run that is timed
       real(wp), allocatable :: arm(:)               !! (bodies) radii of gyration, 1 where there is none [m]
       integer :: n = 0                              !! instants kept
+      real(wp) :: end = 0.0_wp                      !! time at which it ended [s]
       integer, allocatable :: sort(:)               !! (values) sort of each value
       real(wp), allocatable :: t(:)                 !! (capacity) instants [s]
       real(wp), allocatable :: values(:, :)         !! (values, capacity) in the unit of their sorts [any]
@@ -209,6 +210,7 @@ contains
       type(error_t), allocatable, intent(out) :: error   !! never set
 
       if (allocated(self%names)) deallocate (self%names)
+      self%end = summary%time_end
       if (.not. self%is_kept) return
       self%t = self%t(:self%n)
       self%values = self%values(:, :self%n)

@@ -11,7 +11,7 @@ module precision_ladders
    use time_budget, only: time_budget_t
    implicit none (type, external)
    private
-   public :: least_rise, new_ladders, run_ladders, run_rung
+   public :: least_rise, new_ladders, not_ready, run_ladders, run_rung
 
    real(wp), parameter :: until_ladders = 0.45_wp      !! runs that are compared
    real(wp), parameter :: for_first = 1.0_wp/3.0_wp    !! of the time left, that the first run of a ladder may take [1]
@@ -19,6 +19,7 @@ module precision_ladders
    real(wp), parameter :: most_rise = 3.0_wp           !! the same [1]
 
    character(*), parameter :: no_time = "no time was left in the budget"  !! why a run was not made
+   character(*), parameter :: not_ready = "not ready when its time in the budget was up"  !! why a run failed that was ended
 
 contains
 
@@ -146,7 +147,7 @@ contains
       time = ladder%rungs(i - 1)%wall*max(least_rise, min(most_rise, ladder%rungs(i - 1)%wall/ladder%rungs(i - 2)%wall))
    end function forecast
 
-   !> Run a rung and keep its motion.
+   !> Run a rung and keep its motion. One that exceeds a limit of the deck has failed.
    subroutine run_rung(job, budget, setting, rung, run, is_late)
       type(job_t), intent(inout) :: job               !! what runs share
       type(time_budget_t), intent(in) :: budget       !! the time
@@ -160,11 +161,11 @@ contains
 
       begun = budget%elapsed()
       run%arm = arms_of(job)
-      call run_setting(job, setting, rung%asked, run, outcome)
+      call run_setting(job, setting, rung%asked, run, outcome, is_audited=.true.)
       rung%wall = budget%elapsed() - begun
       is_late = outcome%is_late
       rung%reason = outcome%reason
-      if (is_late) rung%reason = "not ready when its time in the budget was up"
+      if (is_late) rung%reason = not_ready
       rung%state = merge(rung_done, rung_failed, rung%reason == "")
       rung%setup = outcome%setup
       associate (summary => outcome%summary)

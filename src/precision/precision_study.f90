@@ -4,19 +4,21 @@
 !> are timed in rounds, one after the other, with nothing kept, so that what changes on the machine meets all of them. The
 !> processor time is that of the solution: making the system and the output are not in it.
 module precision_study
-   use, intrinsic :: ieee_arithmetic, only: ieee_is_finite
+   use errors, only: error_t, exit_integration, set_error
    use exponent_runs, only: find_horizon, horizon_with_twin, plan_horizon
+   use, intrinsic :: ieee_arithmetic, only: ieee_is_finite
    use kept_run, only: kept_run_t
    use kinds, only: not_a_number, wp
    use precision_bends, only: find_bends
    use precision_choice, only: choose_best, find_orders
    use precision_info, only: setting_t, settings_of
    use precision_ladders, only: least_rise, new_ladders, run_ladders, run_rung
-   use precision_reference, only: find_reference, kept_ladder_t, measure_all, measure_rung, reference_t
+   use precision_reference, only: kept_ladder_t, measure_all, measure_rung, reference_t
    use precision_results, only: median, precision_t, rung_done, rung_other, rung_t
    use precision_statistics, only: take_statistics
    use precision_twins, only: run_twins
    use progress, only: progress_t
+   use reference_search, only: find_reference
    use scene, only: scene_t
    use setting_run, only: job_t, outcome_t, run_setting
    use stop_condition, only: stop_t
@@ -39,13 +41,14 @@ module precision_study
 contains
 
    !> Compare the settings that a scene's section [precision], or a list of words, names.
-   subroutine study_precision(scene, plan, stop, words, display, study)
+   subroutine study_precision(scene, plan, stop, words, display, study, error)
       type(scene_t), intent(in) :: scene                 !! the scene, with a section [precision] or its defaults
       type(time_plan_t), intent(in) :: plan              !! times of the motion
       type(stop_t), intent(in) :: stop                   !! conditions that end it
       type(text_t), intent(in) :: words(:)               !! (n) settings, checked
       type(progress_t), intent(inout) :: display         !! shows how far it is
       type(precision_t), intent(inout) :: study          !! budget and accuracy are set, the rest follows
+      type(error_t), allocatable, intent(out) :: error   !! a condition ends the motion as it begins
 
       type(job_t) :: job
       type(kept_ladder_t), allocatable :: kept(:)
@@ -58,7 +61,8 @@ contains
       study%end = plan%end
       study%instants = nint(scene%settings%precision%number("instants")) + 1
       study%longest_step = scene%settings%dynamic%number("maximum_step")
-      call space_instants(scene%settings%precision%number("finest"), budget, job)
+      call space_instants(scene%settings%precision%number("finest"), budget, job, error)
+      if (allocated(error)) return
       call settings_of(words, settings)
       call new_ladders(scene, settings, study)
       call run_ladders(job, budget, display, study, kept)
@@ -126,10 +130,11 @@ contains
 
    !> Where a condition ends the motion, the instants compared are equal parts of what there is of it; the last one comes before the
    !> end, which is another by a little in every run.
-   subroutine space_instants(finest, budget, job)
+   subroutine space_instants(finest, budget, job, error)
       real(wp), intent(in) :: finest                !! tolerance of the run that tells [1]
       type(time_budget_t), intent(in) :: budget     !! the time
       type(job_t), intent(inout) :: job             !! its plan may change
+      type(error_t), allocatable, intent(out) :: error  !! there is nothing of the motion
 
       real(wp), parameter :: before = 1.0e-6_wp   ! the end, of the motion [1]
       type(kept_run_t) :: nothing
@@ -140,6 +145,11 @@ contains
       job%clock = budget%clock_left(until_stop)
       call run_setting(job, setting_t("verner", "", ""), finest, nothing, outcome)
       if (outcome%reason /= "" .or. .not. outcome%summary%time_end < job%plan%end) return
+      if (outcome%summary%time_end <= 0.0_wp) then
+         call set_error(error, exit_integration, "there is nothing to compare: the motion is "//outcome%summary%message// &
+                        new_line("a")//"  = the start meets this condition of 'stop' in [guards] already")
+         return
+      end if
       job%plan%every = job%plan%every*(1.0_wp - before)*outcome%summary%time_end/job%plan%end
    end subroutine space_instants
 

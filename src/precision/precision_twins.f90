@@ -1,10 +1,14 @@
 !> Twins of a run, from starts that are a small perturbation apart: how fast they part.
+!>
+!> A condition ends twins at other times: where one of them lacks more than the last instant, there is none.
 module precision_twins
    use growth, only: find_growth
    use kept_run, only: kept_run_t, sort_velocities
    use kinds, only: not_a_number, wp
+   use precision_ladders, only: not_ready
    use precision_reference, only: kept_ladder_t, motion_of, reference_t, size_of
-   use precision_results, only: precision_t, rung_done
+   use precision_results, only: precision_t, rung_done, rung_unrun
+   use text, only: real_text, to_text
    use setting_run, only: has_fixed_steps, job_t, outcome_t, run_setting
    use time_budget, only: time_budget_t
    implicit none (type, external)
@@ -15,6 +19,10 @@ module precision_twins
    real(wp), parameter :: tight = 0.1_wp !! greatest tolerance of twins, of the perturbation [1]
    integer, parameter :: attempts = 6    !! perturbed starts that are tried
    real(wp), parameter :: left = 1.0e-5_wp !! least part of the perturbation that constraints leave where something is free [1]
+
+   character(*), parameter :: no_time = "no time was left in the budget"  !! why there are no twins
+   character(*), parameter :: nothing_is_free = &
+      "no perturbed start gave another motion: nothing is free to be moved, or [initial.speed] holds it"  !! the same
 
 contains
 
@@ -33,7 +41,7 @@ contains
       type(kept_run_t) :: fresh, twin
       real(wp), allocatable :: distance(:), ratio(:, :)
       real(wp) :: greatest
-      integer :: k, n
+      integer :: common, k, n
 
       study%growth%horizon = not_a_number()
       allocate (study%growth%t(0), study%growth%ratio(0, 0))
@@ -41,16 +49,16 @@ contains
       if (perturbation <= 0.0_wp) study%growth%reason = "no twins were asked for"
       if (.not. reference%is_there) study%growth%reason = "there is no reference"
       if (study%growth%reason /= "") return
-      call choose_base(budget%left(until)/real(wanted + 1, wp), tight*perturbation, study, kept, reference, base)
-      if (.not. base%is_there) then
-         study%growth%reason = "no time was left in the budget for twins that are tight enough"
-         return
-      end if
+      call choose_base(budget%left(until)/real(wanted + 1, wp), tight*perturbation, study, kept, reference, base, &
+                       study%growth%reason)
+      if (.not. base%is_there) return
       job%length = perturbation*size_of(job)
       job%speed = perturbation*base%scale(sort_velocities)
       allocate (ratio(base%run%n, wanted), source=0.0_wp)
       greatest = 0.0_wp
       n = 0
+      common = base%run%n
+      study%growth%reason = no_time
       do k = 1, attempts
          if (budget%left(until) <= base%wall .or. n == wanted) exit
          job%member = k
@@ -58,56 +66,55 @@ contains
          twin = fresh
          twin%arm = base%run%arm
          call run_setting(job, base%setting, base%asked, twin, outcome)
-         if (outcome%reason /= "" .or. twin%n /= base%run%n) cycle
+         study%growth%reason = "perturbed starts failed: "//outcome%reason
+         if (outcome%is_late) study%growth%reason = no_time
+         if (outcome%reason /= "") cycle
+         study%growth%reason = "a condition ends perturbed motions at other times"
+         if (abs(twin%n - base%run%n) > 1) cycle
          distance = motion_of(twin, base)
+         study%growth%reason = nothing_is_free
          if (distance(1) <= left*perturbation) cycle
          n = n + 1
-         ratio(:, n) = distance/distance(1)
+         common = min(common, size(distance))
+         ratio(:size(distance), n) = distance/distance(1)
          greatest = max(greatest, distance(1))
       end do
       job%member = 0
       study%growth%n_twin = n
-      if (n == 0) then
-         study%growth%reason = reason_without_twins(outcome)
-         return
-      end if
-      study%growth%t = base%run%t
-      study%growth%ratio = ratio(:, :n)
+      if (n == 0) return
+      study%growth%reason = ""
+      study%growth%t = base%run%t(:common)
+      study%growth%ratio = ratio(:common, :n)
       call find_growth(study%growth, greatest)
    end subroutine run_twins
 
-   !> Why there are no twins.
-   function reason_without_twins(outcome) result(reason)
-      type(outcome_t), intent(in) :: outcome     !! of the last perturbed start
-      character(:), allocatable :: reason        !! in words
-
-      reason = "no perturbed start gave another motion: nothing is free to be moved, or [initial.speed] holds it"
-      if (.not. allocated(outcome%reason)) return
-      if (outcome%reason /= "") reason = "perturbed starts failed: "//outcome%reason
-   end function reason_without_twins
-
    !> The reference, or the tightest run of its integrator that does not take longer than there is time for. Its tolerance must be
    !> well below the perturbation: else steps that are accepted here and rejected there make a distance of their own.
-   subroutine choose_base(time, loosest, study, kept, reference, base)
-      real(wp), intent(in) :: time                       !! for one run [s]
-      real(wp), intent(in) :: loosest                    !! greatest tolerance [1]
-      type(precision_t), intent(in) :: study             !! with its ladders
-      type(kept_ladder_t), intent(in) :: kept(:)         !! (ladders) the runs
-      type(reference_t), intent(in) :: reference         !! the reference
-      type(reference_t), intent(out) :: base             !! the run, if there is one
+   subroutine choose_base(time, loosest, study, kept, reference, base, reason)
+      real(wp), intent(in) :: time                              !! for one run [s]
+      real(wp), intent(in) :: loosest                           !! greatest tolerance [1]
+      type(precision_t), intent(in) :: study                    !! with its ladders
+      type(kept_ladder_t), intent(in) :: kept(:)                !! (ladders) the runs
+      type(reference_t), intent(in) :: reference                !! the reference
+      type(reference_t), intent(out) :: base                    !! the run, if there is one
+      character(:), allocatable, intent(inout) :: reason        !! why there is none
 
+      real(wp) :: shortest
       integer :: i, k
 
+      shortest = huge(1.0_wp)
       base = reference
-      base%is_there = reference%wall <= time .and. (has_fixed_steps(reference%setting) .or. reference%asked <= loosest)
+      base%is_there = .false.
+      if (has_fixed_steps(reference%setting) .or. reference%asked <= loosest) call consider(reference%wall)
       if (base%is_there) return
       do k = 1, size(kept)
          if (study%ladders(k)%setting%method /= reference%setting%method) cycle
          do i = size(kept(k)%runs), 1, -1
             associate (rung => study%ladders(k)%rungs(i))
-               if (rung%state /= rung_done .or. rung%wall > time) cycle
+               if (rung%state /= rung_done) cycle
                if (.not. study%ladders(k)%is_fixed .and. rung%asked > loosest) cycle
-               base%is_there = .true.
+               call consider(rung%wall)
+               if (.not. base%is_there) cycle
                base%setting = study%ladders(k)%setting
                base%asked = rung%asked
                base%wall = rung%wall
@@ -116,6 +123,52 @@ contains
             end associate
          end do
       end do
+      reason = "a twin takes "//real_text(shortest, 2)//" s, and "//no_time//" for "//to_text(wanted)//" of them"
+      if (shortest >= huge(1.0_wp)) reason = why_not_tight(study, reference, loosest)
+
+   contains
+
+      !> Whether a run that is tight enough is short enough too.
+      subroutine consider(wall)
+         real(wp), intent(in) :: wall  !! time that it took [s]
+
+         shortest = min(shortest, wall)
+         base%is_there = wall <= time
+      end subroutine consider
+
    end subroutine choose_base
+
+   !> Why no run of the reference's integrator is as tight as twins must be.
+   function why_not_tight(study, reference, loosest) result(reason)
+      type(precision_t), intent(in) :: study             !! with its ladders
+      type(reference_t), intent(in) :: reference         !! the reference
+      real(wp), intent(in) :: loosest                    !! greatest tolerance [1]
+      character(:), allocatable :: reason                !! in words
+
+      logical :: is_asked, is_late
+      integer :: i, k
+
+      is_asked = .false.
+      is_late = .false.
+      do k = 1, size(study%ladders)
+         associate (ladder => study%ladders(k))
+            if (ladder%is_fixed) cycle
+            is_asked = is_asked .or. any(ladder%rungs%asked <= loosest)
+            if (ladder%setting%method /= reference%setting%method) cycle
+            do i = 1, size(ladder%rungs)
+               if (ladder%rungs(i)%asked > loosest) cycle
+               is_late = is_late .or. ladder%rungs(i)%state == rung_unrun .or. ladder%rungs(i)%reason == not_ready
+            end do
+         end associate
+      end do
+      reason = "run of "//reference%setting%method//" as tight as twins must be, "//real_text(loosest, 2)//" or less"
+      if (is_late) then
+         reason = no_time//" for a "//reason
+      else if (is_asked) then
+         reason = "no "//reason//", came to its end on the reference's way"
+      else
+         reason = "no "//reason//", was asked for ('finest' of [precision])"
+      end if
+   end function why_not_tight
 
 end module precision_twins

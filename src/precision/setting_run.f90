@@ -65,12 +65,13 @@ contains
    end function has_fixed_steps
 
    !> Run.
-   subroutine run_setting(job, setting, asked, keeper, outcome)
+   subroutine run_setting(job, setting, asked, keeper, outcome, is_audited)
       type(job_t), intent(inout) :: job               !! what all runs share
       type(setting_t), intent(in) :: setting          !! the setting
       real(wp), intent(in) :: asked                   !! tolerance, or length of fixed steps [1 or s]
       class(kept_run_t), intent(inout) :: keeper      !! keeps the run, or nothing
       type(outcome_t), intent(out) :: outcome         !! what came of it
+      logical, intent(in), optional :: is_audited     !! the deck's limits of ledger and violation hold; absent: they do not
 
       class(integrator_t), allocatable :: method
       type(error_t), allocatable :: error
@@ -93,6 +94,10 @@ contains
       if (.not. allocated(error)) then
          limits%cpu = job%cpu
          limits%clock = job%clock
+         if (present(is_audited)) then
+            if (is_audited) limits%energy = job%settings%number("energy_limit")
+            if (is_audited) limits%violation = job%settings%number("violation_limit")
+         end if
          call new_guards(job%scene, system, limits%guards)
          limits%stop = job%stop
          call run_dynamic(system, method, subsystems, y, job%plan, limits, keeper, outcome%summary, error)

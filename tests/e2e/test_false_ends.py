@@ -39,11 +39,22 @@ def test_instants_are_of_what_there_is_of_the_motion(gudgeon):
     assert "method = verner" in choice
 
 
-def test_no_accuracy_is_claimed_of_a_false_end(gudgeon):
-    """What confirms the run goes on where it was stopped: the accuracy holds up to there, and not to the end; or it is not stopped."""
+@pytest.mark.parametrize("low", ["-1.00001 m", "-1.0000001 m"])
+def test_the_search_goes_on_behind_a_false_end(gudgeon, low):
+    """What confirms the run goes on where that was stopped: it is made tighter until it is not, and the accuracy holds to the end."""
     directory = scratch()
-    deck = written(directory, OSCILLATOR.replace("LOW", "-1.00001 m").replace("END", "2 s"))
+    deck = written(directory, OSCILLATOR.replace("LOW", low).replace("END", "2 s"))
+    loose = call(gudgeon, "run", deck, "--method", "adams", "--tolerance", "1e-5", "--out", directory / "loose", "--write", "numbers")
+    assert Run(directory / "loose").summary["time_end"] == pytest.approx(math.pi / 10, rel=1e-2), loose.stdout
     done = call(gudgeon, "run", deck, "--method", "adams", "--accuracy", "1e-3", "--out", directory / "out")
     summary = Run(directory / "out").summary
-    if summary["time_end"] < 1.0:
-        assert "up to t = 0.3" in done.stdout and "up to the end" not in done.stdout
+    assert summary["time_end"] == 2.0 and summary["accuracy"]["claim"] == "end", done.stdout
+
+
+def test_a_false_end_that_no_tolerance_avoids_is_told(gudgeon):
+    """Below -1 by less than round-off of the motion leaves: nothing is claimed beyond what the runs have in common."""
+    directory = scratch()
+    deck = written(directory, OSCILLATOR.replace("LOW", "-1.00000000000001 m").replace("END", "2 s"))
+    done = call(gudgeon, "run", deck, "--method", "adams", "--accuracy", "1e-3", "--out", directory / "out", expect=(0, 6))
+    summary = Run(directory / "out").summary
+    assert summary["time_end"] == 2.0 or "up to the end" not in done.stdout
