@@ -2,20 +2,21 @@
 !>
 !> The numbers stand in `precision.dat`, a block for each setting, then the front and the choice; scripts draw from them. What
 !> is within the error of the reference is grey; a run with other contacts or another end is an open diamond; failures stand as
-!> crosses at the right edge, at the time after which they failed, their reasons in the legend.
+!> crosses at the right edge, at the time after which they failed, their reasons below the panel. What is exactly 0 stands on a mark
+!> of its own, below all other numbers.
 module precision_plots
    use beyond_plot, only: beyond_rows, beyond_script, has_beyond
    use display_units, only: choose_unit, display_unit_t
    use errors, only: error_t
    use exponent_plot, only: exponent_rows, exponent_script, has_exponent
    use, intrinsic :: ieee_arithmetic, only: ieee_is_finite
-   use kinds, only: wp
+   use kinds, only: not_a_number, wp
    use plot_text, only: quoted
    use horizon_plot, only: horizon_rows, horizon_script
-   use precision_rows, only: drawn_error, front_of, least_error, number, numbers_of
-   use precision_results, only: error_ledger, error_names, precision_t, rung_done, rung_failed, rung_other, rung_t, &
-      rung_unrun
-   use script_parts, only: colours, preamble
+   use precision_legend, only: colour_of, legend_t, sign_of
+   use precision_rows, only: any_ledger, error_axis, front_of, largest_cpu, number, numbers_of, smallest_cpu, &
+      zero_of_errors, zero_of_ledgers
+   use precision_results, only: error_names, ladder_t, precision_t, rung_done, rung_failed, rung_other, rung_t
    use text, only: append_text, real_text, text_t, to_text
    use text_buffer, only: buffer_t
    use text_file, only: write_file
@@ -24,7 +25,11 @@ module precision_plots
    public :: write_precision_plots
 
    character(*), parameter :: data_name = "precision.dat"        !! file of the numbers
-   real(wp), parameter :: decade = 0.2_wp   !! room beside an error, of it, for which the axis has another decade [1]
+
+   ! entries of the legend
+   character(*), parameter :: other_title = "other contacts, or another end"
+   character(*), parameter :: front_title = "front of best settings"
+   character(*), parameter :: tolerance_title = "error = tolerance"
 
    ! columns of the numbers
    character(*), parameter :: at_error = "2"      !! error wanted
@@ -87,12 +92,14 @@ contains
 
       type(buffer_t) :: lines
       type(display_unit_t) :: cpu
+      type(legend_t) :: legend
       integer :: n
 
       n = size(study%ladders)
       cpu = choose_unit("s", largest_cpu(study))
-      call preamble(lines, "precision", 1300, 950)
-      call begin_axes(lines, study)
+      call legend%begin(lines, study, "precision", [1150, 850], titles_of(study), .true.)
+      call legend%place(lines)
+      call begin_axes(lines)
       call lines%line("set title "//quoted(title)//" font ',17'")
       call lines%line("set xlabel "//quoted(error_label(study)))
       call lines%line("set ylabel "//quoted("CPU time ["//cpu%symbol//"], median; bar to the least"))
@@ -101,9 +108,9 @@ contains
       call add_curves(lines, study, at_error, "($"//at_cpu//"*f)", "($"//at_least//"*f)", .true.)
       call add_failures(lines, study)
       if (any_state(study, rung_other)) call lines%line("     NaN with points pointtype 12 pointsize 1.2 linewidth 1.5 "// &
-         "linecolor rgb '#404040' title 'other contacts, or another end', \")
+         "linecolor rgb '#404040' title "//quoted(other_title)//", \")
       call lines%line("     '"//data_name//"' index "//to_text(n)//" using "//at_error//":($"//at_cpu// &
-                      "*f) with lines linecolor rgb '#000000' linewidth 1 dashtype 3 title 'front of best settings', \")
+                      "*f) with lines linecolor rgb '#000000' linewidth 1 dashtype 3 title "//quoted(front_title)//", \")
       call lines%line("     '"//data_name//"' index "//to_text(n + 1)//" using "//at_error//":($"//at_cpu// &
                       "*f) with points pointtype 6 pointsize 3 linewidth 2.5 linecolor rgb '#000000' title "// &
                       quoted(choice_title(study)))
@@ -112,11 +119,9 @@ contains
    end function cost_script
 
    !> Scales of both axes.
-   subroutine begin_axes(lines, study)
+   subroutine begin_axes(lines)
       type(buffer_t), intent(inout) :: lines    !! the script
-      type(precision_t), intent(in) :: study    !! results
 
-      call lines%line("set key noautotitle below center horizontal Left reverse samplen 2 spacing 1.15 maxcols 3")
       call lines%line("set logscale xy; set format x '%.0e'; set format y '%g'")
       call lines%line("set mxtics 10; set mytics 10; set datafile missing 'NaN'")
    end subroutine begin_axes
@@ -138,20 +143,11 @@ contains
       type(precision_t), intent(in) :: study    !! results
 
       character(:), allocatable :: bar
-      real(wp) :: ends(2), x
-      integer :: i, k
+      integer :: ends(2)
 
-      ends = study%accuracy
-      do k = 1, size(study%ladders)
-         do i = 1, size(study%ladders(k)%rungs)
-            x = drawn_error(study, study%ladders(k)%rungs(i))
-            if (ieee_is_finite(x)) ends = [min(ends(1), x), max(ends(2), x)]
-         end do
-      end do
-      if (ieee_is_finite(study%reference%bar(study%wanted))) then
-         ends(1) = min(ends(1), max(study%reference%bar(study%wanted), least_error))
-         ends(2) = max(ends(2), study%reference%bar(study%wanted))
-         bar = number(max(study%reference%bar(study%wanted), least_error))
+      ends = error_axis(study)
+      if (study%reference%bar(study%wanted) > 0.0_wp) then  ! neither nothing nor no number
+         bar = number(study%reference%bar(study%wanted))
          call lines%line("set object 1 rectangle from graph 0, graph 0 to first "//bar//", graph 1 behind "// &
                          "fillcolor rgb '#f0f0f0' fillstyle solid noborder")
          call lines%line("set arrow 1 from first "//bar//", graph 0 to first "//bar//", graph 1 nohead linewidth 1.5 "// &
@@ -163,9 +159,21 @@ contains
                       ", graph 1 nohead linewidth 1.5 dashtype 2 linecolor rgb '#404040'")
       call lines%line("set label 2 "//quoted("error wanted")//" at first "//number(study%accuracy)// &
                       ", graph 0.02 left rotate by 90 offset -0.8,0 font ',12' textcolor rgb '#404040'")
-      call lines%line("set xrange [1e"//to_text(floor(log10(ends(1)*(1.0_wp - decade))))//":1e"// &
-                      to_text(ceiling(log10(ends(2)*(1.0_wp + decade))))//"]")
+      call lines%line("set xrange [1e"//to_text(ends(1))//":1e"//to_text(ends(2))//"]")
+      call mark_zero(lines, "x", zero_of_errors(study))
+      if (ieee_is_finite(zero_of_errors(study))) call lines%line("set label 3 'errors of exactly 0' at first "// &
+         number(zero_of_errors(study))//", graph 0.02 left rotate by 90 offset 0.8,0 font ',12' textcolor rgb '#606060'")
    end subroutine add_limits
+
+   !> Mark the place at which numbers of exactly 0 are drawn, if there are any.
+   subroutine mark_zero(lines, axis, place)
+      type(buffer_t), intent(inout) :: lines    !! the script
+      character(*), intent(in) :: axis          !! x or y
+      real(wp), intent(in) :: place             !! not a number: there are none [any]
+
+      call lines%line("unset "//axis//"tics; set "//axis//"tics")
+      if (ieee_is_finite(place)) call lines%line("set "//axis//"tics add ('0' "//number(place)//")")
+   end subroutine mark_zero
 
    !> Curves of all settings; the plot command stays open.
    subroutine add_curves(lines, study, x, y, low, with_titles)
@@ -176,15 +184,16 @@ contains
       character(*), intent(in) :: low           !! lower end of a bar, blank: there is none
       logical, intent(in) :: with_titles        !! curves stand in the legend
 
-      character(:), allocatable :: colour
+      character(:), allocatable :: colour, sign
       integer :: k
 
       do k = 1, size(study%ladders)
-         colour = "linecolor rgb '"//colours(mod(k - 1, size(colours)) + 1)//"'"
+         colour = "linecolor rgb '"//colour_of(k)//"'"
+         sign = " with points pointtype "//sign_of(k)//" pointsize 0.9 "
          call lines%line(merge("plot ", "     ", k == 1)//block(k)//picked(x, "$"//at_state//"==1", y)// &
                          " with lines linewidth 1 "//colour//" notitle, \")
          call lines%line("     "//block(k)//picked(x, "$"//at_state//"==1 && $"//at_below//"==1", y)// &
-                         " with points pointtype 7 pointsize 0.9 linecolor rgb '#b0b0b0' notitle, \")
+                         sign//"linecolor rgb '#b0b0b0' notitle, \")
          call lines%line("     "//block(k)//picked(x, "$"//at_state//"==3", y)//" with points pointtype 12 pointsize 1.2 "// &
                          "linewidth 1.5 "//colour//" notitle, \")
          if (low /= "") then
@@ -192,13 +201,10 @@ contains
                             " with yerrorbars pointtype 0 linewidth 1 "//colour//" notitle, \")
          end if
          call lines%line("     "//block(k)//picked(x, "$"//at_state//"==1 && $"//at_below//"==0", y)// &
-                         " with points pointtype 7 pointsize 0.9 "//colour//" notitle, \")
-         associate (ladder => study%ladders(k))
-            if (.not. with_titles .or. all(ladder%rungs%state /= rung_done .and. ladder%rungs%state /= rung_other)) cycle
-            ! an entry of its own: curves all of whose points are grey have one too
-            call lines%line("     keyentry with points pointtype 7 pointsize 0.9 "//colour//" title "// &
-                            quoted(ladder%name//trim(merge(" (steps)", "        ", ladder%is_fixed)))//", \")
-         end associate
+                         sign//colour//" notitle, \")
+         if (.not. (with_titles .and. has_curve(study%ladders(k)))) cycle
+         ! an entry of its own: curves all of whose points are grey have one too
+         call lines%line("     keyentry"//sign//colour//" title "//quoted(title_of(study%ladders(k)))//", \")
       end do
    end subroutine add_curves
 
@@ -220,36 +226,66 @@ contains
       words = "(("//condition//") ? $"//x//" : NaN):"//y
    end function picked
 
-   !> Failures at the right edge, each reason of a setting once in the legend, and the settings no run of which was made.
+   !> Failures at the right edge.
    subroutine add_failures(lines, study)
       type(buffer_t), intent(inout) :: lines    !! the script
       type(precision_t), intent(in) :: study    !! results
 
-      character(:), allocatable :: colour, edge, told
-      integer :: i, k, n
+      integer :: ends(2), k
 
-      edge = number(10.0_wp*largest_error(study))
+      ends = error_axis(study)
       do k = 1, size(study%ladders)
-         told = ""
-         colour = "linecolor rgb '"//colours(mod(k - 1, size(colours)) + 1)//"'"
-         associate (rungs => study%ladders(k)%rungs)
-            if (all(rungs%state == rung_unrun)) then
-               call lines%line("     keyentry with points pointtype 1 pointsize 1 "//colour//" title "// &
-                               quoted(study%ladders(k)%name//" not run: "//rungs(1)%reason)//", \")
-            end if
-            n = count(rungs%state == rung_failed)
-            if (n == 0) cycle
-            do i = 1, size(rungs)
-               if (rungs(i)%state /= rung_failed) cycle
-               if (told == "") told = study%ladders(k)%name//" failed: "//rungs(i)%reason
-            end do
-            if (n > 1) told = told//" ("//to_text(n)//" runs)"
-            call lines%line("     "//block(k)//"(($"//at_state//"==2) ? "//edge//" : NaN):(($"//at_cpu//">0) ? $"//at_cpu// &
-                            "*f : "//number(smallest_cpu(study))//"*f) with points pointtype 2 pointsize 1.3 linewidth 2 "// &
-                            colour//" title "//quoted(told)//", \")
-         end associate
+         if (all(study%ladders(k)%rungs%state /= rung_failed)) cycle
+         call lines%line("     "//block(k)//"(($"//at_state//"==2) ? 1e"//to_text(ends(2))//" : NaN):(($"// &
+                         at_cpu//">0) ? $"//at_cpu//"*f : "//number(smallest_cpu(study))// &
+                         "*f) with points pointtype 2 pointsize 1.3 linewidth 2 linecolor rgb '"//colour_of(k)//"' notitle, \")
       end do
    end subroutine add_failures
+
+   !> What stands in the legend: settings, runs that are another motion, the front and the choice.
+   function titles_of(study) result(titles)
+      type(precision_t), intent(in) :: study          !! results
+      type(text_t), allocatable :: titles(:)          !! (n) its entries
+
+      integer :: k
+
+      allocate (titles(0))
+      do k = 1, size(study%ladders)
+         if (has_curve(study%ladders(k))) call append_text(titles, title_of(study%ladders(k)))
+      end do
+      if (any_state(study, rung_other)) call append_text(titles, other_title)
+      call append_text(titles, front_title)
+      call append_text(titles, choice_title(study))
+   end function titles_of
+
+   !> What stands in the legend of the views: error equal to tolerance, and the settings.
+   function view_titles(study) result(titles)
+      type(precision_t), intent(in) :: study          !! results
+      type(text_t), allocatable :: titles(:)          !! (n) its entries
+
+      integer :: k
+
+      allocate (titles(0))
+      call append_text(titles, tolerance_title)
+      do k = 1, size(study%ladders)
+         if (has_curve(study%ladders(k))) call append_text(titles, title_of(study%ladders(k)))
+      end do
+   end function view_titles
+
+   !> Whether a setting has runs that came to their end.
+   pure logical function has_curve(ladder)
+      type(ladder_t), intent(in) :: ladder        !! the setting
+
+      has_curve = any(ladder%rungs%state == rung_done .or. ladder%rungs%state == rung_other)
+   end function has_curve
+
+   !> A setting in the legend.
+   function title_of(ladder) result(title)
+      type(ladder_t), intent(in) :: ladder        !! the setting
+      character(:), allocatable :: title          !! as `rk4 (steps)`
+
+      title = ladder%name//trim(merge(" (steps)", "        ", ladder%is_fixed))
+   end function title_of
 
    !> The choice in words.
    function choice_title(study) result(words)
@@ -272,22 +308,26 @@ contains
 
       type(buffer_t) :: lines
       type(display_unit_t) :: cpu
+      type(legend_t) :: legend
       character(:), allocatable :: label
 
       cpu = choose_unit("s", largest_cpu(study))
       label = "error of "//trim(error_names(study%wanted))//" [1]"
-      call preamble(lines, "precision_views", 1600, 1250)
-      call begin_axes(lines, study)
+      call legend%begin(lines, study, "precision_views", [1600, 1250], view_titles(study), .false.)
+      call begin_axes(lines)
       call lines%line("unset key; f = "//real_text(cpu%factor, 9))
-      call lines%line("set multiplot layout 2,2 title "//quoted(title)//" font ',17'")
+      call lines%line("set multiplot layout 2,2 title "//quoted(title)//" font ',17' "//legend%margins())
       call add_limits(lines, study)
       call panel(label, "right-hand sides", "$"//at_rhs, at_error)
+      call mark_zero(lines, "x", zero_of_ledgers(study))
       call lines%line("unset arrow; unset label; unset object; set xrange [*:*]")
       if (any_ledger(study)) call panel("residual of the energy ledger [1], of the largest energy", &
                                         "CPU time of the solution ["//cpu%symbol//"]", "$"//at_cpu//"*f", at_ledger)
-      call lines%line("set key inside bottom right vertical Left reverse samplen 1.5 spacing 1.1 font ',12' opaque")
+      call legend%place(lines)
+      call mark_zero(lines, "x", not_a_number())
+      call mark_zero(lines, "y", zero_of_errors(study))
       call panel("tolerance asked [1], or step [s]", label, "$"//at_error, at_asked, "x with lines linewidth 1 dashtype 2 "// &
-                 "linecolor rgb '#404040' title 'error = tolerance', ")
+                 "linecolor rgb '#404040' title "//quoted(tolerance_title)//", ")
       call lines%line("unset key")
       call panel("accepted steps", label, "$"//at_error, at_steps)
       call lines%line("unset multiplot")
@@ -331,64 +371,5 @@ contains
          any_state = any_state .or. any(study%ladders(k)%rungs%state == state)
       end do
    end function any_state
-
-   !> Whether any run kept its ledger.
-   pure logical function any_ledger(study)
-      type(precision_t), intent(in) :: study  !! results
-
-      integer :: i, k
-
-      any_ledger = .false.
-      do k = 1, size(study%ladders)
-         do i = 1, size(study%ladders(k)%rungs)
-            if (ieee_is_finite(study%ladders(k)%rungs(i)%error(error_ledger))) any_ledger = .true.
-         end do
-      end do
-   end function any_ledger
-
-   !> Greatest error that is drawn.
-   pure real(wp) function largest_error(study) result(x)
-      type(precision_t), intent(in) :: study  !! results
-
-      integer :: i, k
-
-      x = study%accuracy
-      do k = 1, size(study%ladders)
-         do i = 1, size(study%ladders(k)%rungs)
-            associate (rung => study%ladders(k)%rungs(i))
-               if (rung%state /= rung_done .and. rung%state /= rung_other) cycle
-               if (ieee_is_finite(rung%error(study%wanted))) x = max(x, rung%error(study%wanted))
-            end associate
-         end do
-      end do
-   end function largest_error
-
-   !> Greatest processor time.
-   pure real(wp) function largest_cpu(study) result(x)
-      type(precision_t), intent(in) :: study  !! results
-
-      integer :: i, k
-
-      x = 0.0_wp
-      do k = 1, size(study%ladders)
-         do i = 1, size(study%ladders(k)%rungs)
-            if (ieee_is_finite(study%ladders(k)%rungs(i)%cpu)) x = max(x, study%ladders(k)%rungs(i)%cpu)
-         end do
-      end do
-   end function largest_cpu
-
-   !> Least processor time of a run that ended.
-   pure real(wp) function smallest_cpu(study) result(x)
-      type(precision_t), intent(in) :: study  !! results
-
-      integer :: i, k
-
-      x = largest_cpu(study)
-      do k = 1, size(study%ladders)
-         do i = 1, size(study%ladders(k)%rungs)
-            if (study%ladders(k)%rungs(i)%state == rung_done) x = min(x, study%ladders(k)%rungs(i)%cpu)
-         end do
-      end do
-   end function smallest_cpu
 
 end module precision_plots

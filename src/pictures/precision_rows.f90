@@ -1,15 +1,17 @@
 !> The numbers that the figures of a comparison of settings are drawn from.
 module precision_rows
    use, intrinsic :: ieee_arithmetic, only: ieee_is_finite
-   use kinds, only: wp
-   use precision_results, only: error_ledger, precision_t, rung_t
+   use kinds, only: not_a_number, wp
+   use precision_results, only: error_ledger, precision_t, rung_done, rung_t
    use text, only: to_text
    use text_buffer, only: buffer_t
    implicit none (type, external)
    private
-   public :: drawn_error, front_of, least_error, number, numbers_of
+   public :: any_ledger, error_axis, front_of, largest_cpu, least_error, number, numbers_of, smallest_cpu, zero_of_errors, &
+      zero_of_ledgers
 
-   real(wp), parameter :: least_error = 1.0e-17_wp   !! drawn for an error of nothing [1]
+   real(wp), parameter :: least_error = 1.0e-17_wp   !! drawn for a distance of nothing [1]
+   real(wp), parameter :: decade = 0.2_wp            !! room beside an error, of it, for which the axis has another decade [1]
    real(wp), parameter :: least_below = 0.1_wp       !! of the reference's own error, drawn for what is less: it cannot be told [1]
 
 contains
@@ -23,6 +25,10 @@ contains
       type(rung_t), allocatable :: front(:)
       integer :: i, k
 
+      if (ieee_is_finite(zero_of_errors(study))) call lines%line("# errors of exactly 0 stand at "// &
+                                                                number(zero_of_errors(study)))
+      if (ieee_is_finite(zero_of_ledgers(study))) call lines%line("# ledgers of exactly 0 stand at "// &
+                                                                 number(zero_of_ledgers(study)))
       call lines%line("# asked [1 or s], error, CPU median [s], CPU least [s], right-hand sides, steps, ledger, state, below")
       do k = 1, size(study%ladders)
          call lines%line("# "//study%ladders(k)%name)
@@ -77,7 +83,7 @@ contains
       real(wp) :: ledger
 
       ledger = rung%error(error_ledger)
-      if (ieee_is_finite(ledger)) ledger = max(ledger, least_error)
+      if (ledger <= 0.0_wp) ledger = zero_of_ledgers(study)
       line = number(rung%asked)//" "//number(drawn_error(study, rung))//" "//number(rung%cpu)//" "//number(rung%cpu_least)//" "// &
              to_text(rung%count%evaluations)//" "//to_text(rung%count%steps)//" "//number(ledger)//" "// &
              to_text(rung%state)//" "//to_text(merge(1, 0, rung%is_below))
@@ -89,9 +95,124 @@ contains
       type(rung_t), intent(in) :: rung         !! the run
 
       x = rung%error(study%wanted)
-      if (ieee_is_finite(x)) x = max(x, least_error)
       if (rung%is_below) x = max(x, least_below*study%reference%bar(study%wanted))
+      if (x <= 0.0_wp) x = zero_of_errors(study)
    end function drawn_error
+
+   !> Where errors of exactly 0 are drawn on a logarithmic axis, since they have no place of their own: a decade below all others
+   !> and all tolerances.
+   pure real(wp) function zero_of_errors(study) result(place)
+      type(precision_t), intent(in) :: study   !! results
+
+      real(wp) :: least, x
+      integer :: i, k
+
+      place = not_a_number()
+      least = study%accuracy
+      if (study%reference%bar(study%wanted) > 0.0_wp) least = min(least, least_below*study%reference%bar(study%wanted))
+      do k = 1, size(study%ladders)
+         do i = 1, size(study%ladders(k)%rungs)
+            x = study%ladders(k)%rungs(i)%error(study%wanted)
+            if (study%ladders(k)%rungs(i)%is_below) x = max(x, least_below*study%reference%bar(study%wanted))
+            if (x > 0.0_wp) least = min(least, x)
+            if (x <= 0.0_wp) place = 0.0_wp
+         end do
+         if (.not. study%ladders(k)%is_fixed) least = min(least, minval(study%ladders(k)%rungs%asked))
+      end do
+      if (ieee_is_finite(place)) place = decade_below(least)
+   end function zero_of_errors
+
+   !> The same of residuals of the ledger.
+   pure real(wp) function zero_of_ledgers(study) result(place)
+      type(precision_t), intent(in) :: study   !! results
+
+      real(wp) :: least
+      integer :: i, k
+
+      place = not_a_number()
+      least = epsilon(1.0_wp)
+      do k = 1, size(study%ladders)
+         do i = 1, size(study%ladders(k)%rungs)
+            associate (x => study%ladders(k)%rungs(i)%error(error_ledger))
+               if (x > 0.0_wp) least = min(least, x)
+               if (x <= 0.0_wp) place = 0.0_wp
+            end associate
+         end do
+      end do
+      if (ieee_is_finite(place)) place = decade_below(least)
+   end function zero_of_ledgers
+
+   !> A power of ten, a decade below a number and more.
+   pure real(wp) function decade_below(x) result(power)
+      real(wp), intent(in) :: x   !! the number, above 0 [any]
+
+      power = 10.0_wp**(floor(log10(x)) - 1)
+   end function decade_below
+
+   !> The axis of errors, which reaches to those of all runs, of the reference, and to the one wanted, in whole decades; errors of
+   !> exactly 0 stand on its edge.
+   pure function error_axis(study) result(ends)
+      type(precision_t), intent(in) :: study   !! results
+      integer :: ends(2)                       !! (2) powers of ten
+
+      real(wp) :: far(2), x
+      integer :: i, k
+
+      far = study%accuracy
+      x = study%reference%bar(study%wanted)
+      if (x > 0.0_wp) far = [min(far(1), x), max(far(2), x)]
+      do k = 1, size(study%ladders)
+         do i = 1, size(study%ladders(k)%rungs)
+            x = drawn_error(study, study%ladders(k)%rungs(i))
+            if (ieee_is_finite(x)) far = [min(far(1), x), max(far(2), x)]
+         end do
+      end do
+      ends = [floor(log10(far(1)*(1.0_wp - decade))), ceiling(log10(far(2)*(1.0_wp + decade)))]
+      x = zero_of_errors(study)
+      if (ieee_is_finite(x)) ends(1) = nint(log10(x))
+   end function error_axis
+
+   !> Whether any run kept its ledger.
+   pure logical function any_ledger(study)
+      type(precision_t), intent(in) :: study  !! results
+
+      integer :: i, k
+
+      any_ledger = .false.
+      do k = 1, size(study%ladders)
+         do i = 1, size(study%ladders(k)%rungs)
+            if (ieee_is_finite(study%ladders(k)%rungs(i)%error(error_ledger))) any_ledger = .true.
+         end do
+      end do
+   end function any_ledger
+
+   !> Greatest processor time.
+   pure real(wp) function largest_cpu(study) result(x)
+      type(precision_t), intent(in) :: study  !! results
+
+      integer :: i, k
+
+      x = 0.0_wp
+      do k = 1, size(study%ladders)
+         do i = 1, size(study%ladders(k)%rungs)
+            if (ieee_is_finite(study%ladders(k)%rungs(i)%cpu)) x = max(x, study%ladders(k)%rungs(i)%cpu)
+         end do
+      end do
+   end function largest_cpu
+
+   !> Least processor time of a run that ended.
+   pure real(wp) function smallest_cpu(study) result(x)
+      type(precision_t), intent(in) :: study  !! results
+
+      integer :: i, k
+
+      x = largest_cpu(study)
+      do k = 1, size(study%ladders)
+         do i = 1, size(study%ladders(k)%rungs)
+            if (study%ladders(k)%rungs(i)%state == rung_done) x = min(x, study%ladders(k)%rungs(i)%cpu)
+         end do
+      end do
+   end function smallest_cpu
 
    !> A number as gnuplot reads it.
    function number(x) result(word)
