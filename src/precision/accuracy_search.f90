@@ -46,6 +46,8 @@ module accuracy_search
    character(*), parameter :: others(3) = [character(6) :: "verner", "adams", "bdf"]       !! what confirms, in this order
    character(*), parameter :: no_gain = "tighter tolerances gain nothing: round-off"      !! the same
    character(*), parameter :: no_tighter = "the least tolerance is reached"               !! the same
+   character(*), parameter :: ends_apart = &
+      "a condition ends this run elsewhere than another integrator's, at every tolerance"  !! the same
 
 contains
 
@@ -84,6 +86,7 @@ contains
          first = max(least_tolerance, step*search%taken%what%asked)
          search%reason = ""
       end do
+      if (search%is_false_end .and. search%reason /= no_time) search%reason = ends_apart
       call display%update(0.9_wp)
       call set_claim(search, found)
       if (found%claim == claim_window .or. found%claim == claim_reached) call explain(job, budget, search, found)

@@ -75,7 +75,8 @@ contains
       call set_bar(runs(other)%run, reference, study)
    end subroutine find_reference
 
-   !> Runs as tight as there is time for, by integrators in the order of what they come to.
+   !> Runs as tight as there is time for, by integrators in the order of what they come to; where not one run of any ladder came
+   !> to its end, by the first integrator only.
    subroutine run_tight(job, budget, until, wanted, study, runs)
       type(job_t), intent(inout) :: job                          !! what runs share
       type(time_budget_t), intent(in) :: budget                  !! the time
@@ -85,10 +86,12 @@ contains
       type(reference_t), allocatable, intent(out) :: runs(:)     !! (n) the tightest run of each that came to its end
 
       type(text_t), allocatable :: untried(:)
+      logical :: has_ended
       real(wp) :: part
       integer :: i, k
 
       allocate (runs(0))
+      has_ended = any([(any(study%ladders(k)%rungs%state == rung_done), k=1, size(study%ladders))])
       untried = [text_t("verner"), text_t("adams")]
       do k = 1, size(study%ladders)
          associate (ladder => study%ladders(k))
@@ -103,6 +106,7 @@ contains
          if (k > 0) then
             call run_one(job, budget, part, wanted, untried(k)%s, study, runs)
             untried(k)%s = ""
+            if (size(runs) == 0 .and. .not. has_ended) exit
          end if
          part = until
       end do

@@ -8,14 +8,10 @@ from support import changed, text_of
 from test_precision import compared, ladders, no_figures
 from test_precision_ends import REST
 
+
 def numbers(script, pattern):
     """Numbers that a line of a script has."""
     return [float(number) for number in re.search(pattern, script).groups()]
-
-
-def places(script):
-    """The right edge of the panel and the left one of the legend, as parts of the width."""
-    return numbers(script, r"rmargin at screen (\S+)")[0], numbers(script, r"set key .*at screen (\S+), screen")[0]
 
 
 def test_the_legend_stands_beside_the_panel(gudgeon):
@@ -28,7 +24,7 @@ def test_the_legend_stands_beside_the_panel(gudgeon):
         script = (study.directory / "figures" / f"{name}.gp").read_text(encoding="utf-8")
         key = re.search(r"set key noautotitle at screen (\S+), screen \S+ left top .* maxrows (\d+)", script)
         entries = set(re.findall(r"keyentry .* title '(.*?)'", script))
-        right = places(script)[0] if name == "precision" else numbers(script, r"margins screen \S+, (\S+), \S+ \S+ spacing")[0]
+        right = numbers(script, r"rmargin at screen (\S+)")[0] if name == "precision" else numbers(script, r"margins screen \S+, (\S+), \S+ \S+ spacing")[0]
         assert float(key[1]) > right
         width = numbers(script, r"size (\d+),\d+ font")[0]
         columns = math.ceil(len(entries) / int(key[2]))
