@@ -14,7 +14,7 @@ module precision_plots
    use plot_text, only: quoted
    use horizon_plot, only: horizon_rows, horizon_script
    use precision_legend, only: colour_of, legend_t, sign_of
-   use precision_rows, only: any_ledger, error_axis, front_of, largest_cpu, number, numbers_of, smallest_cpu, &
+   use precision_rows, only: any_ledger, error_axis, front_of, is_above_zero, largest_cpu, number, numbers_of, smallest_cpu, &
       zero_of_errors, zero_of_ledgers
    use precision_results, only: error_names, ladder_t, precision_t, rung_done, rung_failed, rung_other, rung_t
    use text, only: append_text, real_text, text_t, to_text
@@ -146,7 +146,7 @@ contains
       integer :: ends(2)
 
       ends = error_axis(study)
-      if (study%reference%bar(study%wanted) > 0.0_wp) then  ! neither nothing nor no number
+      if (is_above_zero(study%reference%bar(study%wanted))) then
          bar = number(study%reference%bar(study%wanted))
          call lines%line("set object 1 rectangle from graph 0, graph 0 to first "//bar//", graph 1 behind "// &
                          "fillcolor rgb '#f0f0f0' fillstyle solid noborder")

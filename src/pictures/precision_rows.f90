@@ -7,8 +7,8 @@ module precision_rows
    use text_buffer, only: buffer_t
    implicit none (type, external)
    private
-   public :: any_ledger, error_axis, front_of, largest_cpu, least_error, number, numbers_of, smallest_cpu, zero_of_errors, &
-      zero_of_ledgers
+   public :: any_ledger, error_axis, front_of, is_above_zero, largest_cpu, least_error, number, numbers_of, smallest_cpu, &
+      zero_of_errors, zero_of_ledgers
 
    real(wp), parameter :: least_error = 1.0e-17_wp   !! drawn for a distance of nothing [1]
    real(wp), parameter :: decade = 0.2_wp            !! room beside an error, of it, for which the axis has another decade [1]
@@ -83,7 +83,7 @@ contains
       real(wp) :: ledger
 
       ledger = rung%error(error_ledger)
-      if (ledger <= 0.0_wp) ledger = zero_of_ledgers(study)
+      if (is_zero(ledger)) ledger = zero_of_ledgers(study)
       line = number(rung%asked)//" "//number(drawn_error(study, rung))//" "//number(rung%cpu)//" "//number(rung%cpu_least)//" "// &
              to_text(rung%count%evaluations)//" "//to_text(rung%count%steps)//" "//number(ledger)//" "// &
              to_text(rung%state)//" "//to_text(merge(1, 0, rung%is_below))
@@ -96,7 +96,7 @@ contains
 
       x = rung%error(study%wanted)
       if (rung%is_below) x = max(x, least_below*study%reference%bar(study%wanted))
-      if (x <= 0.0_wp) x = zero_of_errors(study)
+      if (is_zero(x)) x = zero_of_errors(study)
    end function drawn_error
 
    !> Where errors of exactly 0 are drawn on a logarithmic axis, since they have no place of their own: a decade below all others
@@ -109,13 +109,14 @@ contains
 
       place = not_a_number()
       least = study%accuracy
-      if (study%reference%bar(study%wanted) > 0.0_wp) least = min(least, least_below*study%reference%bar(study%wanted))
+      x = study%reference%bar(study%wanted)
+      if (is_above_zero(x)) least = min(least, least_below*x)
       do k = 1, size(study%ladders)
          do i = 1, size(study%ladders(k)%rungs)
             x = study%ladders(k)%rungs(i)%error(study%wanted)
             if (study%ladders(k)%rungs(i)%is_below) x = max(x, least_below*study%reference%bar(study%wanted))
-            if (x > 0.0_wp) least = min(least, x)
-            if (x <= 0.0_wp) place = 0.0_wp
+            if (is_above_zero(x)) least = min(least, x)
+            if (is_zero(x)) place = 0.0_wp
          end do
          if (.not. study%ladders(k)%is_fixed) least = min(least, minval(study%ladders(k)%rungs%asked))
       end do
@@ -134,13 +135,29 @@ contains
       do k = 1, size(study%ladders)
          do i = 1, size(study%ladders(k)%rungs)
             associate (x => study%ladders(k)%rungs(i)%error(error_ledger))
-               if (x > 0.0_wp) least = min(least, x)
-               if (x <= 0.0_wp) place = 0.0_wp
+               if (is_above_zero(x)) least = min(least, x)
+               if (is_zero(x)) place = 0.0_wp
             end associate
          end do
       end do
       if (ieee_is_finite(place)) place = decade_below(least)
    end function zero_of_ledgers
+
+   !> Whether something is a number, above 0.
+   elemental logical function is_above_zero(x)
+      real(wp), intent(in) :: x   !! the number, or none [any]
+
+      is_above_zero = .false.
+      if (ieee_is_finite(x)) is_above_zero = x > 0.0_wp
+   end function is_above_zero
+
+   !> Whether something is a number, exactly 0.
+   elemental logical function is_zero(x)
+      real(wp), intent(in) :: x   !! the number, or none; not below 0 [any]
+
+      is_zero = .false.
+      if (ieee_is_finite(x)) is_zero = x <= 0.0_wp
+   end function is_zero
 
    !> A power of ten, a decade below a number and more.
    pure real(wp) function decade_below(x) result(power)
@@ -160,7 +177,7 @@ contains
 
       far = study%accuracy
       x = study%reference%bar(study%wanted)
-      if (x > 0.0_wp) far = [min(far(1), x), max(far(2), x)]
+      if (is_above_zero(x)) far = [min(far(1), x), max(far(2), x)]
       do k = 1, size(study%ladders)
          do i = 1, size(study%ladders(k)%rungs)
             x = drawn_error(study, study%ladders(k)%rungs(i))

@@ -188,8 +188,9 @@ contains
       end if
       if (is_other) rung%state = rung_other
       if (study%is_stopped .and. .not. (study%reference%is_cut .or. is_other)) then
-         associate (onsets => rung%error(error_onsets), of_end => abs(run%end - reference%run%end))
-            if (of_end > onsets .or. .not. ieee_is_finite(onsets)) onsets = of_end
+         associate (onsets => rung%error(error_onsets))
+            if (.not. ieee_is_finite(onsets)) onsets = 0.0_wp
+            onsets = max(onsets, abs(run%end - reference%run%end))
          end associate
       end if
       rung%is_below = .false.
