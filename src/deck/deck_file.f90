@@ -9,7 +9,7 @@
 !>     call mistakes%add(location, summary, note, help)            diagnostics
 !>     call mistakes%to_error(deck%sources, error)                 diagnostics
 module deck_file
-   use deck_types, only: add_line, add_section, add_source, deck_t, location_of_end, text_of
+   use deck_types, only: add_inclusion, add_line, add_section, add_source, deck_t, location_of_end, text_of
    use diagnostics, only: diagnostics_t
    use file_path, only: beside, plain_path
    use item, only: location_t
@@ -255,6 +255,7 @@ contains
          return
       end if
       call reading%files%enter(path, deck%n_source + 1, k)
+      call add_inclusion(deck, location%file, merge(k, deck%n_source + 1, k > 0))
       if (k > 0) return
       call read_source(path, source, message, may_be_stream=.false.)
       if (len(message) > 0) then

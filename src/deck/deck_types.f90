@@ -8,8 +8,8 @@ module deck_types
    use tokens, only: token_list_t, token_t, token_text
    implicit none (type, external)
    private
-   public :: add_default, add_line, add_section, add_source, deck_t, find_section, line_t, location_of_end, place_of_part, section_t
-   public :: text_of
+   public :: add_default, add_inclusion, add_line, add_section, add_source, deck_t, find_section, line_t, location_of_end
+   public :: place_of_part, section_t, text_of
 
    !> A section header.
    type :: section_t
@@ -29,6 +29,8 @@ module deck_types
       type(source_t), allocatable :: sources(:)    !! (n_source or more) texts
       integer :: n_source = 0                      !! texts in use
       integer :: n_override = 0                    !! overrides of the command line among them
+      integer, allocatable :: inclusions(:, :)     !! (2, n_inclusion or more) a file, and one that it includes
+      integer :: n_inclusion = 0                   !! inclusions in use
       type(token_list_t) :: tokens                 !! all cells
       type(section_t), allocatable :: sections(:)  !! (n_section or more) in the order of reading
       integer :: n_section = 0                     !! sections in use
@@ -79,6 +81,24 @@ contains
       to%is_file = from%is_file
       to%is_stream = from%is_stream
    end subroutine move_source
+
+   !> Append an inclusion.
+   subroutine add_inclusion(deck, including, included)
+      type(deck_t), intent(inout) :: deck  !! the deck
+      integer, intent(in) :: including     !! number of the file that includes
+      integer, intent(in) :: included      !! number of the file that is included
+
+      integer, allocatable :: larger(:, :)
+
+      if (.not. allocated(deck%inclusions)) allocate (deck%inclusions(2, 4))
+      if (deck%n_inclusion == size(deck%inclusions, 2)) then
+         allocate (larger(2, 2*deck%n_inclusion))
+         larger(:, :deck%n_inclusion) = deck%inclusions
+         call move_alloc(larger, deck%inclusions)
+      end if
+      deck%n_inclusion = deck%n_inclusion + 1
+      deck%inclusions(:, deck%n_inclusion) = [including, included]
+   end subroutine add_inclusion
 
    !> Append a section.
    subroutine add_section(deck, name, location)

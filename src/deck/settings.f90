@@ -19,8 +19,8 @@ module settings
 
 contains
 
-   !> Read one section of settings; a missing one takes all defaults. Keys that stand in the deck itself win over those of
-   !> the same section in files that it includes.
+   !> Read one section of settings; a missing one takes all defaults. A key of a file wins over the same key of the same section in
+   !> the files that it includes, directly or through others.
    subroutine read_settings(deck, info, item, is_present, mistakes)
       type(deck_t), intent(inout) :: deck             !! the deck
       type(kind_info_t), intent(in) :: info           !! the kind
@@ -28,8 +28,9 @@ contains
       logical, intent(out) :: is_present              !! whether the deck has the section
       type(diagnostics_t), intent(inout) :: mistakes  !! collects what is wrong
 
-      logical, allocatable :: is_own(:), is_set(:)
-      integer :: k, n_column, section
+      logical, allocatable :: is_set(:), is_won(:, :)
+      logical :: is_meant(deck%n_section)
+      integer :: i, k, n_column, section
 
       section = find_section(deck, info%name)
       is_present = section > 0
@@ -39,54 +40,58 @@ contains
       item%name = ""
       item%location = location_of_end(deck)
       if (is_present) item%location = deck%sections(section)%location
-      allocate (item%values(n_column), is_own(n_column), is_set(n_column))
+      allocate (item%values(n_column), is_set(n_column))
       is_set = .false.
-      is_own = .false.
       do k = 1, n_column
          call blank_value(info%columns(k), item%values(k))
          item%values(k)%location = item%location
       end do
-      call read_lines(.true.)
-      is_own = is_set
-      call read_lines(.false.)
+      is_meant = [(deck%sections(i)%name == info%name, i=1, deck%n_section)]
+      call find_won(deck, info, n_column, is_meant, is_won)
+      do i = 1, deck%n_line
+         associate (line => deck%lines(i))
+            if (.not. is_meant(line%section)) cycle
+            k = column_index(info, text_of(deck, deck%tokens%t(line%first)))
+            if (k > 0) then
+               if (is_won(k, deck%tokens%t(line%first)%location%file)) cycle
+            end if
+            call read_line(deck, info, deck%tokens%t(line%first:line%last), item, is_set, mistakes)
+         end associate
+      end do
       call take_defaults(deck, info, is_present, item, is_set, mistakes)
-
-   contains
-
-      !> The lines of the deck itself, or those of included files.
-      subroutine read_lines(of_deck)
-         logical, intent(in) :: of_deck  !! which of the two
-
-         logical :: is_meant(deck%n_section)
-         integer :: i
-
-         do i = 1, deck%n_section
-            is_meant(i) = deck%sections(i)%name == info%name .and. (deck%sections(i)%location%file == 1 .eqv. of_deck)
-         end do
-         do i = 1, deck%n_line
-            associate (line => deck%lines(i))
-               if (.not. is_meant(line%section)) cycle
-               if (is_own_key(deck, info, deck%tokens%t(line%first), is_own)) cycle
-               call read_line(deck, info, deck%tokens%t(line%first:line%last), item, is_set, mistakes)
-            end associate
-         end do
-      end subroutine read_lines
-
    end subroutine read_settings
 
-   !> Whether a line of an included file gives a key that the deck itself gives.
-   logical function is_own_key(deck, info, first, is_own)
-      type(deck_t), intent(in) :: deck        !! the deck
-      type(kind_info_t), intent(in) :: info   !! the kind
-      type(token_t), intent(in) :: first      !! first token of the line
-      logical, intent(in) :: is_own(:)        !! (keys) whether they stand in the deck itself
+   !> The keys that a file gives in vain, for one that includes it gives them.
+   subroutine find_won(deck, info, n_column, is_meant, is_won)
+      type(deck_t), intent(in) :: deck                   !! the deck
+      type(kind_info_t), intent(in) :: info              !! the kind
+      integer, intent(in) :: n_column                    !! number of its keys
+      logical, intent(in) :: is_meant(:)                 !! (sections) whether they are of this kind
+      logical, allocatable, intent(out) :: is_won(:, :)  !! (keys, files) whether a file above gives the key
 
-      integer :: k
+      logical, allocatable :: has(:, :)
+      integer :: i, k
 
-      k = column_index(info, text_of(deck, first))
-      is_own_key = k > 0
-      if (is_own_key) is_own_key = is_own(k)
-   end function is_own_key
+      allocate (is_won(n_column, deck%n_source), source=.false.)
+      if (deck%n_inclusion == 0) return
+      allocate (has, source=is_won)
+      do i = 1, deck%n_line
+         associate (line => deck%lines(i))
+            if (.not. is_meant(line%section)) cycle
+            k = column_index(info, text_of(deck, deck%tokens%t(line%first)))
+            if (k > 0) has(k, deck%tokens%t(line%first)%location%file) = .true.
+         end associate
+      end do
+      do
+         k = count(is_won)
+         do i = 1, deck%n_inclusion
+            associate (above => deck%inclusions(1, i), below => deck%inclusions(2, i))
+               is_won(:, below) = is_won(:, below) .or. has(:, above) .or. is_won(:, above)
+            end associate
+         end do
+         if (count(is_won) == k) exit
+      end do
+   end subroutine find_won
 
    !> Read one setting.
    subroutine read_line(deck, info, list, item, is_set, mistakes)
@@ -113,7 +118,8 @@ contains
                          & "not a key of this section", help//column_list(info))
          return
       end if
-      if (is_set(k)) call mistakes%add(list(1)%location, "key '"//name//"' stands twice in section "//info%name)
+      if (is_set(k)) call mistakes%add(list(1)%location, "key '"//name//"' stands twice in section "//info%name, &
+                                     & "it has a value already", "of files only one that includes the other wins over it")
       is_set(k) = .true.
       if (size(list) == 1) then
          call mistakes%add(list(1)%location, "'=' is missing after key '"//name//"' of "//info%name, "write: key = value")
@@ -174,7 +180,7 @@ contains
       logical, intent(in) :: is_spatial               !! whether the scene is in space
       type(diagnostics_t), intent(inout) :: mistakes  !! collects what is wrong
 
-      type(name_table_t) :: seen(2)
+      type(name_table_t) :: seen
       character(:), allocatable :: name
       integer :: first, i, k
       logical :: is_known, is_other
@@ -199,9 +205,9 @@ contains
          else if (.not. is_known) then
             call report_unknown(deck, i, pack(kinds, is_of_space(kinds, is_spatial)), mistakes)
          else if (.not. kinds(k)%is_table) then
-            call seen(merge(1, 2, deck%sections(i)%location%file == 1))%enter(name, i, first)
-            if (first > 0) call mistakes%add(deck%sections(i)%location, "section "//name//" stands twice", &
-                                & "settings stand in one place", "first in line " &
+            call seen%enter(to_text(deck%sections(i)%location%file)//" "//name, i, first)
+            if (first > 0) call mistakes%add(deck%sections(i)%location, "section "//name//" stands twice in this file", &
+                                & "settings of a file stand in one place", "first in line " &
                                 & //to_text(deck%sections(first)%location%line))
          end if
       end do

@@ -468,3 +468,19 @@ def test_a_deck_overrides_what_it_includes(gudgeon):
     assert Run(directory / "out").summary["tolerance"] == 1e-8
     deck = written(directory, 'deck = 1\ninclude "base.deck"\n[analysis.dynamic]\nend = 3 ms\n[analysis.dynamic]\nend = 4 ms\n')
     assert "stands twice" in call(gudgeon, "check", deck, expect=3).stderr
+
+
+def test_a_deck_that_overrides_is_overridden(gudgeon):
+    """Of a key the file nearest to the deck wins, whatever the order of the lines; files beside one another are no order."""
+    directory = scratch()
+    written(directory, DECK.read_text(), "base.deck")
+    written(directory, 'deck = 1\n[scene]\ntitle = "Middle"\n[analysis.dynamic]\nend = 3 ms\ninclude "base.deck"\n', "middle.deck")
+    text = 'deck = 1\n[analysis.dynamic]\nend = 2 ms\ninclude "middle.deck"\ninclude "base.deck"\n'
+    deck = written(directory, text)
+    call(gudgeon, "run", deck, "--out", directory / "out", "--quiet", "--write", "numbers")
+    summary = Run(directory / "out").summary
+    assert (summary["time_end"], summary["title"], summary["tolerance"]) == (2e-3, "Middle", 1e-8)
+    written(directory, '[analysis.dynamic]\nend = 4 ms\n[scene]\ntitle = "Beside"\n', "beside.inc")
+    call(gudgeon, "check", written(directory, text + 'include "beside.inc"\n[scene]\ntitle = "Top"\n'))
+    done = call(gudgeon, "check", written(directory, text + 'include "beside.inc"\n'), expect=3)
+    assert "key 'title' stands twice in section scene" in done.stderr and "'end'" not in done.stderr
