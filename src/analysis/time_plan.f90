@@ -81,8 +81,8 @@ contains
          if (diagnostics%count() == 0) then
             associate (span => plan%end - plan%first_output, at => merge(every%location, most%location, every%given))
                if (span >= most%number*plan%every) then
-                  call diagnostics%add(at, "there would be "//to_text(span/plan%every)// &
-                                       " output instants, allowed are "//to_text(most%number), "too many", most_help)
+                  call diagnostics%add(at, "there would be "//count_text(span/plan%every + 1.0_wp)// &
+                                       " output instants, allowed are "//count_text(most%number), "too many", most_help)
                end if
             end associate
          end if
@@ -92,6 +92,15 @@ contains
       end if
       if (diagnostics%count() == 0) call new_instants(scene, plan%end, system%loose%n > 0, plan%instants)
    end subroutine new_time_plan
+
+   !> A number of instants, all its digits where a real has them.
+   pure function count_text(n) result(s)
+      real(wp), intent(in) :: n           !! the number, its fraction is dropped; what lacks by round-off is whole [1]
+      character(:), allocatable :: s      !! its digits
+
+      s = to_text(n)
+      if (n < 1.0e15_wp) s = to_text(int(n + max(1.0e-9_wp, 2.0_wp*spacing(n)), i8))
+   end function count_text
 
    !> How often the run is saved.
    subroutine plan_checkpoints(scene, system, plan, diagnostics)
@@ -106,8 +115,8 @@ contains
          if (plan%checkpoint < 0.0_wp) then
             call diagnostics%add(value%location, "'checkpoint' must not be negative", "a negative time")
          else if (plan%checkpoint > 0.0_wp .and. plan%end > most_checkpoints*plan%checkpoint) then
-            call diagnostics%add(value%location, "there would be "//to_text(plan%end/plan%checkpoint)// &
-                                 " checkpoints, allowed are "//to_text(most_checkpoints), "too many")
+            call diagnostics%add(value%location, "there would be "//count_text(plan%end/plan%checkpoint)// &
+                                 " checkpoints, allowed are "//count_text(most_checkpoints), "too many")
          end if
       end associate
    end subroutine plan_checkpoints

@@ -3,13 +3,12 @@
 !>
 !> A picture is that of the output instant nearest to the time asked for. A path has a place for each row of the window. A run may
 !> end before its time: figures at its end have the last row, and windows that end with the run are those before it: the latest
-!> pictures, at the intervals of the window, are kept all the time.
+!> pictures, at the intervals of the window, are kept all the time. Positions one over the other are at equal intervals also where
+!> it ends within its first window: of that, pictures are kept that are thinned as it goes on.
 module frames
    use catalogue, only: catalogue_t
-   use catalogue_rooms, only: room_clearances, room_forces
-   use, intrinsic :: ieee_arithmetic, only: ieee_is_nan
+   use frame_values, only: bind_source, frame_source_t, frame_t, load_frame, reads_source, save_frame, take_frame
    use kinds, only: wp
-   use scene_poses, only: pose_reader_t
    use tape, only: tape_t
    use tracks, only: track_t
    implicit none (type, external)
@@ -17,6 +16,7 @@ module frames
    public :: frame_keeper_t, frame_plan_t, frame_t, wanted_frames_t
 
    real(wp), parameter :: same = 1.0e-6_wp   !! what is later by less is the same picture, of the output interval [1]
+   integer, parameter :: finer = 8           !! pictures kept of a first window, for each that is wanted
 
    !> Instants that one figure wants.
    type :: wanted_frames_t
@@ -39,24 +39,13 @@ module frames
       real(wp) :: end = 0.0_wp                         !! end of the run, if nothing ends it before [s]
    end type frame_plan_t
 
-   !> One picture.
-   type :: frame_t
-      real(wp) :: t = 0.0_wp                !! its time [s]
-      real(wp), allocatable :: r(:, :)      !! (3, 0:bodies) centres of mass, world frame [m]
-      real(wp), allocatable :: a(:, :, :)   !! (3, 3, 0:bodies) own frames to the world's [1]
-      real(wp), allocatable :: f(:, :)      !! (3, joints with clearance) forces on the journals, world frame [N]
-      real(wp), allocatable :: e(:, :)      !! (3, joints with clearance) eccentricities, world frame [m]
-      real(wp), allocatable :: load(:, :)   !! (3, force elements) forces on their first bodies, world frame [N]
-   end type frame_t
-
-   !> Where the numbers of a picture are found.
-   type :: source_t
-      type(pose_reader_t) :: reader         !! what is read of the catalogue
-      integer :: eccentricity = 0           !! group of the catalogue
-      integer :: n_joint = 0                !! joints with clearance
-      integer :: force = 0                  !! group of the catalogue
-      integer :: n_force = 0                !! force elements
-   end type source_t
+   !> Pictures of a first window, at equal intervals.
+   type :: first_window_t
+      integer :: n = 0                          !! how many there are
+      integer :: stride = 1                     !! output instants from one to the next
+      integer :: skipped = 0                    !! output instants since the last
+      type(frame_t), allocatable :: frames(:)   !! (n or more) the pictures
+   end type first_window_t
 
    !> Keeps them.
    type :: frame_keeper_t
@@ -65,10 +54,11 @@ module frames
       integer, allocatable :: n(:)                        !! (figures) how many there are of each
       type(track_t), allocatable :: tracks(:)             !! (figures) paths
       logical :: is_wanted = .false.                      !! there are figures that want something
-      type(source_t), private :: source                   !! where the numbers are
+      type(frame_source_t), private :: source                   !! where the numbers are
       type(frame_t), private :: last                      !! picture of the last row
       type(frame_t), allocatable, private :: latest(:, :) !! (most times, figures) the latest pictures, in a ring
       integer, allocatable, private :: n_latest(:)        !! (figures) how many there have been
+      type(first_window_t), allocatable, private :: early(:)  !! (figures) of those without paths
    contains
       procedure :: start
       procedure :: reads
@@ -94,17 +84,11 @@ contains
       n = size(self%plan%wanted)
       allocate (self%n(n), self%n_latest(n), source=0)
       self%is_wanted = n > 0
-      allocate (self%tracks(n))
+      allocate (self%tracks(n), self%early(n))
       most = max(0, maxval([(size(self%plan%wanted(k)%times), k=1, n)]))
       allocate (self%frames(most, n), self%latest(most, n))
       if (.not. self%is_wanted) return
-      associate (source => self%source)
-         call source%reader%bind(catalogue)
-         source%eccentricity = catalogue%find_group(room_clearances, "eccentricity")
-         source%n_joint = size(catalogue%rooms(room_clearances)%names)
-         source%force = catalogue%find_group(room_forces, "force")
-         source%n_force = size(catalogue%rooms(room_forces)%names)
-      end associate
+      call bind_source(self%source, catalogue)
    end subroutine start
 
    !> Whether a group of the catalogue is read.
@@ -113,7 +97,7 @@ contains
       integer, intent(in) :: group               !! number of the group
 
       reads = self%is_wanted
-      if (reads) reads = self%source%reader%reads(group) .or. group == self%source%eccentricity .or. group == self%source%force
+      if (reads) reads = reads_source(self%source, group)
    end function reads
 
    !> An output instant.
@@ -131,6 +115,7 @@ contains
                self%n(k) = self%n(k) + 1
                call take_frame(self%source, t, catalogue, self%frames(self%n(k), k))
             end do
+            if (is_early(self%plan, this, t)) call go_on(self%early(k), size(this%times), self%source, t, catalogue)
             if (.not. (this%length > 0.0_wp .and. this%gap > 0.0_wp)) cycle
             do while (t >= self%plan%first + self%n_latest(k)*this%gap - near)
                call take_frame(self%source, t, catalogue, self%latest(modulo(self%n_latest(k), size(this%times)) + 1, k))
@@ -141,49 +126,42 @@ contains
       call self%follow(t, catalogue)
    end subroutine sample
 
-   !> The values of a picture.
-   subroutine take_frame(source, t, catalogue, frame)
-      type(source_t), intent(in) :: source        !! where they are
-      real(wp), intent(in) :: t                   !! time [s]
-      type(catalogue_t), intent(in) :: catalogue  !! values at t
-      type(frame_t), intent(inout) :: frame       !! the picture
+   !> Whether a time is within the first window of positions one over the other.
+   pure logical function is_early(plan, wanted, t)
+      type(frame_plan_t), intent(in) :: plan       !! what is wanted
+      type(wanted_frames_t), intent(in) :: wanted  !! the figure
+      real(wp), intent(in) :: t                    !! the time [s]
 
-      integer :: k
+      is_early = wanted%gap > 0.0_wp .and. wanted%to < wanted%from .and. &
+                 t < plan%first + real(size(wanted%times) - 1, wp)*wanted%gap
+   end function is_early
 
-      frame%t = t
-      if (.not. allocated(frame%r)) call make_room(source, frame)
-      call source%reader%frames(catalogue, frame%r, frame%a)
-      do k = 1, source%n_joint
-         frame%f(:, k) = vector_of(catalogue, source%reader%joint_force, k)
-         frame%e(:, k) = vector_of(catalogue, source%eccentricity, k)
-      end do
-      do k = 1, source%n_force
-         frame%load(:, k) = vector_of(catalogue, source%force, k)
-      end do
-   end subroutine take_frame
+   !> One more output instant of a first window. When there is no room, every other picture goes.
+   subroutine go_on(early, most, source, t, catalogue)
+      type(first_window_t), intent(inout) :: early  !! the pictures
+      integer, intent(in) :: most                   !! how many are wanted
+      type(frame_source_t), intent(in) :: source          !! where the values are
+      real(wp), intent(in) :: t                     !! time [s]
+      type(catalogue_t), intent(in) :: catalogue    !! values at t
 
-   !> Room for a picture.
-   subroutine make_room(source, frame)
-      type(source_t), intent(in) :: source        !! how many numbers it has
-      type(frame_t), intent(inout) :: frame       !! the picture
+      integer :: i
 
-      allocate (frame%r(3, 0:source%reader%n_body), frame%a(3, 3, 0:source%reader%n_body))
-      allocate (frame%f(3, source%n_joint), frame%e(3, source%n_joint), frame%load(3, source%n_force))
-   end subroutine make_room
-
-   !> A vector of an item; zero where it is not known.
-   pure function vector_of(catalogue, group, item) result(x)
-      type(catalogue_t), intent(in) :: catalogue  !! values
-      integer, intent(in) :: group                !! group of the catalogue, 0: none
-      integer, intent(in) :: item                 !! the item
-      real(wp) :: x(3)                            !! (3) the vector [any]
-
-      x = 0.0_wp
-      if (group == 0) return
-      associate (values => catalogue%value(group, item))
-         if (.not. any(ieee_is_nan(values))) x(:size(values)) = values
-      end associate
-   end function vector_of
+      if (early%n > 0 .and. early%skipped < early%stride - 1) then
+         early%skipped = early%skipped + 1
+         return
+      end if
+      if (.not. allocated(early%frames)) allocate (early%frames(finer*most))
+      if (early%n == size(early%frames)) then
+         early%n = early%n/2
+         early%stride = 2*early%stride
+         do i = 2, early%n
+            early%frames(i) = early%frames(2*i - 1)
+         end do
+      end if
+      early%skipped = 0
+      early%n = early%n + 1
+      call take_frame(source, t, catalogue, early%frames(early%n))
+   end subroutine go_on
 
    !> A row of any kind: paths go on, and it is the last one.
    subroutine follow(self, t, catalogue)
@@ -213,14 +191,14 @@ contains
 
       real(wp) :: from
       integer :: k
-      logical :: is_early
+      logical :: has_ended
 
       if (.not. allocated(self%last%r)) return
-      is_early = self%last%t < self%plan%end - 0.5_wp*self%plan%every
+      has_ended = self%last%t < self%plan%end - 0.5_wp*self%plan%every
       do k = 1, size(self%n)
          associate (this => self%plan%wanted(k))
             from = this%from
-            if (is_early .and. this%has_end) then
+            if (has_ended .and. this%has_end) then
                if (this%length > 0.0_wp) from = max(self%last%t - this%length, self%plan%first)
                call end_early(self, k, from)
             end if
@@ -229,16 +207,33 @@ contains
       end do
    end subroutine finish_frames
 
-   !> Pictures of a figure whose run ended before its time: the latest ones of a window that is told from the end, those so far of
-   !> another, and that of the last row where there is room for it.
+   !> Pictures of a figure whose run ended before its time: those of its first window at equal intervals if it ended within that,
+   !> else the latest ones of a window that is told from the end, those so far of another; and that of the last row where there is
+   !> room for it.
    subroutine end_early(self, k, from)
       class(frame_keeper_t), intent(inout) :: self  !! the keeper
       integer, intent(in) :: k                      !! the figure
       real(wp), intent(in) :: from                  !! beginning of its window [s]
 
-      integer :: i, most, slot
+      integer :: before, i, j, most, slot
 
       most = size(self%plan%wanted(k)%times)
+      if (is_early(self%plan, self%plan%wanted(k), self%last%t) .and. self%early(k)%n > 0) then
+         self%n(k) = 0
+         before = 0
+         associate (early => self%early(k), first => self%plan%first, last => self%last%t)
+            do i = 0, most - 2
+               j = minloc(abs(early%frames(:early%n)%t - first - (last - first)*real(i, wp)/real(most - 1, wp)), dim=1)
+               if (j <= before .or. last - early%frames(j)%t <= same*self%plan%every) cycle
+               before = j
+               self%n(k) = self%n(k) + 1
+               self%frames(self%n(k), k) = early%frames(j)
+            end do
+         end associate
+         self%n(k) = self%n(k) + 1
+         self%frames(self%n(k), k) = self%last
+         return
+      end if
       if (self%plan%wanted(k)%length > 0.0_wp .or. most == 1) self%n(k) = 0
       do i = max(self%n_latest(k) - most, 0), self%n_latest(k) - 1
          slot = modulo(i, most) + 1
@@ -269,24 +264,15 @@ contains
          do i = 1, min(self%n_latest(k), size(self%plan%wanted(k)%times))
             call save_frame(self%latest(i, k), tape)
          end do
+         call tape%put([self%early(k)%n, self%early(k)%stride, self%early(k)%skipped])
+         do i = 1, self%early(k)%n
+            call save_frame(self%early(k)%frames(i), tape)
+         end do
          call self%tracks(k)%save(tape)
       end do
       call tape%put(merge(1, 0, allocated(self%last%r)))
       if (allocated(self%last%r)) call save_frame(self%last, tape)
    end subroutine save_frames
-
-   !> Write a picture.
-   subroutine save_frame(frame, tape)
-      type(frame_t), intent(in) :: frame   !! the picture
-      type(tape_t), intent(inout) :: tape  !! receives it
-
-      call tape%put(frame%t)
-      call tape%put(reshape(frame%r, [size(frame%r)]))
-      call tape%put(reshape(frame%a, [size(frame%a)]))
-      call tape%put(reshape(frame%f, [size(frame%f)]))
-      call tape%put(reshape(frame%e, [size(frame%e)]))
-      call tape%put(reshape(frame%load, [size(frame%load)]))
-   end subroutine save_frame
 
    !> Take them back.
    subroutine load_frames(self, tape)
@@ -304,37 +290,19 @@ contains
          do i = 1, min(self%n_latest(k), size(self%plan%wanted(k)%times))
             call load_frame(self%source, tape, self%latest(i, k))
          end do
+         associate (early => self%early(k))
+            call tape%get(early%n)
+            call tape%get(early%stride)
+            call tape%get(early%skipped)
+            if (early%n > 0) allocate (early%frames(finer*size(self%plan%wanted(k)%times)))
+            do i = 1, early%n
+               call load_frame(self%source, tape, early%frames(i))
+            end do
+         end associate
          call self%tracks(k)%load(self%source%n_joint, tape)
       end do
       call tape%get(has_last)
       if (has_last == 1) call load_frame(self%source, tape, self%last)
    end subroutine load_frames
-
-   !> Take back a picture.
-   subroutine load_frame(source, tape, frame)
-      type(source_t), intent(in) :: source         !! how many numbers it has
-      type(tape_t), intent(inout) :: tape          !! holds it
-      type(frame_t), intent(out) :: frame          !! the picture
-
-      integer :: k
-
-      call make_room(source, frame)
-      call tape%get(frame%t)
-      do k = 0, source%reader%n_body
-         call tape%get(frame%r(:, k))
-      end do
-      do k = 0, 3*source%reader%n_body + 2
-         call tape%get(frame%a(:, modulo(k, 3) + 1, k/3))
-      end do
-      do k = 1, source%n_joint
-         call tape%get(frame%f(:, k))
-      end do
-      do k = 1, source%n_joint
-         call tape%get(frame%e(:, k))
-      end do
-      do k = 1, source%n_force
-         call tape%get(frame%load(:, k))
-      end do
-   end subroutine load_frame
 
 end module frames

@@ -76,14 +76,15 @@ contains
 
       associate (words => value%words(k:k))
          call check_figures(words, catalogue, bad, message, hint, part, figures)
-         if (bad == 0) call check_statistics_figures(words, figures, scene, catalogue, bad, message, hint)
+         if (bad == 0) call check_statistics_figures(words, figures, scene, catalogue, bad, message, hint, part)
          if (bad == 0) call check_film_figures(words, figures, scene, end, bad, message, hint)
       end associate
-      if (bad > 0) call mistakes%add(place_of_part(deck, location_of(value, k), part), message, "no figure of this deck", hint)
+      if (bad > 0) call mistakes%add(place_of_part(deck, location_of(value, k), part), message, &
+                        trim(merge("no figure of this deck  ", "not right in this figure", len(part) == 0)), hint)
    end subroutine check_figure
 
    !> Figures of statistics need a section [statistics], some a period, and numbers that there are.
-   subroutine check_statistics_figures(words, figures, scene, catalogue, bad, message, hint)
+   subroutine check_statistics_figures(words, figures, scene, catalogue, bad, message, hint, part)
       type(text_t), intent(in) :: words(:)                 !! (n) words for figures
       type(figure_t), intent(in) :: figures(:)             !! (n) the figures
       type(scene_t), intent(in) :: scene                   !! the scene
@@ -91,12 +92,14 @@ contains
       integer, intent(out) :: bad                          !! number of the first wrong word, 0: none
       character(:), allocatable, intent(out) :: message    !! what is wrong with it
       character(:), allocatable, intent(out) :: hint       !! what may have been meant, may be blank
+      character(:), allocatable, intent(out) :: part       !! the part of it that is wrong; blank: all of it
 
       type(text_t), allocatable :: known(:)
       integer :: i, k
 
       message = ""
       hint = ""
+      part = ""
       do bad = 1, size(words)
          associate (figure => figures(bad))
             if (figure%kind <= figure_portrait .or. figure%kind == figure_film .or. draws_mechanism(figure)) cycle
@@ -115,6 +118,7 @@ contains
             known = known_numbers(scene, catalogue)
             do k = 1, size(figure%numbers)
                if (any([(known(i)%s == figure%numbers(k)%s, i=1, size(known))])) cycle
+               part = figure%numbers(k)%s
                message = "unknown number '"//figure%numbers(k)%s//"'"
                hint = nearest_word(figure%numbers(k)%s, known)
                if (len(hint) > 0) hint = "did you mean '"//hint//"'? "

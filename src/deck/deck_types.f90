@@ -24,13 +24,18 @@ module deck_types
       integer :: last = 0     !! its last token
    end type line_t
 
+   !> Files that include others.
+   type :: inclusions_t
+      integer :: n = 0                       !! inclusions in use
+      integer, allocatable :: files(:, :)    !! (2, n or more) a file, and one that it includes
+   end type inclusions_t
+
    !> A whole deck. Source 1 is the deck itself, then come the overrides, then included files.
    type :: deck_t
       type(source_t), allocatable :: sources(:)    !! (n_source or more) texts
       integer :: n_source = 0                      !! texts in use
       integer :: n_override = 0                    !! overrides of the command line among them
-      integer, allocatable :: inclusions(:, :)     !! (2, n_inclusion or more) a file, and one that it includes
-      integer :: n_inclusion = 0                   !! inclusions in use
+      type(inclusions_t) :: inclusions             !! which file includes which
       type(token_list_t) :: tokens                 !! all cells
       type(section_t), allocatable :: sections(:)  !! (n_section or more) in the order of reading
       integer :: n_section = 0                     !! sections in use
@@ -90,14 +95,16 @@ contains
 
       integer, allocatable :: larger(:, :)
 
-      if (.not. allocated(deck%inclusions)) allocate (deck%inclusions(2, 4))
-      if (deck%n_inclusion == size(deck%inclusions, 2)) then
-         allocate (larger(2, 2*deck%n_inclusion))
-         larger(:, :deck%n_inclusion) = deck%inclusions
-         call move_alloc(larger, deck%inclusions)
-      end if
-      deck%n_inclusion = deck%n_inclusion + 1
-      deck%inclusions(:, deck%n_inclusion) = [including, included]
+      associate (list => deck%inclusions)
+         if (.not. allocated(list%files)) allocate (list%files(2, 4))
+         if (list%n == size(list%files, 2)) then
+            allocate (larger(2, 2*list%n))
+            larger(:, :list%n) = list%files
+            call move_alloc(larger, list%files)
+         end if
+         list%n = list%n + 1
+         list%files(:, list%n) = [including, included]
+      end associate
    end subroutine add_inclusion
 
    !> Append a section.
@@ -177,20 +184,32 @@ contains
       s = token_text(deck%sources, token)
    end function text_of
 
-   !> Where a part of a stretch of a line stands; the whole stretch if the part is not found there.
+   !> Where a part of a stretch of a line stands, not within a longer word; the whole stretch if the part is not found there.
    pure type(location_t) function place_of_part(deck, place, part)
       type(deck_t), intent(in) :: deck          !! the deck
       type(location_t), intent(in) :: place     !! the stretch
       character(*), intent(in) :: part          !! what is looked for; blank: nothing
 
-      integer :: at
+      character(*), parameter :: of_words = "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789_-.*"
+      integer :: at, next
 
       place_of_part = place
       if (len(part) == 0 .or. place%file < 1 .or. place%line < 1 .or. place%last < place%first) return
       associate (source => deck%sources(place%file))
-         at = index(source%text(source%first(place%line) + place%first - 1:source%first(place%line) + place%last - 1), part)
+         associate (text => " "//source%text(source%first(place%line) + place%first - 1: &
+                                             source%first(place%line) + place%last - 1)//" ")
+            at = 1
+            do
+               next = index(text(at + 1:), part)
+               if (next == 0) return
+               at = at + next
+               if (verify(part(1:1), of_words) > 0 .or. verify(text(at - 1:at - 1), of_words) > 0) then
+                  if (verify(part(len(part):), of_words) > 0 .or. verify(text(at + len(part):at + len(part)), of_words) > 0) exit
+               end if
+            end do
+         end associate
       end associate
-      if (at == 0) return
+      at = at - 1
       place_of_part%first = place%first + at - 1
       place_of_part%last = place_of_part%first + len(part) - 1
    end function place_of_part

@@ -73,7 +73,7 @@ contains
       integer :: i, k
 
       allocate (is_won(n_column, deck%n_source), source=.false.)
-      if (deck%n_inclusion == 0) return
+      if (deck%inclusions%n == 0) return
       allocate (has, source=is_won)
       do i = 1, deck%n_line
          associate (line => deck%lines(i))
@@ -84,8 +84,8 @@ contains
       end do
       do
          k = count(is_won)
-         do i = 1, deck%n_inclusion
-            associate (above => deck%inclusions(1, i), below => deck%inclusions(2, i))
+         do i = 1, deck%inclusions%n
+            associate (above => deck%inclusions%files(1, i), below => deck%inclusions%files(2, i))
                is_won(:, below) = is_won(:, below) .or. has(:, above) .or. is_won(:, above)
             end associate
          end do

@@ -81,7 +81,7 @@ contains
       n = size(accuracy%extremes)
       if (n == 0) return
       call lines%line("")
-      name = "extremes"
+      name = "of output instants"  ! beside the extremes of all rows
       if (accuracy%claim == claim_window) name = name//" up to t = "//real_text(accuracy%until, 6)//" s"
       call lines%line(padded(name, 42)//right("least", 20)//right("greatest", 20)//right("+-", 11))
       do k = 1, min(n, most_extremes)

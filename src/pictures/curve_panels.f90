@@ -7,11 +7,11 @@ module curve_panels
    use figure_words, only: figure_t
    use kinds, only: wp
    use round_values, only: round_value, round_value_t
-   use script_parts, only: largest, with_unit
+   use script_parts, only: axes_t, largest, with_unit
    use text, only: replace, text_t
    implicit none (type, external)
    private
-   public :: drawn_panels, fit_side, make_panel, panel_t, range_of, shown, shows_nothing
+   public :: drawn_panels, fit_abscissa, fit_side, make_panel, panel_t, range_of, shows_nothing
 
    real(wp), parameter :: late = 1.0e-3_wp          !! least extent of a time axis, of the times [1]
    integer, parameter :: most_overlaid = 3          !! more curves are drawn without those of the ideal twin
@@ -125,12 +125,7 @@ contains
       if (axis%has_range) ends = [minval(axis%range), maxval(axis%range)]
       unit = axis%unit
       if (.not. allocated(unit%symbol)) unit = choose_unit(axis%si, largest(ends))
-      less = round_value(ends, unit)
-      if (len(less%words) > 0 .and. allocated(axis%unit%symbol)) then
-         unit = fitted_unit(unit, largest(ends - less%value))
-      else if (len(less%words) > 0) then
-         unit = choose_unit(axis%si, largest(ends - less%value))
-      end if
+      call take_round_value(axis, ends, unit, less)
       panel%unit(side) = unit
       panel%less(side) = less%value
       label = with_unit(adjustl(panel%quantity(side)%s//less%words), unit)
@@ -140,6 +135,44 @@ contains
          panel%right_label = label
       end if
    end subroutine fit_side
+
+   !> What a narrow axis takes from its numbers, and the unit of what is left: the one that is asked for, or one that fits.
+   subroutine take_round_value(axis, ends, unit, less)
+      type(axis_t), intent(in) :: axis             !! what is asked of it
+      real(wp), intent(in) :: ends(2)              !! (2) of what it shows, SI [any]
+      type(display_unit_t), intent(inout) :: unit  !! of its numbers, then of what is left of them
+      type(round_value_t), intent(out) :: less     !! what is taken
+
+      less = round_value(ends, unit)
+      if (len(less%words) == 0) return
+      if (allocated(axis%unit%symbol)) then
+         unit = fitted_unit(unit, largest(ends - less%value))
+      else
+         unit = choose_unit(axis%si, largest(ends - less%value))
+      end if
+   end subroutine take_round_value
+
+   !> Unit and name of the abscissa. A narrow one of a channel shows what differs from a round value, as ordinates do; a late time
+   !> has ticks with all their digits.
+   subroutine fit_abscissa(axis, name, curves, window, axes, label)
+      type(axis_t), intent(in) :: axis               !! what is asked of it
+      character(*), intent(in) :: name               !! of the channel; blank: it is the time
+      type(curve_t), intent(in) :: curves(:)         !! (n) what it shows
+      real(wp), intent(in) :: window(2)              !! (2) its ends, SI [any]
+      type(axes_t), intent(out) :: axes              !! scales of a figure: the abscissa is set
+      character(:), allocatable, intent(out) :: label  !! what stands below it
+
+      type(round_value_t) :: less
+
+      axes%x = shown(axis, curves)
+      label = "time"
+      if (name /= "") then
+         call take_round_value(axis, [minval(window), maxval(window)], axes%x, less)
+         axes%less_x = less%value
+         label = name//less%words
+      end if
+      label = with_unit(label, axes%x)
+   end subroutine fit_abscissa
 
    !> Whether all curves of an axis lie beyond the ends that are asked for.
    pure logical function shows_nothing(figure, catalogue, curves)

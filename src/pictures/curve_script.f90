@@ -5,7 +5,7 @@
 module curve_script
    use catalogue, only: catalogue_t
    use channel_names, only: scalar_name
-   use curve_panels, only: drawn_panels, fit_side, make_panel, panel_t, range_of, shown
+   use curve_panels, only: drawn_panels, fit_abscissa, fit_side, make_panel, panel_t, range_of
    use curve_words, only: axis_t, panel_words_t
    use display_units, only: display_unit_t, fitted_unit
    use envelope_data, only: envelope_t
@@ -14,7 +14,7 @@ module curve_script
    use kinds, only: wp
    use plot_text, only: quoted
    use script_parts, only: angle_tics, axes_t, axis_range, colours, find_long_tics, hangs_from_zero, ideal_style, &
-      label_words, largest, largest_y, preamble, source, stands_on_zero, with_unit
+      label_words, largest, largest_y, preamble, source, stands_on_zero
    use text, only: real_text, to_text
    use text_buffer, only: buffer_t
    implicit none (type, external)
@@ -42,9 +42,9 @@ contains
       character(:), allocatable :: script         !! lines for gnuplot
 
       type(panel_t), allocatable :: panels(:)
-      type(display_unit_t) :: x
+      type(axes_t) :: axes
       type(buffer_t) :: lines
-      character(:), allocatable :: format, label
+      character(:), allocatable :: format, label, name
       integer, allocatable :: place(:)
       integer :: k, n
       logical :: with_zoom
@@ -61,7 +61,9 @@ contains
       if (with_zoom) with_zoom = .not. any(figure%curves%panels(place(1))%y%has_range)
       if (with_zoom) with_zoom = needs_zoom(panels(1))
       call preamble(lines, figure%name, 1200, heights(merge(2, n, with_zoom)))
-      x = shown(figure%curves%x, curves)
+      name = ""
+      if (figure%curves%abscissa > 0) name = scalar_name(catalogue, figure%scalars(figure%curves%abscissa))
+      call fit_abscissa(figure%curves%x, name, curves, window, axes, label)
       if (n > 1 .or. with_zoom) then
          call lines%line("set lmargin at screen 0.12; set rmargin at screen "// &
                          trim(merge("0.89 ", "0.95 ", any([(len(panels(k)%right_label) > 0, k=1, n)]))))
@@ -69,51 +71,41 @@ contains
       else
          call lines%line("set title "//quoted(title)//" font ',17'")
       end if
-      call abscissa_lines(lines, figure, catalogue, x, window, label, format)
+      call abscissa_lines(lines, axes, window, format)
       if (n > 1) call lines%line("unset xlabel; set format x ''")
       do k = 1, n
-         if (k == n) call lines%line("set xlabel "//label//"; set format x '"//format//"'")
-         call panel_lines(lines, figure%curves%panels(place(k)), panels(k), x, envelope, n)
+         if (k == n) call lines%line("set xlabel "//quoted(label)//"; set format x '"//format//"'")
+         call panel_lines(lines, figure%curves%panels(place(k)), panels(k), axes, envelope, n)
       end do
-      if (with_zoom) call zoom_lines(lines, figure%curves%panels(place(1)), panels(1), x, envelope)
+      if (with_zoom) call zoom_lines(lines, figure%curves%panels(place(1)), panels(1), axes, envelope)
       if (n > 1 .or. with_zoom) call lines%line("unset multiplot")
       call lines%line("unset output")
       script = lines%get()
    end function curve_text
 
    !> The abscissa, which all panels have in common; it ends where the run does, also where its twin goes on.
-   subroutine abscissa_lines(lines, figure, catalogue, x, window, label, format)
+   subroutine abscissa_lines(lines, axes, window, format)
       type(buffer_t), intent(inout) :: lines      !! the script
-      type(figure_t), intent(in) :: figure        !! the figure
-      type(catalogue_t), intent(in) :: catalogue  !! what was recorded
-      type(display_unit_t), intent(in) :: x       !! its unit
+      type(axes_t), intent(in) :: axes            !! its unit, and what is taken from it
       real(wp), intent(in) :: window(2)           !! (2) its ends, SI [any]
-      character(:), allocatable, intent(out) :: label  !! what stands below it, in quotes
       character(:), allocatable, intent(out) :: format !! of the numbers of its ticks
 
       character(:), allocatable :: distance
       real(wp) :: range(2)
 
-      associate (curve => figure%curves)
-         if (curve%abscissa > 0) then
-            label = quoted(with_unit(scalar_name(catalogue, figure%scalars(curve%abscissa)), x))
-         else
-            label = quoted(with_unit("time", x))
-         end if
-         range = x%factor*window
-         if (abs(range(2) - range(1)) > 0.0_wp) then
-            call lines%line("set xrange ["//real_text(range(1), 9)//":"//real_text(range(2), 9)//"]")
-         else
-            call lines%line("set autoscale xfix")
-         end if
-         call angle_lines(lines, "x", x, range(2) - range(1), 1)
-         call find_long_tics(range, distance, format)
-         if (len(distance) == 0 .or. x%symbol == "deg") then
-            format = "%h"
-         else
-            call lines%line("set xtics "//distance)
-         end if
-      end associate
+      range = axes%x%factor*(window - axes%less_x)
+      if (abs(range(2) - range(1)) > 0.0_wp) then
+         call lines%line("set xrange ["//real_text(range(1), 9)//":"//real_text(range(2), 9)//"]")
+      else
+         call lines%line("set autoscale xfix")
+      end if
+      call angle_lines(lines, "x", axes%x, range(2) - range(1), 1)
+      call find_long_tics(range, distance, format)
+      if (len(distance) == 0 .or. axes%x%symbol == "deg") then
+         format = "%h"
+      else
+         call lines%line("set xtics "//distance)
+      end if
    end subroutine abscissa_lines
 
    !> Ticks of an axis in degrees.
@@ -129,11 +121,11 @@ contains
    end subroutine angle_lines
 
    !> One panel.
-   subroutine panel_lines(lines, words, panel, x, envelope, n)
+   subroutine panel_lines(lines, words, panel, scales, envelope, n)
       type(buffer_t), intent(inout) :: lines      !! the script
       type(panel_words_t), intent(in) :: words    !! what it is to show
       type(panel_t), intent(in) :: panel          !! what it draws
-      type(display_unit_t), intent(in) :: x       !! unit of the abscissa
+      type(axes_t), intent(in) :: scales          !! with the abscissa
       type(envelope_t), intent(in) :: envelope    !! ranges of curves that turn too often
       integer, intent(in) :: n                    !! panels of the figure
 
@@ -151,7 +143,7 @@ contains
       else
          call lines%line("unset y2label; unset y2tics")
       end if
-      call plot_lines(lines, panel, x, envelope)
+      call plot_lines(lines, panel, scales, envelope)
 
    contains
 
@@ -180,11 +172,11 @@ contains
    end subroutine panel_lines
 
    !> The same on the scale of the ideal joints.
-   subroutine zoom_lines(lines, words, panel, x, envelope)
+   subroutine zoom_lines(lines, words, panel, scales, envelope)
       type(buffer_t), intent(inout) :: lines      !! the script
       type(panel_words_t), intent(in) :: words    !! what the panel above is to show
       type(panel_t), intent(in) :: panel          !! what the panel above draws
-      type(display_unit_t), intent(in) :: x       !! unit of the abscissa
+      type(axes_t), intent(in) :: scales          !! with the abscissa
       type(envelope_t), intent(in) :: envelope    !! ranges of curves that turn too often
 
       type(axis_t) :: axis
@@ -207,7 +199,7 @@ contains
       call lines%line("set yrange ["//real_text(ends(1), 9)//":"//real_text(ends(2), 9)//"]")
       call lines%line("set ytics autofreq")
       call angle_lines(lines, "y", zoom%unit(1), ends(2) - ends(1), 2)
-      call plot_lines(lines, zoom, x, envelope)
+      call plot_lines(lines, zoom, scales, envelope)
    end subroutine zoom_lines
 
    !> Whether the ideal curve would be a flat line beside the peaks of the run.
@@ -223,17 +215,17 @@ contains
    end function needs_zoom
 
    !> The plot command: the run's curves, then those of the twin over them.
-   subroutine plot_lines(lines, panel, x, envelope)
+   subroutine plot_lines(lines, panel, scales, envelope)
       type(buffer_t), intent(inout) :: lines      !! the script
       type(panel_t), intent(in) :: panel          !! what is drawn
-      type(display_unit_t), intent(in) :: x       !! unit of the abscissa
+      type(axes_t), intent(in) :: scales          !! with the abscissa
       type(envelope_t), intent(in) :: envelope    !! ranges of curves that turn too often
 
       type(axes_t) :: axes
       character(:), allocatable :: colour, name, on
       integer :: k, n, place
 
-      axes%x = x
+      axes = scales
       n = size(panel%curves) + size(panel%ideal)
       do k = 1, size(panel%curves)
          axes%y = panel%unit(panel%side(k))

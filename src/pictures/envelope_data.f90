@@ -55,7 +55,7 @@ contains
       type(axes_t), intent(in) :: axes       !! scales of the figure
       character(:), allocatable :: s         !! for `plot`
 
-      s = "'"//self%file//"' using "//scaled(4*place - 3, axes%x%factor)//":"// &
+      s = "'"//self%file//"' using "//scaled(4*place - 3, axes%x%factor, axes%less_x)//":"// &
           scaled(4*place - 2, axes%y%factor, axes%less)//":"//scaled(4*place - 1, axes%y%factor, axes%less)
    end function range_source
 
@@ -66,7 +66,8 @@ contains
       type(axes_t), intent(in) :: axes       !! scales of the figure
       character(:), allocatable :: s         !! for `plot`
 
-      s = "'"//self%file//"' using "//scaled(4*place - 3, axes%x%factor)//":"//scaled(4*place, axes%y%factor, axes%less)
+      s = "'"//self%file//"' using "//scaled(4*place - 3, axes%x%factor, axes%less_x)//":"// &
+          scaled(4*place, axes%y%factor, axes%less)
    end function mean_source
 
    !> Find the curves of a figure that turn too often within what is drawn, and write their ranges.

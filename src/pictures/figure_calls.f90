@@ -14,6 +14,7 @@ contains
       type(text_t), allocatable :: arguments(:)
       integer :: k, least, most
 
+      bad = ""
       allocate (figure%scalars(0), figure%numbers(0))
       least = merge(2, 1, figure%kind == figure_portrait .or. figure%kind == figure_section)
       most = merge(most_panels, least, figure%kind == figure_statistics)
@@ -21,15 +22,15 @@ contains
       arguments = arguments_of(word(len_trim(call_words(figure%kind)) + 1:))
       if (draws_mechanism(figure) .and. word(len(word):) == ")" .and. &
           (figure%kind /= figure_coupler .or. size(arguments) > 0)) then
-         call take_motion(arguments, figure%kind == figure_coupler, figure%motion, message)
+         call take_motion(arguments, figure%kind == figure_coupler, figure%motion, message, bad)
          if (len(message) > 0) hint = motion_hint
          return
       end if
       if (size(arguments) < least .or. size(arguments) > most .or. word(len(word):) /= ")") then
          message = "cannot read '"//word//"'"
          hint = "write "//trim(call_words(figure%kind))//trim(merge("x_channel,y_channel", "channel            ", least == 2))// &
-                ") without blanks"
-         if (figure%kind == figure_statistics) hint = "write statistics(NUMBER,NUMBER) with one to four numbers, without blanks"
+                ")"
+         if (figure%kind == figure_statistics) hint = "write statistics(NUMBER,NUMBER) with one to four numbers"
          if (figure%kind == figure_film) hint = film_hint
          if (draws_mechanism(figure)) hint = motion_hint
          return
@@ -37,14 +38,16 @@ contains
       select case (figure%kind)
       case (figure_histogram)
          call take_histogram(arguments(1)%s, catalogue, figure, message, hint)
+         if (len(message) > 0) bad = arguments(1)%s
       case (figure_statistics)
          figure%numbers = arguments
       case (figure_film)
          figure%film%name = figure%name
-         call take_film(arguments, catalogue, figure%film, message, hint)
+         call take_film(arguments, catalogue, figure%film, message, hint, bad)
       case default
          do k = 1, size(arguments)
             call take_scalar(arguments(k)%s, catalogue, figure, message, hint)
+            if (len(message) > 0) bad = arguments(k)%s
             if (len(message) > 0) return
          end do
       end select

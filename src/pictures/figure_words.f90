@@ -65,13 +65,14 @@ module figure_words
    interface
 
       !> A figure with arguments.
-      module subroutine new_call(word, catalogue, figure, message, hint)
+      module subroutine new_call(word, catalogue, figure, message, hint, bad)
          implicit none (type, external)
          character(*), intent(in) :: word                       !! a word of the deck
          type(catalogue_t), intent(in) :: catalogue             !! what can be recorded
          type(figure_t), intent(inout) :: figure                !! the figure, its kind is known
          character(:), allocatable, intent(inout) :: message    !! what is wrong, blank if nothing
          character(:), allocatable, intent(inout) :: hint       !! what may have been meant, may be blank
+         character(:), allocatable, intent(out) :: bad          !! the wrong argument, blank: all of it
       end subroutine new_call
 
    end interface
@@ -131,7 +132,8 @@ contains
       end if
       figure%kind = kind_of_call(called(word))
       if (figure%kind > 0) then
-         call new_call(called(word), catalogue, figure, message, hint)
+         call new_call(called(word), catalogue, figure, message, hint, bad)
+         if (present(bad_part)) bad_part = bad
          return
       end if
       figure%kind = figure_history

@@ -14,18 +14,19 @@ module film_words
    public :: film_hint, missing_films, take_film
 
    character(*), parameter :: film_channel = "film_thickness"  !! what joints with films have
-   character(*), parameter :: film_hint = "write film(JOINT) for the end of the run, film(JOINT,least) or film(JOINT,0.3s), "// &
-                              "without blanks"  !! what would be right
+   character(*), parameter :: film_hint = "write film(JOINT) for the end of the run, film(JOINT,least) or "// &
+                              "film(JOINT,0.3s)"  !! what would be right
 
 contains
 
    !> The film of a joint at a moment.
-   subroutine take_film(arguments, catalogue, request, message, hint)
+   subroutine take_film(arguments, catalogue, request, message, hint, bad)
       type(text_t), intent(in) :: arguments(:)               !! (1 or 2) joint, and moment
       type(catalogue_t), intent(in) :: catalogue             !! what can be recorded
       type(field_request_t), intent(inout) :: request        !! joint and moment are set
       character(:), allocatable, intent(inout) :: message    !! what is wrong, blank if nothing
       character(:), allocatable, intent(inout) :: hint       !! what may have been meant, may be blank
+      character(:), allocatable, intent(out) :: bad          !! the wrong argument, blank: none
 
       character(:), allocatable :: nearest
       type(text_t), allocatable :: with_film(:)
@@ -37,8 +38,10 @@ contains
          if (group == 0) exit
          if (catalogue%item_has(group, k)) call append_text(with_film, catalogue%rooms(room_clearances)%names(k)%s)
       end do
+      bad = ""
       request%joint = arguments(1)%s
       if (.not. any([(with_film(k)%s == arguments(1)%s, k=1, size(with_film))])) then
+         bad = arguments(1)%s
          message = "no film of '"//arguments(1)%s//"': it is not a joint with a film"
          nearest = nearest_word(arguments(1)%s, with_film)
          hint = "joints with films: "//join(with_film, " ")
@@ -46,6 +49,7 @@ contains
          if (len(nearest) > 0) hint = "did you mean 'film("//nearest//")'? "//hint
       else if (size(arguments) == 2) then
          call take_moment(arguments(2)%s, request, message, hint)
+         if (len(message) > 0) bad = arguments(2)%s
       end if
    end subroutine take_film
 

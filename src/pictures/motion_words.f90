@@ -29,15 +29,17 @@ module motion_words
 contains
 
    !> Understand the arguments.
-   subroutine take_motion(arguments, with_point, request, message)
+   subroutine take_motion(arguments, with_point, request, message, bad)
       type(text_t), intent(in) :: arguments(:)               !! (any) what stands between commas
       logical, intent(in) :: with_point                      !! the first of them is a point
       type(motion_request_t), intent(out) :: request         !! what they ask for
       character(:), allocatable, intent(out) :: message      !! what is wrong, blank if nothing
+      character(:), allocatable, intent(out) :: bad          !! the wrong argument, blank: none, or all of them
 
       integer :: k
 
       message = ""
+      bad = ""
       request%driver = ""
       request%point = ""
       allocate (request%times(0))
@@ -52,6 +54,7 @@ contains
          else
             call take_time(arguments(k)%s, request, message)
          end if
+         if (len(message) > 0) bad = arguments(k)%s
          if (len(message) > 0) return
       end do
       if (size(request%times) > most_pictures) message = "more instants than a figure has room for"

@@ -4,6 +4,7 @@ import csv
 import math
 import re
 import sys
+from itertools import pairwise
 
 import h5py
 import numpy as np
@@ -115,7 +116,8 @@ def test_extremes_are_those_of_the_rows(gudgeon):
     for key in ("scale", "error", "min", "max"):
         assert list(run.read(f"accuracy/{key}")) == [row[key] for row in found.values()]
     assert list(run.read("accuracy/names")) == list(found)
-    line = next(line for line in run.done.stdout.splitlines() if "slider.velocity.x [m/s]" in line)
+    head, line = next(pair for pair in pairwise(run.done.stdout.splitlines()) if "slider.velocity.x [m/s]" in pair[1])
+    assert head.split()[:3] == ["of", "output", "instants"]  # the table of all rows, `extremes`, is another one
     assert_close(float(line.split()[2]), velocity.min(), relative=1e-9, what=line)
 
 

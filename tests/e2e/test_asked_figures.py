@@ -319,3 +319,20 @@ def test_long_names_fit_their_panels(gudgeon):
     for figure, size in ((one, 15), ("panels(" + ", ".join(6 * [one]) + ")", 10)):
         script = only(drawn(gudgeon, text, figure), "*.gp").read_text(encoding="utf-8")
         assert set(re.findall(r"set ylabel 'angular velocity less 3000 rpm \[rpm\]' font ',(\d+)'", script)) == {str(size)}
+
+
+@pytest.mark.parametrize(
+    ("figure", "ends", "words"),
+    [
+        ("far.velocity.y against far.position.x", "0:1", r"far\.position\.x less 1000 m \[mm\]"),
+        ("far.velocity.y against far.position.x in mm", "0:1", r"far\.position\.x less 1e6 mm \[mm\]"),
+        ("panels(far.velocity.x, far.velocity.y) against far.position.x from 999.9995 m to 1000.0005 m", "-0.5:0.5",
+         r"far\.position\.x less 1000 m \[mm\]"),
+    ],
+)
+def test_narrow_abscissas(gudgeon, figure, ends, words):
+    """The abscissa of one channel against another shows what is beyond a round value: ticks of 1000 m to 1000.001 m all read the same."""
+    script = only(drawn(gudgeon, NARROW.replace("RIPPLE", "0 N.m"), figure), "*.gp").read_text(encoding="utf-8")
+    assert re.search(f"set xlabel '{words}'", script), script
+    assert f"set xrange [{ends}]" in script
+    assert all(re.match(r"\(\(\$\d+-\(1000\)\)\*1000\):", columns) for columns in re.findall(r"using (\S+)", script)), script

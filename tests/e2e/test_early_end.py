@@ -89,3 +89,22 @@ def test_panels_without_numbers(gudgeon, tmp_path):
     warnings = json.loads((tmp_path / "run" / "summary.json").read_text())["warnings"]
     assert [w for w in warnings if w.endswith("no numbers of request.none")]
     assert len(list(folder.glob("panels*.png"))) == 3  # the second and the third have names of their own
+
+
+@pytest.mark.parametrize("options", [(), ("--verify-restart",)])
+def test_a_strip_of_a_first_window(gudgeon, tmp_path, options):
+    """A run that ends at 0.36 s, within its first turn of 0.9 s, has eight positions at equal intervals, and the last is its end."""
+    text = changed(LONG, "guards", stop="motor.coordinate > 2.5 rad")
+    found = tips(strokes(run(gudgeon, tmp_path, text, "strip(n=8)", *options) / "strip.n.8.dat"))
+    turned = np.arctan2(found[:, 1], found[:, 0]) / 7
+    assert len(turned) == 8 and turned[0] == pytest.approx(0, abs=1e-5) and turned[-1] == pytest.approx(2.5 / 7, abs=1e-5)
+    np.testing.assert_allclose(np.diff(turned), 2.5 / 7 / 7, atol=0.0101)  # to an output interval
+
+
+def test_a_strip_of_many_instants(gudgeon, tmp_path):
+    """Of 3572 instants at least 32 pictures are kept: eight positions of them are equally spaced to a quarter."""
+    text = changed(changed(LONG, "output", every="0.1 ms"), "guards", stop="motor.coordinate > 2.5 rad")
+    found = tips(strokes(run(gudgeon, tmp_path, text, "strip(n=8)") / "strip.n.8.dat"))
+    turned = np.arctan2(found[:, 1], found[:, 0]) / 7
+    assert len(turned) == 8 and turned[-1] == pytest.approx(2.5 / 7, abs=1e-5)
+    assert np.ptp(np.diff(turned)) < 0.26 * 2.5 / 7 / 7

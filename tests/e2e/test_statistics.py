@@ -227,3 +227,29 @@ def test_figures_need_their_section(gudgeon):
     for figure, words in (("spectrum(motor.moment)", "needs a section [statistics]"), ("section(motor.moment)", "cannot read")):
         deck = written(directory, changed(DECK.read_text(), "output", figures=figure))
         assert words in call(gudgeon, "check", deck, expect=3).stderr
+
+
+def test_spectrum_of_what_is_no_number(gudgeon):
+    """A root of something negative at some instants: no amplitude is told, a warning says why, and the other spectrum is as ever."""
+    directory = scratch()
+    text = changed(SINES, "statistics", channels="request.root", spectra="request.root ram.position.x")
+    text += '[request]\nname value unit\nroot {sqrt(ram.position.x/1m)} 1\n'
+    call(gudgeon, "run", written(directory, text), "--out", directory / "out", "--quiet")
+    run = Run(directory / "out")
+    assert [w for w in run.summary["warnings"] if "no spectrum of 'request.root'" in w]
+    amplitude = run.read("statistics/spectrum")
+    assert np.all(np.isnan(amplitude[:, 0]))
+    assert_close(amplitude[50, 1], 2e-3, relative=1e-6, what="50 Hz")
+    assert run.summary["statistics"]["request.root.mean"] > 0 and run.summary["statistics"]["request.root.min"] >= 0
+
+
+def test_mistakes_within_figures_are_marked(gudgeon):
+    """The caret is below the wrong argument, not below a word that holds its letters, and says that it is a part of a figure."""
+    directory = scratch()
+    for figure, part in (("portrait(slider.velocity.x, slider.velocity)", "slider.velocity)"), ("strip(n=8, n=1)", "n=1)"),
+                         ("histogram(gudgeon.peak)", "gudgeon.peak)"), ("slider.velocity.x in mm", "mm")):
+        deck = written(directory, changed(DECK.read_text(), "output", figures=figure))
+        line, marks = call(gudgeon, "check", deck, expect=3).stderr.splitlines()[3:5]
+        first = marks.index("^")
+        assert line[first:].startswith(part), marks
+        assert marks.split("^ ")[1] == "not right in this figure" and marks.count("^") == len(part.rstrip(")"))

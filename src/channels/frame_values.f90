@@ -1,0 +1,139 @@
+!> One picture of a motion: places of bodies, forces and eccentricities of loose joints, loads; read from the catalogue, kept on a
+!> tape.
+module frame_values
+   use catalogue, only: catalogue_t
+   use catalogue_rooms, only: room_clearances, room_forces
+   use, intrinsic :: ieee_arithmetic, only: ieee_is_nan
+   use kinds, only: wp
+   use scene_poses, only: pose_reader_t
+   use tape, only: tape_t
+   implicit none (type, external)
+   private
+   public :: bind_source, frame_source_t, frame_t, load_frame, reads_source, save_frame, take_frame
+
+   !> One picture.
+   type :: frame_t
+      real(wp) :: t = 0.0_wp                !! its time [s]
+      real(wp), allocatable :: r(:, :)      !! (3, 0:bodies) centres of mass, world frame [m]
+      real(wp), allocatable :: a(:, :, :)   !! (3, 3, 0:bodies) own frames to the world's [1]
+      real(wp), allocatable :: f(:, :)      !! (3, joints with clearance) forces on the journals, world frame [N]
+      real(wp), allocatable :: e(:, :)      !! (3, joints with clearance) eccentricities, world frame [m]
+      real(wp), allocatable :: load(:, :)   !! (3, force elements) forces on their first bodies, world frame [N]
+   end type frame_t
+
+   !> Where the numbers of a picture are found.
+   type :: frame_source_t
+      type(pose_reader_t) :: reader         !! what is read of the catalogue
+      integer :: eccentricity = 0           !! group of the catalogue
+      integer :: n_joint = 0                !! joints with clearance
+      integer :: force = 0                  !! group of the catalogue
+      integer :: n_force = 0                !! force elements
+   end type frame_source_t
+
+contains
+
+   !> Find the groups of the catalogue.
+   subroutine bind_source(source, catalogue)
+      type(frame_source_t), intent(out) :: source  !! where the numbers are
+      type(catalogue_t), intent(in) :: catalogue   !! what can be recorded
+
+      call source%reader%bind(catalogue)
+      source%eccentricity = catalogue%find_group(room_clearances, "eccentricity")
+      source%n_joint = size(catalogue%rooms(room_clearances)%names)
+      source%force = catalogue%find_group(room_forces, "force")
+      source%n_force = size(catalogue%rooms(room_forces)%names)
+   end subroutine bind_source
+
+   !> Whether a group of the catalogue is read.
+   pure logical function reads_source(source, group)
+      type(frame_source_t), intent(in) :: source  !! where the numbers are
+      integer, intent(in) :: group                !! number of the group
+
+      reads_source = source%reader%reads(group) .or. group == source%eccentricity .or. group == source%force
+   end function reads_source
+
+   !> The values of a picture.
+   subroutine take_frame(source, t, catalogue, frame)
+      type(frame_source_t), intent(in) :: source  !! where they are
+      real(wp), intent(in) :: t                   !! time [s]
+      type(catalogue_t), intent(in) :: catalogue  !! values at t
+      type(frame_t), intent(inout) :: frame       !! the picture
+
+      integer :: k
+
+      frame%t = t
+      if (.not. allocated(frame%r)) call make_room(source, frame)
+      call source%reader%frames(catalogue, frame%r, frame%a)
+      do k = 1, source%n_joint
+         frame%f(:, k) = vector_of(catalogue, source%reader%joint_force, k)
+         frame%e(:, k) = vector_of(catalogue, source%eccentricity, k)
+      end do
+      do k = 1, source%n_force
+         frame%load(:, k) = vector_of(catalogue, source%force, k)
+      end do
+   end subroutine take_frame
+
+   !> Room for a picture.
+   subroutine make_room(source, frame)
+      type(frame_source_t), intent(in) :: source  !! how many numbers it has
+      type(frame_t), intent(inout) :: frame       !! the picture
+
+      allocate (frame%r(3, 0:source%reader%n_body), frame%a(3, 3, 0:source%reader%n_body))
+      allocate (frame%f(3, source%n_joint), frame%e(3, source%n_joint), frame%load(3, source%n_force))
+   end subroutine make_room
+
+   !> A vector of an item; zero where it is not known.
+   pure function vector_of(catalogue, group, item) result(x)
+      type(catalogue_t), intent(in) :: catalogue  !! values
+      integer, intent(in) :: group                !! group of the catalogue, 0: none
+      integer, intent(in) :: item                 !! the item
+      real(wp) :: x(3)                            !! (3) the vector [any]
+
+      x = 0.0_wp
+      if (group == 0) return
+      associate (values => catalogue%value(group, item))
+         if (.not. any(ieee_is_nan(values))) x(:size(values)) = values
+      end associate
+   end function vector_of
+
+   !> Write a picture.
+   subroutine save_frame(frame, tape)
+      type(frame_t), intent(in) :: frame   !! the picture
+      type(tape_t), intent(inout) :: tape  !! receives it
+
+      call tape%put(frame%t)
+      call tape%put(reshape(frame%r, [size(frame%r)]))
+      call tape%put(reshape(frame%a, [size(frame%a)]))
+      call tape%put(reshape(frame%f, [size(frame%f)]))
+      call tape%put(reshape(frame%e, [size(frame%e)]))
+      call tape%put(reshape(frame%load, [size(frame%load)]))
+   end subroutine save_frame
+
+   !> Take back a picture.
+   subroutine load_frame(source, tape, frame)
+      type(frame_source_t), intent(in) :: source   !! how many numbers it has
+      type(tape_t), intent(inout) :: tape          !! holds it
+      type(frame_t), intent(out) :: frame          !! the picture
+
+      integer :: k
+
+      call make_room(source, frame)
+      call tape%get(frame%t)
+      do k = 0, source%reader%n_body
+         call tape%get(frame%r(:, k))
+      end do
+      do k = 0, 3*source%reader%n_body + 2
+         call tape%get(frame%a(:, modulo(k, 3) + 1, k/3))
+      end do
+      do k = 1, source%n_joint
+         call tape%get(frame%f(:, k))
+      end do
+      do k = 1, source%n_joint
+         call tape%get(frame%e(:, k))
+      end do
+      do k = 1, source%n_force
+         call tape%get(frame%load(:, k))
+      end do
+   end subroutine load_frame
+
+end module frame_values
