@@ -12,6 +12,7 @@ module curve_script
    use figure_data, only: curve_t
    use figure_words, only: figure_t
    use kinds, only: wp
+   use panel_cells, only: cell_heights, cell_words, picture_height
    use plot_text, only: quoted
    use script_parts, only: angle_tics, axes_t, axis_range, colours, find_long_tics, hangs_from_zero, ideal_style, &
       label_words, largest, largest_y, preamble, source, stands_on_zero
@@ -45,7 +46,7 @@ contains
       type(axes_t) :: axes
       type(buffer_t) :: lines
       character(:), allocatable :: format, label, name
-      integer, allocatable :: place(:)
+      integer, allocatable :: cells(:), place(:)
       integer :: k, n
       logical :: with_zoom
 
@@ -60,20 +61,24 @@ contains
       with_zoom = n == 1
       if (with_zoom) with_zoom = .not. any(figure%curves%panels(place(1))%y%has_range)
       if (with_zoom) with_zoom = needs_zoom(panels(1))
-      call preamble(lines, figure%name, 1200, heights(merge(2, n, with_zoom)))
+      cells = [heights(merge(2, 1, with_zoom))]
+      if (n > 1) cells = cell_heights(panels, envelope, heights(n))
+      call preamble(lines, figure%name, 1200, merge(picture_height(cells), cells(1), n > 1))
       name = ""
       if (figure%curves%abscissa > 0) name = scalar_name(catalogue, figure%scalars(figure%curves%abscissa))
       call fit_abscissa(figure%curves%x, name, curves, window, axes, label)
       if (n > 1 .or. with_zoom) then
          call lines%line("set lmargin at screen 0.12; set rmargin at screen "// &
                          trim(merge("0.89 ", "0.95 ", any([(len(panels(k)%right_label) > 0, k=1, n)]))))
-         call lines%line("set multiplot layout "//to_text(merge(2, n, with_zoom))//",1 title "//quoted(title)//" font ',17'")
+         call lines%line("set multiplot "//trim(merge("layout 2,1 title", "title           ", with_zoom))//" "//quoted(title)// &
+                         " font ',17'")
       else
          call lines%line("set title "//quoted(title)//" font ',17'")
       end if
       call abscissa_lines(lines, axes, window, format)
       if (n > 1) call lines%line("unset xlabel; set format x ''")
       do k = 1, n
+         if (n > 1) call lines%line(cell_words(cells, k))
          if (k == n) call lines%line("set xlabel "//quoted(label)//"; set format x '"//format//"'")
          call panel_lines(lines, figure%curves%panels(place(k)), panels(k), axes, envelope, n)
       end do

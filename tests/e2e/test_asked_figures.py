@@ -79,7 +79,7 @@ def test_over_an_angle(crank):
 def test_panels(crank):
     """A panel each, the abscissa named once and below; components that nobody sees are left out, named ones are not."""
     script = only(crank, "panels*.gp").read_text(encoding="utf-8")
-    assert "set multiplot layout 3,1" in script and script.count("\nplot ") == 3
+    assert script.count("set origin 0,") == 3 and script.count("\nplot ") == 3
     assert script.count("set xlabel 'time [µs]'") == 1 and script.index("set xlabel") > script.index("unset xlabel")
     labels = re.findall(r"set ylabel '(.*?)'", script)
     assert labels[:2] == ["angle [deg]", "velocity [m/s]"] and labels[2].startswith("kinetic [")
@@ -336,3 +336,18 @@ def test_narrow_abscissas(gudgeon, figure, ends, words):
     assert re.search(f"set xlabel '{words}'", script), script
     assert f"set xrange [{ends}]" in script
     assert all(re.match(r"\(\(\$\d+-\(1000\)\)\*1000\):", columns) for columns in re.findall(r"using (\S+)", script)), script
+
+
+def test_long_legends_have_room(gudgeon):
+    """A panel with a legend of several rows is higher by these, and by the name of the abscissa: its plot is as high as the others."""
+    folder = drawn(gudgeon, short(DECK.read_text(encoding="utf-8")),
+                   "panels(slider.position.x, energy.*)  panels(slider.position.x, energy.kinetic)")
+    rows = []
+    for pattern in ("*all.gp", "*kinetic.gp"):
+        script = only(folder, pattern).read_text(encoding="utf-8")
+        whole = int(re.search(r"size \d+,(\d+)", script).group(1)) * 6 / 5
+        sizes = [float(size) * whole for size in re.findall(r"set size 1,(\S+); set origin 0,", script)]
+        places = [float(place) * whole for place in re.findall(r"set size 1,\S+; set origin 0,(\S+)", script)]
+        assert len(sizes) == 2 and places[1] == 0 and abs(places[0] - sizes[1]) < 1.5
+        rows.append((sizes[1] - sizes[0] - 55) / 28)
+    assert abs(rows[1]) < 0.1 and abs(rows[0] - 1.0) < 0.1  # energies of contacts and friction, kinetic, drive_work: two columns
