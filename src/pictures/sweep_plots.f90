@@ -103,7 +103,7 @@ contains
       end do
    end function curve_title
 
-   !> A channel once per period over the parameter: every sample of every run.
+   !> A channel once per period over the parameter: every sample of every run. Where no run of a curve is there it is left out.
    subroutine bifurcation_table(name, unit, results, table)
       character(*), intent(in) :: name                  !! of the channel
       character(*), intent(in) :: unit                  !! its unit
@@ -146,6 +146,7 @@ contains
             this%last = n
          end associate
       end do
+      table%panels(1)%curves = pack(table%panels(1)%curves, table%panels(1)%curves%last >= table%panels(1)%curves%first)
    end subroutine bifurcation_table
 
    !> Numbers over the parameter: mean and standard deviation over the runs, least and greatest value as small marks.

@@ -484,3 +484,17 @@ def test_a_deck_that_overrides_is_overridden(gudgeon):
     call(gudgeon, "check", written(directory, text + 'include "beside.inc"\n[scene]\ntitle = "Top"\n'))
     done = call(gudgeon, "check", written(directory, text + 'include "beside.inc"\n'), expect=3)
     assert "key 'title' stands twice in section scene" in done.stderr and "'end'" not in done.stderr
+
+
+def test_figures_of_a_sweep_with_missing_runs(gudgeon):
+    """Of two curves all runs of the second are missing: the first is drawn, and gnuplot has nothing to say."""
+    directory = scratch()
+    text = changed(short("\n[sweep]\nc = 0.5 0.2 mm\nlaw = hertz lankarani_nikravesh\n"), "output",
+                   figures="bifurcation(motor.moment) statistics(motor.moment.rms)")
+    deck = written(directory, text)
+    call(gudgeon, "sweep", deck, "--out", directory / "out", "--quiet", "--shard", "1/2")
+    done = call(gudgeon, "merge", directory / "out", expect=8)
+    assert "gnuplot" not in done.stdout + done.stderr
+    script = (directory / "out" / "figures" / "bifurcation.motor.moment.gp").read_text()
+    assert (directory / "out" / "figures" / "bifurcation.motor.moment.png").stat().st_size > 3000
+    assert "law hertz" in script and "lankarani" not in script
