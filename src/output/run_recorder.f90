@@ -20,7 +20,7 @@ module run_recorder
    use kinds, only: i8, wp
    use member_result, only: member_result_t
    use memory_purpose, only: memory_is_for
-   use missing_spectra, only: spectra_without_numbers
+   use missing_statistics, only: statistics_without_numbers
    use motion_writer, only: motion_name, motion_writer_t
    use output_plan, only: output_plan_t
    use plot_table, only: plot_table_t
@@ -279,9 +279,7 @@ contains
          allocate (outcome%pictures(0), outcome%warnings(0), outcome%files(0), outcome%csv(0))
          call append_all(outcome%warnings, [self%plan%warnings, full%warnings])
          if (allocated(self%wants_fields)) call append_all(outcome%warnings, missing_films(self%wants_fields, self%fields))
-         if (allocated(self%statistics%spectra)) then
-            call append_all(outcome%warnings, spectra_without_numbers(self%statistics, self%items))
-         end if
+         call append_all(outcome%warnings, statistics_without_numbers(self%statistics, self%items, full%time_end))
          if (self%plan%with%hdf5 .and. size(self%extremes%channels) > 0 .and. .not. self%extremes%has_rows()) then
             call append_text(outcome%warnings, "the time histories have no row: the run ended before they begin")
          end if

@@ -253,3 +253,14 @@ def test_mistakes_within_figures_are_marked(gudgeon):
         first = marks.index("^")
         assert line[first:].startswith(part), marks
         assert marks.split("^ ")[1] == "not right in this figure" and marks.count("^") == len(part.rstrip(")"))
+
+
+def test_a_run_that_ends_before_its_statistics(gudgeon):
+    """A joint is not apart all the time of a window that there is not: no number is known, and a warning says why."""
+    directory = scratch()
+    text = changed(DECK.read_text(), "output", figures=None) + "\n[statistics]\nafter = 2 ms\nchannels = motor.moment\n"
+    text += "[guards]\nstop = motor.coordinate > 0.5 rad\n"
+    call(gudgeon, "run", written(directory, text), "--out", directory / "out", "--quiet")
+    run = Run(directory / "out")
+    assert set(run.summary["statistics"].values()) == {None}
+    assert [w for w in run.summary["warnings"] if w == "no statistics: the run ended before they begin, at 0.002 s"]
