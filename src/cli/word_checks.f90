@@ -79,7 +79,9 @@ contains
          if (bad == 0) call check_statistics_figures(words, figures, scene, catalogue, bad, message, hint, part)
          if (bad == 0) call check_film_figures(words, figures, scene, end, bad, message, hint)
       end associate
-      if (bad > 0) call mistakes%add(place_of_part(deck, location_of(value, k), part), message, &
+      if (bad == 0) return
+      if (part == value%words(k)%s) part = ""
+      call mistakes%add(place_of_part(deck, location_of(value, k), part), message, &
                         trim(merge("no figure of this deck  ", "not right in this figure", len(part) == 0)), hint)
    end subroutine check_figure
 

@@ -253,6 +253,8 @@ def test_mistakes_within_figures_are_marked(gudgeon):
         first = marks.index("^")
         assert line[first:].startswith(part), marks
         assert marks.split("^ ")[1] == "not right in this figure" and marks.count("^") == len(part.rstrip(")"))
+    deck = written(directory, changed(DECK.read_text(), "output", figures="slider.speed"))
+    assert "^ no figure of this deck" in call(gudgeon, "check", deck, expect=3).stderr
 
 
 def test_a_run_that_ends_before_its_statistics(gudgeon):
