@@ -54,6 +54,7 @@ module plot_table
       real(wp), allocatable :: values(:, :)            !! (columns, rows) SI [any]
       character(:), allocatable :: x_name              !! what stands below the abscissa
       character(:), allocatable :: x_unit              !! SI unit
+      type(display_unit_t) :: x_shown                  !! unit to show; without a symbol: one that reads well
       logical :: is_log_x = .false.                    !! whether the abscissa is logarithmic
       type(text_t), allocatable :: categories(:)       !! (n) words at 1, 2, ... of the abscissa; none: numbers
       type(panel_t), allocatable :: panels(:)          !! (n) what is drawn
@@ -166,7 +167,10 @@ contains
       n = size(table%panels)
       call preamble(lines, table%name, merge(1200, 1500, n < 3), merge(800, 1100, n < 2))
       call lines%line("unset key")
-      x = choose_unit(table%x_unit, largest(table, [(table%panels(1)%curves(k)%x, k=1, size(table%panels(1)%curves))]))
+      x = table%x_shown
+      if (.not. allocated(x%symbol)) then
+         x = choose_unit(table%x_unit, largest(table, [(table%panels(1)%curves(k)%x, k=1, size(table%panels(1)%curves))]))
+      end if
       call lines%line("set xlabel "//quoted(with_unit(table%x_name, x)))
       call lines%line("set offsets "//aside(table)//", graph 0.06, graph 0.06")
       if (table%is_log_x) call lines%line("set logscale x; set format x '%g'")

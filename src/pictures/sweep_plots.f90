@@ -6,12 +6,14 @@ module sweep_plots
    use, intrinsic :: ieee_arithmetic, only: ieee_is_nan
    use catalogue, only: catalogue_t
    use channel_names, only: scalar_name
+   use display_units, only: ask_unit, display_unit_t
    use figure_words, only: figure_bifurcation, figure_t
    use kinds, only: not_a_number, wp
+   use numbers, only: number_length
    use plot_table, only: draw_bars, draw_marks, draw_points, panel_t, plot_curve_t, plot_table_t
    use sweep_results, only: case_numbers, n_spread, spread_names, sweep_results_t
    use swept, only: sweep_t
-   use text, only: append_text, text_t, to_text
+   use text, only: append_text, piece, text_t, to_text
    implicit none (type, external)
    private
    public :: sweep_table
@@ -40,6 +42,27 @@ contains
       end if
    end subroutine sweep_table
 
+   !> The unit that all values have in the deck; without a symbol if there is none that is shown.
+   function unit_of_values(texts, si) result(unit)
+      type(text_t), intent(in) :: texts(:)   !! (n) values as in the deck, `300rpm`
+      character(*), intent(in) :: si         !! SI unit of their numbers
+      type(display_unit_t) :: unit           !! as rpm
+
+      type(display_unit_t) :: asked
+      character(:), allocatable :: message, name
+      integer :: k
+
+      do k = 1, size(texts)
+         associate (text => texts(k)%s, n => number_length(texts(k)%s))
+            if (k == 1) name = piece(text, n + 1)
+            if (n == 0 .or. piece(text, n + 1) /= name) return
+         end associate
+      end do
+      if (len(name) == 0) return
+      call ask_unit(name, si, asked, message)
+      if (len(message) == 0) unit = asked
+   end function unit_of_values
+
    !> The first parameter as abscissa.
    subroutine set_abscissa(sweep, table)
       type(sweep_t), intent(in) :: sweep                !! the cases
@@ -54,6 +77,7 @@ contains
                table%categories = first%texts
             else
                table%x_unit = first%unit
+               table%x_shown = unit_of_values(first%texts, first%unit)
                table%is_log_x = minval(first%numbers) > 0.0_wp .and. maxval(first%numbers) > decade*minval(first%numbers) .and. &
                                 .not. is_even(first%numbers)
             end if

@@ -498,3 +498,15 @@ def test_figures_of_a_sweep_with_missing_runs(gudgeon):
     script = (directory / "out" / "figures" / "bifurcation.motor.moment.gp").read_text()
     assert (directory / "out" / "figures" / "bifurcation.motor.moment.png").stat().st_size > 3000
     assert "law hertz" in script and "lankarani" not in script
+
+
+@pytest.mark.parametrize(("values", "factor", "unit"), (("1000 .. 5000 rpm in 3", 60 / (2 * np.pi), "rpm"),
+                                                         ("100rad/s 5000rpm", 1.0, "rad/s")))
+def test_abscissa_in_the_unit_of_the_deck(gudgeon, values, factor, unit):
+    """Speeds in rpm stand at round numbers of rpm; values of different units have one that reads well."""
+    text = changed(short(f"\n[sweep]\nspeed = {values}\n", end="2.2 ms"), "output", figures="bifurcation(motor.moment)")
+    out, _ = swept(gudgeon, text)
+    script = (out / "figures" / "bifurcation.motor.moment.gp").read_text(encoding="utf-8")
+    assert f"set xlabel 'speed [{unit}]'" in script
+    scale = script.split("using ", 1)[1].split(":")[0].strip("()").removeprefix("$1").removeprefix("*") or "1"
+    assert_close(float(scale), factor, relative=1e-5)
