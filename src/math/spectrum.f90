@@ -7,10 +7,11 @@
 !> frequency is one of the f_m has its own amplitude there; between two lines it reads up to 15 % low.
 !> Source: F. J. Harris, On the use of windows for harmonic analysis with the discrete Fourier transform, Proc. IEEE 66
 !> (1978) 51-83; M. Frigo, S. G. Johnson, The design and implementation of FFTW3, Proc. IEEE 93 (2005) 216-231.
-!> Limits: at least two samples. FFTW plans by rule, not by timing, so that equal samples give equal spectra.
+!> Limits: at least two samples; where one is no number, or infinite, no amplitude is known, and all are NaN. FFTW plans by rule, not by timing, so that equal samples give equal spectra.
 module spectrum
    use, intrinsic :: iso_c_binding, only: c_double, c_double_complex, c_int, c_ptr
-   use kinds, only: wp
+   use, intrinsic :: ieee_arithmetic, only: ieee_is_finite
+   use kinds, only: not_a_number, wp
    implicit none (type, external)
    private
    public :: amplitude_spectrum
@@ -64,6 +65,11 @@ contains
       integer :: k, n
 
       n = size(x)
+      frequency = [(real(k, wp)/(real(n, wp)*interval), k=0, n/2)]
+      if (.not. all(ieee_is_finite(x))) then
+         allocate (amplitude(n/2 + 1), source=not_a_number())
+         return
+      end if
       allocate (lines(n/2 + 1), windowed(n), window(n))
       window = [(0.5_wp*(1.0_wp - cos(2.0_wp*pi*real(k, wp)/real(n, wp))), k=0, n - 1)]
       plan = fftw_plan_dft_r2c_1d(int(n, c_int), windowed, lines, fftw_estimate)
@@ -71,7 +77,6 @@ contains
       call fftw_execute_dft_r2c(plan, windowed, lines)
       call fftw_destroy_plan(plan)
       amplitude = 2.0_wp*abs(lines)/sum(window)
-      frequency = [(real(k, wp)/(real(n, wp)*interval), k=0, n/2)]
    end subroutine amplitude_spectrum
 
 end module spectrum

@@ -3,6 +3,7 @@ module statistics_plots
    use catalogue, only: catalogue_t
    use channel_names, only: scalar_name, scalar_t
    use event_list, only: event_list_t
+   use, intrinsic :: ieee_arithmetic, only: ieee_is_finite
    use figure_words, only: figure_histogram, figure_section, figure_spectrum, figure_t
    use kinds, only: wp
    use plot_table, only: draw_boxes, draw_lines, draw_points, plot_table_t
@@ -89,7 +90,7 @@ contains
       do i = 1, size(statistics%spectra)
          if (.not. same(statistics%spectra(i), scalar)) cycle
          call statistics%spectrum_of(i, frequency, amplitude)
-         if (size(frequency) < 2) return
+         if (size(frequency) < 2 .or. .not. all(ieee_is_finite(amplitude))) return
          allocate (table%values(2, size(frequency) - 1))
          table%values(1, :) = frequency(2:)
          table%values(2, :) = amplitude(2:)

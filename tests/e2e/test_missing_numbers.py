@@ -151,3 +151,15 @@ channels = ball.position request.half request.never
     call(gudgeon_debug, "run", written(directory, text), "--accuracy", "1e-3", "--quiet", "--out", directory / "out", "--write", "channels")
     found = {entry["channel"]: entry for entry in Run(directory / "out").summary["extremes"]}
     assert found["request.never"]["greatest"] is None and found["request.half"]["greatest"] == 0
+
+
+def test_figures_of_what_is_no_number_at_some_instants(gudgeon_debug):
+    """A root of what is negative now and then: a curve, sections and portraits with gaps, no spectrum, and a warning instead."""
+    directory = scratch()
+    figures = "spectrum(request.root) section(request.root,motor.moment) request.root portrait(request.root,motor.moment) " \
+              "motor.moment against request.root in 1 request.root + motor.moment"
+    text = short(("output", "figures", figures), ("output", "every", "20 us")) + STATISTICS
+    text += "\n[request]\nname value unit\nroot {sqrt(motor.moment/1N.m)} 1\n"
+    done = call(gudgeon_debug, "run", written(directory, text), "--out", directory / "out")
+    assert "no spectrum of 'request.root'" in done.stdout + done.stderr
+    assert len(list((directory / "out" / "figures").glob("*.png"))) == 5
