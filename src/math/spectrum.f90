@@ -7,7 +7,8 @@
 !> frequency is one of the f_m has its own amplitude there; between two lines it reads up to 15 % low.
 !> Source: F. J. Harris, On the use of windows for harmonic analysis with the discrete Fourier transform, Proc. IEEE 66
 !> (1978) 51-83; M. Frigo, S. G. Johnson, The design and implementation of FFTW3, Proc. IEEE 93 (2005) 216-231.
-!> Limits: at least two samples; where one is no number, or infinite, no amplitude is known, and all are NaN. FFTW plans by rule, not by timing, so that equal samples give equal spectra.
+!> Limits: at least two samples; where one is no number, or infinite, no amplitude is known, and all are NaN. FFTW plans by rule,
+!> not by timing, so that equal samples give equal spectra.
 module spectrum
    use, intrinsic :: iso_c_binding, only: c_double, c_double_complex, c_int, c_ptr
    use, intrinsic :: ieee_arithmetic, only: ieee_is_finite
