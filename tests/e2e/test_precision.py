@@ -288,11 +288,12 @@ def test_errors_are_told_inside_the_horizon_only(gudgeon):
 
 
 def test_settings_tell_the_same_statistics(gudgeon):
-    """Over some fourteen turns beyond what is compared. A few turns have too few contacts for their intervals to be trusted."""
+    """Over some fourteen turns beyond what is compared. A few turns have too few contacts for their intervals to be trusted. One run in
+    twenty is apart by chance, and all of them from one reference, which may be the odd one: most of seven are not."""
     text = plain_deck([("analysis.dynamic", "end", "180 ms")])
     study = compared(gudgeon, text + ladders(coarsest="1e-6", finest="1e-12", instants=200), "--methods", "verner adams")
     for name in study.read("statistics/names"):
-        assert study.summary[name + "_apart"] <= 1, name
+        assert study.summary[name + "_apart"] <= 3, name
 
 
 def check_statistics(study):
@@ -303,9 +304,12 @@ def check_statistics(study):
     own = study.read("statistics/is_own") == 1
     assert 0 < own.sum() < len(own) and not own[[row["asked"] for row in study.rows].index(1e-12)]
     counted = study.read("runs/ladder")
+    # what is left beyond what is compared may have too few contacts for an interval of some
+    assert sum(half > 0 for _, half in reference.values()) >= 3
     for place, name in enumerate(names):
         value, half = reference[name]
-        assert half > 0 and study.summary[name] == value and study.summary[name + "_interval"] == half
+        told = study.summary[name + "_interval"]
+        assert study.summary[name] == value and (told == half if half > 0 else told is None and np.isnan(half))
         values, halves = study.read("statistics/values")[:, place], study.read("statistics/intervals")[:, place]
         apart = own & (abs(values - value) > np.hypot(half, halves))
         for setting in (1, 2):
@@ -315,7 +319,8 @@ def check_statistics(study):
             assert_close(study.read("statistics/settings")[setting - 1, place], values[chosen].mean(), 1e-12)
         assert study.summary[name + "_apart"] == apart.sum()
         column = next(key for key in study.rows[0] if key.startswith(name + " ["))
-        assert_close([row[column] for row in study.rows], list(values), 1e-15)
+        assert [row[column] == "" for row in study.rows] == list(np.isnan(values))
+        assert_close([row[column] for row in study.rows if row[column] != ""], list(values[np.isfinite(values)]), 1e-15)
     assert (study.directory / "figures" / "precision_statistics.png").stat().st_size > 10_000
     assert "go their own way" in (study.directory / "summary.txt").read_text()
 
