@@ -22,10 +22,14 @@ contains
 
       logical :: are_wanted
 
-      are_wanted = system%traits%with_quadratures
-      system%traits%with_quadratures = are_wanted .and. has_part
-      call system%evaluate(t, y, f, status)
-      system%traits%with_quadratures = are_wanted
+      if (has_part) then
+         call system%evaluate(t, y, f, status)
+      else
+         are_wanted = system%traits%with_quadratures
+         system%traits%with_quadratures = .false.
+         call system%evaluate(t, y, f, status)
+         system%traits%with_quadratures = are_wanted
+      end if
       associate (first => system%n_position + 1, last => system%n - system%n_quadrature)
          call judge_stage(last - first + 1, f(first:last), status)
       end associate

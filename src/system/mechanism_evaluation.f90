@@ -16,7 +16,7 @@ contains
       inside = min(max(t, self%linkage%piece%low), self%linkage%piece%high)
       self%n_evaluations = self%n_evaluations + 1
       if (self%is_direct) then
-         call self%evaluate_directly(inside, y, ydot, status)
+         call evaluate_directly(self, inside, y, ydot, status)
       else
          call evaluate_any(self, t, inside, y, ydot, status)
       end if
