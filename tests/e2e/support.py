@@ -109,10 +109,14 @@ def plain(value):
 
 
 def at_instants(file, path):
-    """A dataset of run.h5; of a time history, the rows that are output instants."""
+    """A dataset of run.h5; of a time history, the rows that are output instants. The time grows last: what a killed run left beyond it is
+    no row."""
     dataset = file[path]
     is_history = path in ("time", "row_kind") or "DIMENSION_LIST" in dataset.attrs
-    return dataset[()][file["row_kind"][()] == 0] if is_history else dataset[()]
+    if not is_history:
+        return dataset[()]
+    n = len(file["time"])
+    return dataset[:n][file["row_kind"][:n] == 0]
 
 
 class Run:
