@@ -4,24 +4,10 @@ import re
 
 from conftest import ROOT
 from support import SLOWNESS, Run, call, changed, scratch, text_of, written
-from test_precision import HARD, compared, ladders, no_figures
+from test_precision import CLOSED, HARD, compared, ladders, no_figures
 
-REST = """deck = 1
-[bodies]
-name mass[kg] inertia[kg.m^2] x[m] y[m]
-mass 2        1               1    0
-[points]
-name   body   xi[m] eta[m]
-wall   ground 0     0
-centre mass   0     0
-[force.spring]
-name   i    j      stiffness[N/m] free_length[m]
-spring wall centre 50             1
-[analysis.dynamic]
-end = 1 s
-"""
-
-MOVING = changed(REST.replace("2        1               1    0", "2        1               1.5  0"), "analysis.dynamic", end="2 s")
+MOVING = "deck = 1\n" + CLOSED["oscillator"][0] + "[analysis.dynamic]\nend = 2 s\n"
+REST = changed(MOVING.replace(" 1.5  0\n", " 1    0\n"), "analysis.dynamic", end="1 s")  # where the spring is slack
 
 
 def test_runs_beyond_a_limit_of_the_deck_have_failed(gudgeon):
