@@ -12,18 +12,10 @@ contains
 
    !> Penetration and its rate for all contacts.
    module procedure point_gaps
-      integer :: k, m
-      logical :: is_new
+      integer :: k
 
-      is_new = .not. (self%evaluated_at == motion%number .and. motion%number > 0)
-      m = self%before%contacts
       do k = 1, self%n_contact
-         if (is_new .or. .not. (self%contact(k)%is_touching .or. self%laws%normal%acts_apart)) then
-            call find_depth(self, k, motion, delta(m + k), rate(m + k))
-         else
-            delta(m + k) = self%work%contacts(k)%delta
-            rate(m + k) = self%work%contacts(k)%rate
-         end if
+         call find_depth(self, k, motion, delta(self%before%contacts + k), rate(self%before%contacts + k))
       end do
    end procedure point_gaps
 
