@@ -73,11 +73,9 @@ contains
          do k = 1, size(run%kind)
             d = apart(run%series%x(k, i), other%series%x(k, i))
             if (run%goes_round(k)) d = min(d, abs(turn - d))
-            if (.not. is_round(k, run%series%high(k, i) - run%series%low(k, i), other%series%high(k, i) - &
-                               other%series%low(k, i))) then
-               d = max(d, apart(run%series%low(k, i), other%series%low(k, i)), &
-                       apart(run%series%high(k, i), other%series%high(k, i)))
-            end if
+            if (run%state_of(k) > 0 .and. d >= not_alike) d = 0.0_wp   ! it touches in one run only: its force tells
+            d = max(d, of_extremes(k, [run%series%low(k, i), run%series%high(k, i)], &
+                                   [other%series%low(k, i), other%series%high(k, i)]))
             call raise(i, k, d)
          end do
       end do
@@ -85,21 +83,31 @@ contains
       if (abs(run%n - other%n) > 1) by_instant(max(1, min(run%n, other%n + 1)):) = not_alike
       if (run%n == 0 .or. run%n /= other%n) return
       do k = 1, size(run%kind)   ! rows behind the last instant
-         if (is_round(k, run%series%most(k) - run%series%least(k), other%series%most(k) - other%series%least(k))) cycle
-         d = max(apart(run%series%least(k), other%series%least(k)), apart(run%series%most(k), other%series%most(k)))
+         d = of_extremes(k, [run%series%least(k), run%series%most(k)], [other%series%least(k), other%series%most(k)])
          call raise(run%n, k, d)
       end do
 
    contains
 
-      !> Whether a channel is an angle that has gone all round in one of the runs, from its range in each.
-      logical function is_round(k, range, other_range)
-         integer, intent(in) :: k              !! number of the channel
-         real(wp), intent(in) :: range         !! of the values so far [any]
-         real(wp), intent(in) :: other_range   !! the same of the other run [any]
+      !> Difference of the extremes of a channel. There is none of an angle that has gone all round in one of the runs, or of the
+      !> place of a contact that has not touched yet in one.
+      real(wp) function of_extremes(k, range, other_range) result(d)
+         integer, intent(in) :: k                    !! number of the channel
+         real(wp), intent(in) :: range(2)            !! (2) least and greatest value; the least is greater: there are none [any]
+         real(wp), intent(in) :: other_range(2)      !! (2) the same of the other run [any]
 
-         is_round = run%goes_round(k) .and. max(range, other_range) > all_round
-      end function is_round
+         real(wp) :: span
+         logical :: has(2)
+
+         d = 0.0_wp
+         has = [range(1) <= range(2), other_range(1) <= other_range(2)]
+         span = 0.0_wp
+         if (has(1)) span = range(2) - range(1)
+         if (has(2)) span = max(span, other_range(2) - other_range(1))
+         if (run%goes_round(k) .and. span > all_round) return
+         if (run%state_of(k) > 0 .and. .not. all(has)) return
+         d = max(apart(range(1), other_range(1)), apart(range(2), other_range(2)))
+      end function of_extremes
 
       !> Raise the differences of an instant and of a channel.
       subroutine raise(i, k, d)

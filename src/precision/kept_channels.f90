@@ -4,6 +4,8 @@
 !> rows, whose peaks are located (which other rows a contact has depends on the steps). Values are kept at the output instants,
 !> or at each of a whole number of them. Every channel has a kind, by which its differences are measured (`channel_difference`):
 !> what has the same unit in the same room; of requests that are no lengths, rates, forces or energies each is a kind of its own.
+!> Where a contact would act is kept while its bodies touch only, else it is no number: a pin in the middle of its bearing, or of
+!> its film, would act anywhere.
 module kept_channels
    use catalogue, only: catalogue_t
    use catalogue_groups, only: group_t
@@ -11,8 +13,9 @@ module kept_channels
    use errors, only: error_t
    use, intrinsic :: ieee_arithmetic, only: ieee_is_finite
    use kept_run, only: kept_run_t, n_sort, sort_of, sort_positions
-   use kinds, only: i8, wp
+   use kinds, only: i8, not_a_number, wp
    use recorder, only: row_stop, summary_t
+   use states_of_contacts, only: state_contact, state_mixed
    implicit none (type, external)
    private
    public :: channel_kind_t, class_acceleration, class_energy, class_force, class_length, class_other, class_power, class_rate, &
@@ -25,6 +28,8 @@ module kept_channels
    integer, parameter :: class_acceleration = 5  !! m/s^2, rad/s^2
    integer, parameter :: class_power = 6   !! W
    integer, parameter :: class_other = 7   !! all else, each unit by itself
+
+   character(*), parameter :: places = " contact_point contact_angle "  !! channels of contacts: where they act, or would
 
    !> A kind of channels behind the sorts: what is measured by one scale.
    type :: channel_kind_t
@@ -58,6 +63,7 @@ module kept_channels
       integer(i8), private :: n_sample = 0        !! output instants so far
       integer, allocatable, private :: kind_of(:) !! (groups) kind of all values of a group, 0: they scale nothing
       logical, allocatable, private :: is_peaked(:)  !! (n) a normal force
+      integer, allocatable :: state_of(:)         !! (n) group of the states of contacts, of a channel of their places; else 0
    contains
       procedure :: start => start_channels
       procedure :: wants => wants_channels
@@ -78,7 +84,7 @@ contains
 
       call self%kept_run_t%start(catalogue, error)
       n = size(self%asked, 2)
-      allocate (self%kind(n), source=0)
+      allocate (self%kind(n), self%state_of(n), source=0)
       allocate (self%factor_of(n), source=1.0_wp)
       allocate (self%further(0))
       allocate (self%series%x(n, size(self%t)), self%series%low(n, size(self%t)), self%series%high(n, size(self%t)), source=0.0_wp)
@@ -96,6 +102,9 @@ contains
             self%kind(k) = self%kind_of(g)
             self%factor_of(k) = factor_to(self, group, self%asked(3, k))
             self%is_peaked(k) = group%room == room_contacts .and. group%channel%name == "normal_force"
+            if (group%room == room_contacts .and. index(places, " "//group%channel%name//" ") > 0) then
+               self%state_of(k) = catalogue%find_group(room_contacts, "state")
+            end if
             self%goes_round(k) = (group%room == room_contacts .and. group%channel%name == "contact_angle") .or. &
                                  (group%room == room_joints .and. group%channel%name == "angle")
          end associate
@@ -109,7 +118,7 @@ contains
       integer, intent(in) :: group                 !! its group in the catalogue
       integer, intent(in) :: item                  !! number of the item in the group's room
 
-      wants = self%kind_of(group) > 0 .or. self%kept_run_t%wants(group, item)
+      wants = self%kind_of(group) > 0 .or. any(self%state_of == group) .or. self%kept_run_t%wants(group, item)
    end function wants_channels
 
    !> Number of the further kind of a quantity; a new one is added.
@@ -233,13 +242,18 @@ contains
       end do
    end subroutine note
 
-   !> Value of a channel.
+   !> Value of a channel; of where a contact that does not touch would act not a number.
    pure real(wp) function value_of(self, catalogue, k)
       class(kept_channels_t), intent(in) :: self         !! the recorder
       type(catalogue_t), intent(in) :: catalogue         !! values
       integer, intent(in) :: k                           !! number of the channel
 
+      integer :: state
+
       value_of = catalogue%values(catalogue%place(self%asked(1, k), self%asked(2, k), self%asked(3, k)))
+      if (self%state_of(k) == 0) return
+      state = nint(catalogue%values(catalogue%place(self%state_of(k), 1, self%asked(3, k))))
+      if (state /= state_contact .and. state /= state_mixed) value_of = not_a_number()
    end function value_of
 
    !> Make columns for more instants.

@@ -2,6 +2,7 @@
 module setting_run
    use assembly_report, only: assembly_t
    use build_system, only: levels_as_written, new_system
+   use coordinates, only: coordinates_t
    use diagnostics, only: diagnostics_t
    use dynamic, only: run_dynamic
    use errors, only: error_t
@@ -13,7 +14,7 @@ module setting_run
    use kept_run, only: kept_run_t
    use kinds, only: i8, not_a_number, wp
    use mechanism, only: mechanism_t
-   use perturbation, only: new_shift, random_shift
+   use perturbation, only: new_shift, random_shift, shift_t
    use precision_info, only: setting_t
    use recorder, only: summary_t
    use run_audit, only: limits_t
@@ -39,7 +40,7 @@ module setting_run
       real(wp) :: cpu = 0.0_wp              !! processor time that a run may take, 0: no limit [s]
       real(wp) :: clock = 0.0_wp            !! time that it may take by the clock on the wall, 0: no limit [s]
       integer :: start = 0                  !! number of the start in the deck's ensemble, 0: the start as it is
-      integer :: member = 0                 !! number of the perturbed start, 0: the start as it is
+      integer :: member = 0                 !! number of the perturbation put on that, 0: none
       real(wp) :: length = 0.0_wp           !! of a perturbation [m]
       real(wp) :: speed = 0.0_wp            !! of a perturbation [m/s]
    end type job_t
@@ -120,22 +121,35 @@ contains
       type(error_t), allocatable, intent(out) :: error                !! parts of the setting do not agree, or there is no start
 
       type(assembly_t) :: assembly
+      type(shift_t), allocatable :: shift
 
       call take_setting(job, setting, asked, error)
       if (allocated(error)) return
       call new_system(job%scene, levels_as_written, system)
       call find_integrator(setting%method, method)
       call read_controls(job%scene%settings%dynamic%item_t, method%controls)
-      if (job%member > 0) then
-         call find_start(job%scene, levels_as_written, system, y, assembly, error, &
-                         random_shift(job%scene%bodies, system%linkage%coordinates, 1, job%member, job%length, job%speed))
-      else if (job%start > 0) then
-         call find_start(job%scene, levels_as_written, system, y, assembly, error, &
-                         new_shift(job%scene, system%linkage%coordinates, job%start))
-      else
-         call find_start(job%scene, levels_as_written, system, y, assembly, error)
-      end if
+      call find_shift(job, system%linkage%coordinates, shift)
+      call find_start(job%scene, levels_as_written, system, y, assembly, error, shift)
    end subroutine prepare_run
+
+   !> The perturbation of the start: that of the deck's ensemble and that of the job, one on the other.
+   subroutine find_shift(job, coordinates, shift)
+      type(job_t), intent(in) :: job                      !! what all runs share
+      class(coordinates_t), intent(in) :: coordinates     !! of the bodies
+      type(shift_t), allocatable, intent(out) :: shift    !! not allocated: the start as it is
+
+      type(shift_t) :: other
+
+      if (job%start > 0) shift = new_shift(job%scene, coordinates, job%start)
+      if (job%member <= 0) return
+      other = random_shift(job%scene%bodies, coordinates, 1, job%member, job%length, job%speed)
+      if (.not. allocated(shift)) then
+         shift = other
+      else
+         shift%q = shift%q + other%q
+         shift%v = shift%v + other%v
+      end if
+   end subroutine find_shift
 
    !> Give the scene a setting.
    subroutine take_setting(job, setting, asked, error)

@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 """Certification of `gudgeon run --accuracy`: whether the intervals of random decks hold the true errors.
 
-certify.py --build DIRECTORY [-n 200] [--first 0] [--seed 1] [--space] [--jobs 2] [--csv FILE]
+certify.py --build DIRECTORY [-n 200] [--first 0] [--seed 1] [--space] [--truth dop853] [--jobs 2] [--csv FILE]
 
 Each deck runs with an accuracy of its own. Its truth is a run by another method at a tolerance of 1e-14 (or as near to it as the method
 comes), confirmed by a run of a third kind: Verner's method with the constraints held in another way, all coordinates kept and another
@@ -38,7 +38,6 @@ KNOWN = 0.2  # of the error claimed: truth must be known as well as this
 TOLERANCES = ("1e-14", "1e-13", "1e-12", "1e-11")
 LIMIT = 300  # seconds for one run
 NOWHERE = ("contact_point", "contact_angle")  # of contacts that touch: elsewhere the direction may be that of round-off
-TRUTH = {"method": "adams"}
 SECOND = {"method": "verner", "solver": "lapack", "coordinates": "full"}
 
 
@@ -136,8 +135,8 @@ def distance(a, b, n):
     return d
 
 
-def judge(deck, program, scratch):
-    """Run a deck and its truth, and compare."""
+def judge(deck, program, scratch, method):
+    """Run a deck and its truth by a method, and compare."""
     verdict = Verdict(deck.label, deck.accuracy)
     code = run(program, deck.text, scratch / "run", "--accuracy", repr(deck.accuracy))
     if code not in (0, 6):
@@ -153,7 +152,7 @@ def judge(deck, program, scratch):
     if verdict.claim == "none":
         verdict.verdict = "nothing claimed"
         return verdict
-    truth, second = (tight(program, deck.text, scratch / name, settings) for name, settings in (("truth", TRUTH), ("second", SECOND)))
+    truth, second = (tight(program, deck.text, scratch / name, settings) for name, settings in (("truth", {"method": method}), ("second", SECOND)))
     if truth is None or second is None:
         verdict.verdict = "no truth"
         return verdict
@@ -192,14 +191,14 @@ def compare(verdict, claims, history, truth, second):
     return verdict
 
 
-def certify(program, numbers, seed, jobs, tell=lambda verdict: None, families=random_decks.FAMILIES):
+def certify(program, numbers, seed, jobs, tell=lambda verdict: None, families=random_decks.FAMILIES, truth="dop853"):
     """The verdicts of some decks."""
     scratch = pathlib.Path(tempfile.mkdtemp(prefix="gudgeon_certify_"))
 
     def one(number):
         place = scratch / str(number)
         place.mkdir()
-        verdict = judge(random_decks.make(number, seed, families), program, place)
+        verdict = judge(random_decks.make(number, seed, families), program, place, truth)
         shutil.rmtree(place, ignore_errors=True)
         tell(verdict)
         return verdict
@@ -226,6 +225,7 @@ def main():
     parser.add_argument("--first", type=int, default=0, help="number of the first")
     parser.add_argument("--seed", type=int, default=1, help="of the decks")
     parser.add_argument("--space", action="store_true", help="decks in space instead of those of the plane")
+    parser.add_argument("--truth", default="dop853", help="method whose motion is the truth")
     parser.add_argument("--jobs", type=int, default=2, help="decks at once")
     parser.add_argument("--csv", type=pathlib.Path, default=ROOT / "outputs" / "certify.csv", help="where the table goes")
     options = parser.parse_args()
@@ -238,7 +238,7 @@ def main():
                   f"{verdict.compared_until:.4g} s", flush=True)
 
     families = random_decks.IN_SPACE if options.space else random_decks.FAMILIES
-    verdicts = certify(program, range(options.first, options.first + options.n), options.seed, options.jobs, tell, families)
+    verdicts = certify(program, range(options.first, options.first + options.n), options.seed, options.jobs, tell, families, options.truth)
     options.csv.parent.mkdir(parents=True, exist_ok=True)
     with open(options.csv, "w", newline="", encoding="utf-8") as file:
         writer = csv.writer(file)

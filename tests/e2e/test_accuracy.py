@@ -228,6 +228,33 @@ def test_members_of_an_ensemble(gudgeon):
     assert extremes(run)["mass.position.x"]["max"] == x.max()
 
 
+def test_spin_that_round_off_makes(gudgeon):
+    """A bar that falls straight on pins, whose spin is none until they touch together: what is claimed holds for another method."""
+    deck = make(167)
+    run, other = (accurate(gudgeon, text, *options, "--quiet") for text, options in (
+        (deck.text, ("--accuracy", repr(deck.accuracy))),
+        (changed(deck.text, "analysis.dynamic", method="dop853", tolerance="1e-14"), ())))
+    last = int(np.sum(run.time <= run.summary["accuracy"]["claimed_until"]*(1 + 1e-12)))
+    assert last > 20
+    for quantity, parts in (("position", 2), ("velocity", 2), ("angle", 1), ("angular_velocity", 1)):
+        for k in range(parts):
+            name = f"p.{quantity}" + (f".{'xy'[k]}" if parts > 1 else "")
+            here, there = (one.item(f"bodies/{quantity}", "p").reshape(len(one.time), -1)[:last, k] for one in (run, other))
+            assert np.max(np.abs(here - there)) <= 3.0*extremes(run)[name]["error"], name  # round-off of both is chance
+
+
+def test_pin_in_the_middle(gudgeon):
+    """Where a pin in the middle of its bearing would act is anywhere: it is claimed of what touches, and the rest of the run is not lost."""
+    run = accurate(gudgeon, make(87).text, "--accuracy", "1e-3", "--quiet")
+    assert run.summary["accuracy"]["claim"] == "end"
+    touches = run.read("clearances/contacts/state")[:, 0] == 1
+    assert not touches[0] and touches.any()
+    for k, name in enumerate("xy"):
+        claimed, column = extremes(run)[f"gudgeon.contact_point.{name}"], run.read("clearances/contacts/contact_point")[:, 0, k]
+        assert (claimed["min"], claimed["max"]) == (column[touches].min(), column[touches].max())
+        assert 0 < claimed["error"] < 1e-3*claimed["scale"]
+
+
 def test_condition_that_ends_the_run(gudgeon):
     """Runs that a condition ends at slightly different times are compared up to there."""
     run = accurate(gudgeon, SPRING + "[guards]\nstop = mass.velocity.x < -2.5m/s\n", "--accuracy", "1e-7", "--quiet")

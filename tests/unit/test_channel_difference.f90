@@ -25,6 +25,7 @@ contains
 
       call suite%test("by_instant_and_channel", test_by_instant_and_channel)
       call suite%test("values_that_are_none", test_values_that_are_none)
+      call suite%test("place_of_a_contact", test_place_of_a_contact)
       call suite%test("angles_that_go_round", test_angles_that_go_round)
       call suite%test("scales", test_scales)
       call suite%test("first_other_contact", test_first_other_contact)
@@ -41,6 +42,7 @@ contains
       run%kind = [sort_positions, sort_reactions]
       run%factor_of = [1.0_wp, 0.5_wp]
       run%goes_round = [.false., .false.]
+      run%state_of = [0, 0]
       allocate (run%further(3))
       run%further(1) = channel_kind_t(room_energy, class_energy, 0, "")
       run%further(2) = channel_kind_t(room_clearances, class_other, 0, "Pa")
@@ -109,6 +111,33 @@ contains
       call set_differences(a, b, scale, 9.0_wp, by_instant, by_channel, worst)
       call check_true(error, all(by_instant(3:) > 1.0e90_wp), "a run that ends much earlier")
    end subroutine test_values_that_are_none
+
+   !> Where a contact acts is no number while it does not touch: compared where it does in both runs, its extremes from there on.
+   subroutine test_place_of_a_contact(error)
+      type(error_t), allocatable, intent(out) :: error  !! what failed
+
+      type(kept_channels_t) :: a, b
+      real(wp) :: by_channel(2), by_instant(n_instant), scale(n_kind)
+      integer :: worst(n_instant)
+
+      call new_run(a)
+      a%state_of(1) = 7
+      a%series%x(1, :2) = not_a_number()
+      a%series%low(1, :) = [huge(1.0_wp), huge(1.0_wp), 2.0_wp, 2.0_wp]
+      a%series%high(1, :) = [-huge(1.0_wp), -huge(1.0_wp), 2.0_wp, 3.0_wp]
+      a%series%least(1) = 2.0_wp
+      b = a
+      b%series%x(1, 2) = 1.9_wp      ! it touches here a little before
+      b%series%low(1, 2:) = 1.9_wp
+      b%series%high(1, 2) = 1.9_wp
+      b%series%least(1) = 1.9_wp
+      scale = 1.0_wp
+      by_instant = 0.0_wp
+      by_channel = 0.0_wp
+      worst = 0
+      call set_differences(a, b, scale, 9.0_wp, by_instant, by_channel, worst)
+      call check_close(error, by_instant, [0.0_wp, 0.0_wp, 0.1_wp, 0.1_wp], 1.0e-14_wp, "by instant")
+   end subroutine test_place_of_a_contact
 
    !> An angle that jumps from pi to -pi is not a turn off where one run is before the jump and the other behind it.
    subroutine test_angles_that_go_round(error)
