@@ -46,7 +46,8 @@ module command_words
       command_t("import", "MODEL", "make a deck of an Adams dataset MODEL.adm, with a list of what was left out", "--out"), &
       command_t("new", "NAME", "write a commented deck NAME.deck to start from", ""), &
       command_t("list", "[KIND]", "all tables and settings a deck may hold, or a group: gudgeon list contact", ""), &
-      command_t("help", "[KIND]", "this page, or a kind: gudgeon help joint revolute", "--manual --man --completion"), &
+      command_t("help", "[KIND]", "this page, a kind (gudgeon help joint revolute), or a verb; also gudgeon VERB --help", &
+                "--manual --man --completion"), &
       command_t("version", "", "versions of the program and its libraries; also --version", "")]
       !! in the order of the help
 

@@ -11,7 +11,7 @@ module options
    use units, only: parse_unit, read_quantity, unit_t
    implicit none (type, external)
    private
-   public :: options_t, read_options, usage_error
+   public :: any_word, options_t, read_options, usage_error
 
    !> What is set beside the deck.
    type :: changes_t
@@ -120,6 +120,10 @@ contains
       do while (k < command_argument_count())
          k = k + 1
          word = argument(k)
+         if (word == "--help" .or. word == "-h") then
+            call turn_to_help(options)
+            return
+         end if
          if (.not. starts_with(word, "--")) then
             call append_text(options%operands, word)
             cycle
@@ -144,6 +148,15 @@ contains
          if (allocated(error)) return
       end do
    end subroutine read_options
+
+   !> Ask for help on the verb instead.
+   subroutine turn_to_help(options)
+      type(options_t), intent(inout) :: options   !! its operands are left aside
+
+      options%operands = [text_t ::]
+      call append_text(options%operands, options%verb)
+      options%verb = "help"
+   end subroutine turn_to_help
 
    !> Take an option and its value, as in `--option value` or `--option=value`.
    !> Length: a case for each option.

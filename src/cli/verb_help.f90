@@ -1,7 +1,7 @@
 !> `gudgeon help`, `gudgeon list`, `gudgeon --version`: everything read from what the kinds say of themselves.
 module verb_help
    use build_info, only: compile_flags, compiler, git_sha1
-   use command_words, only: exit_codes, exit_meanings, known_options, known_verbs, takers_of, words_of_value
+   use command_words, only: command_t, exit_codes, exit_meanings, known_options, known_verbs, option_t, takers_of, words_of_value
    use completions, only: write_completion
    use console, only: say
    use dimension_text, only: unit_text
@@ -15,7 +15,7 @@ module verb_help
    use kind_list, only: all_kinds
    use libraries, only: library_versions
    use man_page, only: write_man_page
-   use options, only: options_t, usage_error
+   use options, only: any_word, options_t, usage_error
    use mechanism_catalogue, only: energy_info
    use spelling, only: nearest_word
    use text, only: append_text, join, starts_with, text_t, to_text
@@ -90,7 +90,7 @@ contains
       call say("  "//compile_flags)
    end subroutine show_version
 
-   !> `gudgeon help [KIND]` or `gudgeon help SORT NAME`, or the whole manual.
+   !> `gudgeon help [KIND]`, `gudgeon help SORT NAME`, `gudgeon help VERB` (also `gudgeon VERB --help`), or the whole manual.
    subroutine show_help(options, error)
       type(options_t), intent(in) :: options               !! the command line
       type(error_t), allocatable, intent(out) :: error     !! no such kind
@@ -124,10 +124,11 @@ contains
       end if
       wanted = join(options%operands, ".")
       is_found = .false.
-      if (wanted == "run") then
-         call write_usage()
-         return
-      end if
+      do k = 1, size(known_verbs)
+         if (known_verbs(k)%name /= wanted) cycle
+         call write_command(known_verbs(k))
+         is_found = .true.
+      end do
       if (wanted == "functions") then
          call write_functions()
          return
@@ -151,28 +152,18 @@ contains
 
    !> What the program can do.
    subroutine write_usage()
-      character(:), allocatable :: codes, left, right
+      character(:), allocatable :: codes, right
       integer :: k
 
       call say("gudgeon simulates mechanisms whose joints are not perfect.")
       call say("")
       do k = 1, size(known_verbs)
-         associate (verb => known_verbs(k))
-            left = "gudgeon "//trim(verb%name)//" "//trim(verb%operand)
-            if (verb%options /= "") left = trim(left)//" [OPTION]..."
-            call say(trim(left), 2, trim(verb%help), 38)
-         end associate
+         call write_verb(known_verbs(k))
       end do
       call say("")
       call say("Options, and the verbs that take them:")
       do k = 1, size(known_options)
-         associate (option => known_options(k))
-            right = trim(option%help)
-            if (option%is_repeated) right = right//"; may be repeated"
-            left = words_of_value(trim(option%name))
-            if (left /= "") right = right//": "//left
-            call say(trim(trim(option%name)//" "//option%value), 2, right//" ("//takers_of(trim(option%name))//")", 25)
-         end associate
+         call write_option(known_options(k), takers_of(trim(known_options(k)%name)))
       end do
       call say("")
       codes = "Exit codes:"
@@ -187,6 +178,44 @@ contains
       call say(codes)
       call say("Environment: GUDGEON_GNUPLOT_SECONDS is the time that a figure may take; default 300 s.")
    end subroutine write_usage
+
+   !> A verb and its options.
+   subroutine write_command(verb)
+      type(command_t), intent(in) :: verb  !! the verb
+
+      integer :: k
+
+      call write_verb(verb)
+      if (verb%options /= "") call say("Options:")
+      do k = 1, size(known_options)
+         if (any_word(trim(known_options(k)%name), trim(verb%options))) call write_option(known_options(k), "")
+      end do
+   end subroutine write_command
+
+   !> A verb in one line.
+   subroutine write_verb(verb)
+      type(command_t), intent(in) :: verb  !! the verb
+
+      character(:), allocatable :: left
+
+      left = "gudgeon "//trim(verb%name)//" "//trim(verb%operand)
+      if (verb%options /= "") left = trim(left)//" [OPTION]..."
+      call say(trim(left), 2, trim(verb%help), 38)
+   end subroutine write_verb
+
+   !> An option in one line, with the words that its value may be.
+   subroutine write_option(option, takers)
+      type(option_t), intent(in) :: option   !! the option
+      character(*), intent(in) :: takers     !! verbs that take it; blank: they are not told
+
+      character(:), allocatable :: words
+
+      words = trim(option%help)
+      if (option%is_repeated) words = words//"; may be repeated"
+      if (words_of_value(trim(option%name)) /= "") words = words//": "//words_of_value(trim(option%name))
+      if (takers /= "") words = words//" ("//takers//")"
+      call say(trim(trim(option%name)//" "//option%value), 2, words, 25)
+   end subroutine write_option
 
    !> The functions of expressions.
    subroutine write_functions()

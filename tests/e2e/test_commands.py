@@ -170,6 +170,15 @@ def test_help(gudgeon):
     assert "--set" in call(gudgeon, "--help").stdout
 
 
+def test_help_of_a_verb(gudgeon):
+    """A verb with --help tells of its own options, whatever else stands there; help VERB the same, before a section of its name."""
+    text = call(gudgeon, "compare", "--help").stdout
+    assert "gudgeon compare A B" in text and "--relative X" in text and "--walltime" not in text
+    assert call(gudgeon, "compare", "nowhere", "-h", "--nonsense").stdout == call(gudgeon, "help", "compare").stdout == text
+    text = call(gudgeon, "help", "sweep").stdout
+    assert text.startswith(call(gudgeon, "sweep", "--help").stdout.rstrip()) and "combine" in text
+
+
 def test_help_by_the_last_part_of_a_name(gudgeon):
     """help revolute tells of every kind of that name, help energy of the ledger."""
     text = call(gudgeon, "help", "revolute").stdout
