@@ -76,8 +76,7 @@ contains
          if (present(ideal) .and. starts_ideal) ideal = ideal_start_t(q, v, report)
       end if
       if (present(shift)) then
-         call system%linkage%coordinates%add_change(system%linkage%bodies%n, shift%q, q)
-         v = v + shift%v
+         call shift%move(system%linkage%coordinates, system%linkage%bodies%n, q, v)
          call new_system(scene, levels, twin, is_for_start=.true.)
          call assemble(twin%linkage, q, v, report, error)
          if (allocated(error)) return

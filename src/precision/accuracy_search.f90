@@ -5,9 +5,10 @@
 !> extremes up to t_i counted as values. The tighter one of two that differ by less than the accuracy over the safety factor is
 !> taken and confirmed by another integrator, which is made tighter until it differs by no more; where that is not to be had, by a
 !> run of the same one at a hundredth of the tolerance. The error claimed is the greater difference times a safety factor, a
-!> greater one where round-off makes the differences: they are chance there. What confirms starts beside it by as much as numbers of
-!> that size are rounded by: what a motion makes of that, as of a spin that is none until contacts begin together, is in the
-!> difference, while the errors of the runs would else be alike in it. Where no tolerance keeps it to the end it is claimed
+!> greater one where round-off makes the differences: they are chance there. What confirms starts beside it by as much as numbers
+!> are rounded by, each coordinate and rate by a part of itself (what is zero stays so: a symmetric start is one): what a motion
+!> makes of that, as of a spin that is none until contacts begin together, is in the difference, while the errors of the runs
+!> would else be alike in it. Where no tolerance keeps it to the end it is claimed
 !> up to the last instant to which it is kept. Where a condition ends the run, but not another integrator's that goes the same
 !> way, an error meets it and not the motion: the search goes on with tighter tolerances.
 !>
@@ -17,10 +18,10 @@ module accuracy_search
    use accuracy_results, only: accuracy_t, claim_reached, claim_window
    use accuracy_trial, only: agreement, ends_falsely, is_better, make_trial, no_time, same, search_t, trial_t
    use channel_difference, only: channel_scales
-   use kept_run, only: n_sort, sort_velocities
+   use kept_run, only: n_sort
    use kinds, only: eps, least_tolerance, wp
    use precision_info, only: setting_t
-   use precision_reference, only: kept_ladder_t, reach_of, reference_t, size_of
+   use precision_reference, only: kept_ladder_t, reference_t, size_of
    use precision_results, only: precision_t
    use precision_twins, only: run_twins
    use progress, only: progress_t
@@ -43,7 +44,7 @@ module accuracy_search
    real(wp), parameter :: rise = 1.6_wp              !! of the time of a run over that of the one before, for a forecast [1]
    real(wp), parameter :: idle = 0.5_wp              !! of the difference before: it no longer falls [1]
    integer, parameter :: patience = 2                !! pairs of runs in which nothing is gained before the search ends
-   real(wp), parameter :: rounding = 4.0_wp*eps     !! of the start of what confirms: over places and speeds [1]
+   real(wp), parameter :: rounding = 4.0_wp*eps     !! of the start of what confirms, as a part of each coordinate [1]
    real(wp), parameter :: beside = 1.0e-9_wp         !! perturbation of the twins that tell why digits end [1]
 
    character(*), parameter :: others(3) = [character(6) :: "verner", "adams", "bdf"]       !! what confirms, in this order
@@ -162,9 +163,7 @@ contains
 
       pair = agreement(search%taken%run, search%coarser%run, search)
       best = [-2.0_wp, huge(1.0_wp)]
-      job%member = 1
-      job%length = rounding*reach_of(job)
-      job%speed = rounding*search%scale(sort_velocities)
+      job%rounding = rounding
       associate (own => search%taken%what)
          do k = 1, size(others)
             if (others(k) == own%setting%method .or. search%other%is_there) cycle
@@ -174,7 +173,7 @@ contains
             call take(own%setting%method, max(least_tolerance, tightest_part*own%asked), 1.0_wp)
          end if
       end associate
-      job%member = 0
+      job%rounding = 0.0_wp
       if (best(1) >= pair(1) .and. pair(2) <= search%limit) search%reason = ""
       if (best(1) < pair(1) .and. search%reason == "") search%reason = no_tighter
 

@@ -17,8 +17,8 @@ module precision_reference
    use text, only: real_text
    implicit none (type, external)
    private
-   public :: agreement, arms_of, described, last_within, kept_ladder_t, measure_all, measure_rung, motion_of, reach_of, &
-      reference_t, set_bar, size_of
+   public :: agreement, arms_of, described, last_within, kept_ladder_t, measure_all, measure_rung, motion_of, reference_t, &
+      set_bar, size_of
 
    real(wp), parameter :: part_wanted = 0.1_wp  !! of the error wanted that the reference may have [1]
 
@@ -58,14 +58,6 @@ contains
       length = max(extent_of_scene(job%scene), size_of_bodies(job%scene))
       if (length <= 0.0_wp) length = 1.0_wp
    end function size_of
-
-   !> Greatest magnitude of a coordinate at the start, and no less than the size of the mechanism.
-   real(wp) function reach_of(job) result(length)
-      type(job_t), intent(in) :: job       !! what runs share
-
-      length = size_of(job)
-      if (job%scene%bodies%n > 0) length = max(length, maxval(abs(job%scene%bodies%r)))
-   end function reach_of
 
    !> A reference in words.
    function described(reference) result(words)

@@ -43,6 +43,7 @@ module setting_run
       integer :: member = 0                 !! number of the perturbation put on that, 0: none
       real(wp) :: length = 0.0_wp           !! of a perturbation [m]
       real(wp) :: speed = 0.0_wp            !! of a perturbation [m/s]
+      real(wp) :: rounding = 0.0_wp         !! greatest part of each coordinate by which the start is changed, 0: none [1]
    end type job_t
 
    !> What came of a run.
@@ -132,7 +133,7 @@ contains
       call find_start(job%scene, levels_as_written, system, y, assembly, error, shift)
    end subroutine prepare_run
 
-   !> The perturbation of the start: that of the deck's ensemble and that of the job, one on the other.
+   !> The perturbation of the start: that of the deck's ensemble and those of the job, one on the other.
    subroutine find_shift(job, coordinates, shift)
       type(job_t), intent(in) :: job                      !! what all runs share
       class(coordinates_t), intent(in) :: coordinates     !! of the bodies
@@ -141,14 +142,18 @@ contains
       type(shift_t) :: other
 
       if (job%start > 0) shift = new_shift(job%scene, coordinates, job%start)
-      if (job%member <= 0) return
-      other = random_shift(job%scene%bodies, coordinates, 1, job%member, job%length, job%speed)
-      if (.not. allocated(shift)) then
-         shift = other
-      else
-         shift%q = shift%q + other%q
-         shift%v = shift%v + other%v
+      if (job%member > 0) then
+         other = random_shift(job%scene%bodies, coordinates, 1, job%member, job%length, job%speed)
+         if (.not. allocated(shift)) then
+            shift = other
+         else
+            shift%q = shift%q + other%q
+            shift%v = shift%v + other%v
+         end if
       end if
+      if (job%rounding <= 0.0_wp) return
+      if (.not. allocated(shift)) shift = random_shift(job%scene%bodies, coordinates, 1, 1, 0.0_wp, 0.0_wp)
+      call shift%round_off(coordinates, job%scene%bodies%n, job%rounding)
    end subroutine find_shift
 
    !> Give the scene a setting.
