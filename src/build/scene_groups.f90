@@ -295,13 +295,13 @@ contains
       one%settings%dynamic = scene%settings%dynamic
       one%settings%is_spatial = scene%settings%is_spatial
       do k = 1, n_joint_kinds
-         one%joints(k)%info = scene%joints(k)%info
+         one%joints(k)%info => scene%joints(k)%info
       end do
       do k = 1, n_force_kinds
-         one%forces(k)%info = scene%forces(k)%info
+         one%forces(k)%info => scene%forces(k)%info
       end do
       do k = 1, n_clearance_kinds
-         one%clearances(k)%info = scene%clearances(k)%info
+         one%clearances(k)%info => scene%clearances(k)%info
       end do
    end subroutine begin_group_scene
 

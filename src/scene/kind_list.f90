@@ -1,4 +1,5 @@
-!> Every kind and section that a deck may hold, in the order of the manual. Each is asked once; what it said is kept.
+!> Every kind and section that a deck may hold, in the order of the manual. Each is asked once; what it said is kept until the
+!> program ends, so that tables and sections of scenes point to it and hold no copies.
 module kind_list
    use bodies, only: bodies_info, material_info, points_info
    use spatial_bodies, only: spatial_bodies_info, spatial_points_info
@@ -15,7 +16,7 @@ module kind_list
    use guard_info, only: guards_info
    use joint_registry, only: n_joint_kinds, new_joint_set
    use joint_set, only: joint_set_t
-   use kind_info, only: kind_info_t
+   use kind_info, only: is_of_space, kind_info_t
    use lubricant, only: lubricant_info
    use normal_law, only: normal_law_t
    use precision_info, only: precision_section
@@ -25,7 +26,7 @@ module kind_list
    use study_info, only: ensemble_info, statistics_info, sweep_info
    implicit none (type, external)
    private
-   public :: all_kinds, ask_all, clearance_info, film_info, force_info, friction_info, function_info, joint_info, known, law_info
+   public :: all_kinds, clearance_info, film_info, force_info, friction_info, function_info, joint_info, kind_named, known, law_info
 
    ! where the kinds of a registry stand in the list: behind these
    integer, parameter :: before_joints = 6                                                !! sections and tables of the scene
@@ -37,72 +38,88 @@ module kind_list
    integer, parameter :: before_films = before_frictions + n_friction_kinds + 1           !! laws of friction, lubricants
    integer, parameter :: before_settings = before_films + n_film_kinds                    !! films
 
-   type(kind_info_t), allocatable, protected :: known(:)  !! (kinds) what they said, once they were asked
+   type(kind_info_t), allocatable, protected, target :: known(:)  !! (kinds) what they said, once they were asked
 
 contains
 
    !> What kind number k of joints and drivers says of itself.
    function joint_info(k) result(info)
-      integer, intent(in) :: k   !! number in the registry
-      type(kind_info_t) :: info  !! the kind
+      integer, intent(in) :: k            !! number in the registry
+      type(kind_info_t), pointer :: info  !! the kind
 
       call ask_all()
-      info = known(before_joints + k)
+      info => known(before_joints + k)
    end function joint_info
 
    !> What kind number k of force elements says of itself.
    function force_info(k) result(info)
-      integer, intent(in) :: k   !! number in the registry
-      type(kind_info_t) :: info  !! the kind
+      integer, intent(in) :: k            !! number in the registry
+      type(kind_info_t), pointer :: info  !! the kind
 
       call ask_all()
-      info = known(before_forces + k)
+      info => known(before_forces + k)
    end function force_info
 
    !> What kind number k of named functions says of itself.
    function function_info(k) result(info)
-      integer, intent(in) :: k   !! number in the registry
-      type(kind_info_t) :: info  !! the kind
+      integer, intent(in) :: k            !! number in the registry
+      type(kind_info_t), pointer :: info  !! the kind
 
       call ask_all()
-      info = known(before_functions + k)
+      info => known(before_functions + k)
    end function function_info
 
    !> What geometry number k says of itself.
    function clearance_info(k) result(info)
-      integer, intent(in) :: k   !! number in the registry
-      type(kind_info_t) :: info  !! the kind
+      integer, intent(in) :: k            !! number in the registry
+      type(kind_info_t), pointer :: info  !! the kind
 
       call ask_all()
-      info = known(before_clearances + k)
+      info => known(before_clearances + k)
    end function clearance_info
 
    !> What normal law number k says of itself.
    function law_info(k) result(info)
-      integer, intent(in) :: k   !! number in the registry
-      type(kind_info_t) :: info  !! the kind
+      integer, intent(in) :: k            !! number in the registry
+      type(kind_info_t), pointer :: info  !! the kind
 
       call ask_all()
-      info = known(before_laws + k)
+      info => known(before_laws + k)
    end function law_info
 
    !> What friction law number k says of itself.
    function friction_info(k) result(info)
-      integer, intent(in) :: k   !! number in the registry
-      type(kind_info_t) :: info  !! the kind
+      integer, intent(in) :: k            !! number in the registry
+      type(kind_info_t), pointer :: info  !! the kind
 
       call ask_all()
-      info = known(before_frictions + k)
+      info => known(before_frictions + k)
    end function friction_info
 
    !> What film number k says of itself.
    function film_info(k) result(info)
-      integer, intent(in) :: k   !! number in the registry
-      type(kind_info_t) :: info  !! the kind
+      integer, intent(in) :: k            !! number in the registry
+      type(kind_info_t), pointer :: info  !! the kind
 
       call ask_all()
-      info = known(before_films + k)
+      info => known(before_films + k)
    end function film_info
+
+   !> The kind or section of a name; there must be one.
+   function kind_named(name, is_spatial) result(info)
+      character(*), intent(in) :: name    !! as in a deck
+      logical, intent(in) :: is_spatial   !! in spatial scenes, not planar ones
+      type(kind_info_t), pointer :: info  !! the kind
+
+      integer :: k
+
+      call ask_all()
+      do k = 1, size(known)
+         info => known(k)
+         if (info%name == name .and. is_of_space(info, is_spatial)) return
+      end do
+      error stop "internal mistake: there is no such kind"
+   end function kind_named
 
    !> All kinds.
    subroutine all_kinds(kinds)

@@ -6,6 +6,7 @@ module read_functions
    use function_kind, only: function_kind_t, made_t
    use function_registry, only: n_function_kinds, new_function_kind
    use item, only: item_t, location_t
+   use kind_list, only: function_info
    use scene, only: scene_t
    use tables, only: read_items
    implicit none (type, external)
@@ -26,8 +27,7 @@ contains
 
       n = 0
       do k = 1, n_function_kinds
-         call new_function_kind(k, kind)
-         scene%tables%functions(k)%info = kind%info()
+         scene%tables%functions(k)%info => function_info(k)
          call read_items(deck, scene%tables%functions(k)%info, scene%tables%functions(k)%items, diagnostics)
          n = n + size(scene%tables%functions(k)%items)
       end do

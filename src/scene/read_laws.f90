@@ -27,7 +27,7 @@ contains
 
       allocate (scene%laws(0), scene%frictions(0), directory%laws(0), directory%frictions(0))
       do k = 1, n_law_kinds
-         scene%tables%laws(k)%info = law_info(k)
+         scene%tables%laws(k)%info => law_info(k)
          before = diagnostics%count()
          call read_items(deck, scene%tables%laws(k)%info, scene%tables%laws(k)%items, diagnostics)
          associate (items => scene%tables%laws(k)%items)
@@ -39,7 +39,7 @@ contains
          end associate
       end do
       do k = 1, n_friction_kinds
-         scene%tables%frictions(k)%info = friction_info(k)
+         scene%tables%frictions(k)%info => friction_info(k)
          before = diagnostics%count()
          if (is_of_space(scene%tables%frictions(k)%info, scene%settings%is_spatial)) then
             call read_items(deck, scene%tables%frictions(k)%info, scene%tables%frictions(k)%items, diagnostics)

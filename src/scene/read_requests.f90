@@ -6,10 +6,11 @@ module read_requests
    use expression, only: expression_t
    use item, only: item_t, location_t, place_of
    use kind_info, only: cell_expression
+   use kind_list, only: kind_named
    use kinds, only: wp
    use name_table, only: name_table_t
    use references, only: add_names, directory_t, resolve
-   use requests, only: motion_request_info, reaction_info, request_info, requests_t
+   use requests, only: requests_t
    use scene, only: scene_t, table_bodies, table_formulas, table_motions, table_points, table_reactions
    use sight, only: place_t, sees_angle, sees_angular_velocity, sees_distance, sees_distance_rate, sight_t
    use sight_words, only: read_sight_word
@@ -33,9 +34,9 @@ contains
       integer :: k
 
       associate (tables => scene%tables%requests)
-         tables(table_formulas)%info = request_info()
-         tables(table_motions)%info = motion_request_info()
-         tables(table_reactions)%info = reaction_info(scene%settings%is_spatial)
+         tables(table_formulas)%info => kind_named("request", scene%settings%is_spatial)
+         tables(table_motions)%info => kind_named("request.motion", scene%settings%is_spatial)
+         tables(table_reactions)%info => kind_named("request.reaction", scene%settings%is_spatial)
          do k = 1, size(tables)
             call read_items(deck, tables(k)%info, tables(k)%items, diagnostics)
             call resolve(directory, tables(k)%info, tables(k)%items, diagnostics)

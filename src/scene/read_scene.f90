@@ -1,21 +1,20 @@
 !> From a deck to a scene: reads every table, looks up names, checks what tables cannot say of themselves.
 module read_scene
-   use bodies, only: bodies_info, material_info, new_bodies, new_materials, new_points, points_info
+   use bodies, only: new_bodies, new_materials, new_points
    use clearance_registry, only: n_clearance_kinds
    use columns, only: column_of
    use deck_types, only: deck_t, location_of_end
    use diagnostics, only: diagnostics_t
    use figure_list, only: join_figures
    use force_registry, only: n_force_kinds
-   use guard_info, only: guards_info
    use item, only: place_of
    use imsl_names, only: fold_imsl_names
    use joint_registry, only: n_joint_kinds
    use kind_info, only: is_of_space, kind_info_t
-   use kind_list, only: ask_all, clearance_info, force_info, joint_info, known
+   use kind_list, only: clearance_info, force_info, joint_info, kind_named, known
    use option_check, only: check_options
-   use precision_info, only: check_precision, precision_section
-   use lubricant, only: lubricant_info, oil_of_row
+   use precision_info, only: check_precision
+   use lubricant, only: oil_of_row
    use read_films, only: check_lubricants, films_from_deck
    use read_laws, only: laws_from_deck
    use read_functions, only: functions_from_deck
@@ -24,15 +23,15 @@ module read_scene
    use scene, only: analysis_dynamic, analysis_kinematic, analysis_names, n_analysis, n_base, &
       scene_t, section_t, settings_t, table_bodies, table_lubricants, table_materials, table_points, table_shapes, table_t
    use scene_checks, only: check_meaning, check_names
-   use shapes, only: mistake_of_shape, shapes_info
-   use section_info, only: dynamic_info, kinematic_info, output_info, scene_info, static_info
+   use shapes, only: mistake_of_shape
    use settings, only: check_sections, has_section, read_settings
-   use spatial_bodies, only: mistake_of_body, new_spatial_bodies, new_spatial_points, spatial_bodies_info, spatial_points_info
-   use study_info, only: ensemble_info, statistics_info
+   use spatial_bodies, only: mistake_of_body, new_spatial_bodies, new_spatial_points
    use tables, only: read_items
    implicit none (type, external)
    private
    public :: check_space, finish_scene, list_names, resolve_tables, scene_from_deck
+
+   type(kind_info_t), target :: equations  !! keys of [analysis.dynamic] where another analysis needs its equations; set once
 
 contains
 
@@ -44,17 +43,16 @@ contains
 
       type(directory_t) :: directory
 
-      call read_section(deck, scene_info(), scene%settings%header, diagnostics)
+      call read_section(deck, kind_named("scene", .false.), scene%settings%header, diagnostics)
       scene%settings%is_spatial = scene%settings%header%word("space") == "spatial"
       associate (gravity => scene%settings%header%values(place_of(scene%settings%header, "gravity")))
          if (.not. gravity%given) gravity%vector%n = merge(3, 2, scene%settings%is_spatial)
       end associate
-      call ask_all()
       call check_sections(deck, known, scene%settings%is_spatial, diagnostics)
       call functions_from_deck(deck, scene, diagnostics)
       call read_analyses(deck, scene%settings, diagnostics)
-      call read_section(deck, guards_info(), scene%settings%guards, diagnostics)
-      call read_section(deck, output_info(), scene%settings%output, diagnostics)
+      call read_section(deck, kind_named("guards", .false.), scene%settings%guards, diagnostics)
+      call read_section(deck, kind_named("output", .false.), scene%settings%output, diagnostics)
       call join_figures(scene%settings%output%values(place_of(scene%settings%output, "figures")), diagnostics)
       call read_studies(deck, scene%settings, diagnostics)
       call read_tables(deck, scene, diagnostics)
@@ -104,11 +102,11 @@ contains
    !> One section of settings: defaults if the deck has none.
    subroutine read_section(deck, info, section, diagnostics)
       type(deck_t), intent(inout) :: deck                 !! the deck
-      type(kind_info_t), intent(in) :: info               !! keys of the section
+      type(kind_info_t), intent(in), pointer :: info      !! keys of the section
       type(section_t), intent(out) :: section             !! what it sets
       type(diagnostics_t), intent(inout) :: diagnostics   !! mistakes found
 
-      section%info = info
+      section%info => info
       call read_settings(deck, section%info, section%item_t, section%is_present, diagnostics)
    end subroutine read_section
 
@@ -119,16 +117,22 @@ contains
       type(settings_t), intent(inout) :: sections         !! those of the analyses are set
       type(diagnostics_t), intent(inout) :: diagnostics   !! mistakes found
 
-      type(kind_info_t) :: info
+      type(kind_info_t), pointer :: info
       integer :: k
 
       do k = 1, n_analysis
          sections%has_analysis(k) = has_section(deck, "analysis."//trim(analysis_names(k)))
       end do
       if (.not. any(sections%has_analysis)) sections%has_analysis(analysis_dynamic) = .true.
-      info = dynamic_info()
+      info => kind_named("analysis.dynamic", .false.)
       ! what the equations ask of [analysis.dynamic] has defaults in the other analyses
-      if (.not. sections%has_analysis(analysis_dynamic)) info%columns(column_of(info, "end"))%default = "0 s"
+      if (.not. sections%has_analysis(analysis_dynamic)) then
+         if (.not. allocated(equations%columns)) then
+            equations = info
+            equations%columns(column_of(info, "end"))%default = "0 s"
+         end if
+         info => equations
+      end if
       call read_section(deck, info, sections%dynamic, diagnostics)
       do k = 1, size(info%columns)
          associate (column => info%columns(k))
@@ -137,9 +141,10 @@ contains
          end associate
       end do
       call fold_imsl_names(sections%dynamic%info, sections%dynamic%item_t, diagnostics)
-      call read_section(deck, static_info(), sections%static, diagnostics)
-      sections%kinematic%info = kinematic_info()
-      if (sections%has_analysis(analysis_kinematic)) call read_section(deck, kinematic_info(), sections%kinematic, diagnostics)
+      call read_section(deck, kind_named("analysis.static", .false.), sections%static, diagnostics)
+      info => kind_named("analysis.kinematic", .false.)
+      sections%kinematic%info => info
+      if (sections%has_analysis(analysis_kinematic)) call read_section(deck, info, sections%kinematic, diagnostics)
    end subroutine read_analyses
 
    !> The sections of statistics and of many runs, if the deck has them; that of a comparison has defaults.
@@ -148,19 +153,19 @@ contains
       type(settings_t), intent(inout) :: sections         !! those of studies are set
       type(diagnostics_t), intent(inout) :: diagnostics   !! mistakes found
 
-      call read_if_there(statistics_info(), sections%statistics)
-      call read_if_there(ensemble_info(), sections%ensemble)
-      call read_section(deck, precision_section(), sections%precision, diagnostics)
+      call read_if_there(kind_named("statistics", .false.), sections%statistics)
+      call read_if_there(kind_named("ensemble", .false.), sections%ensemble)
+      call read_section(deck, kind_named("precision", .false.), sections%precision, diagnostics)
       if (sections%precision%is_present) call check_precision(sections%precision%item_t, diagnostics)
 
    contains
 
       !> Read a section that has no values unless the deck has it.
       subroutine read_if_there(info, section)
-         type(kind_info_t), intent(in) :: info        !! keys of the section
-         type(section_t), intent(inout) :: section    !! what it sets
+         type(kind_info_t), intent(in), pointer :: info   !! keys of the section
+         type(section_t), intent(inout) :: section        !! what it sets
 
-         section%info = info
+         section%info => info
          if (has_section(deck, info%name)) call read_section(deck, info, section, diagnostics)
       end subroutine read_if_there
 
@@ -174,29 +179,26 @@ contains
 
       integer :: k
 
-      if (scene%settings%is_spatial) then
-         scene%tables%base(table_bodies)%info = spatial_bodies_info()
-         scene%tables%base(table_points)%info = spatial_points_info()
-      else
-         scene%tables%base(table_bodies)%info = bodies_info()
-         scene%tables%base(table_points)%info = points_info()
-      end if
-      scene%tables%base(table_materials)%info = material_info()
-      scene%tables%base(table_lubricants)%info = lubricant_info()
-      scene%tables%base(table_shapes)%info = shapes_info()
+      associate (base => scene%tables%base, is_spatial => scene%settings%is_spatial)
+         base(table_bodies)%info => kind_named("bodies", is_spatial)
+         base(table_points)%info => kind_named("points", is_spatial)
+         base(table_materials)%info => kind_named("material", is_spatial)
+         base(table_lubricants)%info => kind_named("lubricant", is_spatial)
+         base(table_shapes)%info => kind_named("shapes", is_spatial)
+      end associate
       do k = 1, n_base
          call read_items(deck, scene%tables%base(k)%info, scene%tables%base(k)%items, diagnostics)
       end do
       do k = 1, n_joint_kinds
-         scene%joints(k)%info = joint_info(k)
+         scene%joints(k)%info => joint_info(k)
          call read_if_known(scene%joints(k))
       end do
       do k = 1, n_force_kinds
-         scene%forces(k)%info = force_info(k)
+         scene%forces(k)%info => force_info(k)
          call read_if_known(scene%forces(k))
       end do
       do k = 1, n_clearance_kinds
-         scene%clearances(k)%info = clearance_info(k)
+         scene%clearances(k)%info => clearance_info(k)
          call read_if_known(scene%clearances(k))
       end do
 

@@ -44,8 +44,8 @@ module scene
 
    !> The rows of one kind.
    type :: table_t
-      type(kind_info_t) :: info                 !! the kind
-      type(item_t), allocatable :: items(:)     !! (rows) rows, references resolved
+      type(kind_info_t), pointer :: info => null()   !! the kind, of `kind_list`
+      type(item_t), allocatable :: items(:)          !! (rows) rows, references resolved
    end type table_t
 
    !> A place for a normal law of any kind.
@@ -55,8 +55,8 @@ module scene
 
    !> A section of settings: its values, defaults where the deck has none.
    type, extends(item_t) :: section_t
-      type(kind_info_t) :: info          !! its keys
-      logical :: is_present = .false.    !! whether the deck has it
+      type(kind_info_t), pointer :: info => null()   !! its keys, of `kind_list`
+      logical :: is_present = .false.                !! whether the deck has it
    end type section_t
 
    !> What a deck sets. `kinematic`, `statistics` and `ensemble` have values only if the deck has them, the others have defaults.

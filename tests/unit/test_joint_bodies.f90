@@ -58,12 +58,23 @@ contains
       end associate
    end subroutine test_by_points_and_drivers
 
+   !> A kind whose rows name bodies, not points.
+   subroutine name_bodies(info, of_bodies)
+      type(kind_info_t), intent(in) :: info         !! the kind
+      type(kind_info_t), intent(out) :: of_bodies   !! the same, but for its first two columns
+
+      of_bodies = info
+      of_bodies%columns(1)%refers_to = "bodies"
+      of_bodies%columns(2)%refers_to = "bodies"
+   end subroutine name_bodies
+
    !> A kind whose rows name bodies ties these, and not the bodies of the points of the same numbers: the rod stays unguided,
    !> for the weld holds it too, and the crank is known as before.
    subroutine test_by_bodies(error)
       type(error_t), allocatable, intent(out) :: error  !! what failed
 
       type(guide_t), allocatable :: guides(:)
+      type(kind_info_t), target :: of_bodies
       type(link_t), allocatable :: links(:)
       type(loaded_t) :: loaded
       integer :: weld
@@ -72,8 +83,8 @@ contains
       if (allocated(error)) return
       weld = kind_number(loaded%scene, "joint.rigid")
       associate (table => loaded%scene%joints(weld))
-         table%info%columns(1)%refers_to = "bodies"
-         table%info%columns(2)%refers_to = "bodies"
+         call name_bodies(table%info, of_bodies)
+         table%info => of_bodies
          table%items(1)%values(1)%index = 2
          table%items(1)%values(2)%index = 3
       end associate
@@ -90,6 +101,7 @@ contains
       type(error_t), allocatable, intent(out) :: error  !! what failed
 
       type(joint_rigid_t) :: set
+      type(kind_info_t), target :: of_bodies
       type(loaded_t) :: loaded
       integer :: weld
 
@@ -97,8 +109,8 @@ contains
       if (allocated(error)) return
       weld = kind_number(loaded%scene, "joint.rigid")
       associate (table => loaded%scene%joints(weld))
-         table%info%columns(1)%refers_to = "bodies"
-         table%info%columns(2)%refers_to = "bodies"
+         call name_bodies(table%info, of_bodies)
+         table%info => of_bodies
          table%items(1)%values(1)%index = 2
          table%items(1)%values(2)%index = 0
          call tie_set(loaded%scene, table%info, table%items, set)
