@@ -3,7 +3,7 @@
 !> Nothing here is used inside an evaluation.
 module text
    use, intrinsic :: ieee_arithmetic, only: ieee_is_finite, ieee_is_nan
-   use, intrinsic :: iso_c_binding, only: c_char, c_double, c_null_char, c_null_ptr, c_ptr
+   use, intrinsic :: iso_c_binding, only: c_char, c_double, c_int, c_null_char, c_null_ptr, c_ptr
    use, intrinsic :: iso_fortran_env, only: int64
    use kinds, only: wp
    use text_buffer, only: buffer_t
@@ -41,10 +41,7 @@ contains
       integer, intent(in) :: i        !! the number
       character(:), allocatable :: s  !! its digits
 
-      character(16) :: digits
-
-      write (digits, "(i0)") i
-      s = trim(digits)
+      s = long_text(int(i, int64))
    end function integer_text
 
    !> A long integer as text.
@@ -52,10 +49,23 @@ contains
       integer(int64), intent(in) :: i  !! the number
       character(:), allocatable :: s   !! its digits
 
-      character(24) :: digits
+      character(20) :: digits
+      integer :: first
+      integer(int64) :: rest
 
-      write (digits, "(i0)") i
-      s = trim(digits)
+      first = len(digits) + 1
+      rest = i
+      do
+         first = first - 1
+         digits(first:first) = achar(iachar("0") + abs(int(mod(rest, 10_int64))))
+         rest = rest/10
+         if (rest == 0) exit
+      end do
+      if (i < 0) then
+         first = first - 1
+         digits(first:first) = "-"
+      end if
+      s = digits(first:)
    end function long_text
 
    !> A real as text for people, with up to six significant digits.
@@ -96,17 +106,26 @@ contains
       character(:), allocatable, intent(out) :: figures        !! the digits
       integer, intent(out) :: power                            !! of the first one
 
-      character(40) :: image
-      character(12) :: form
+      ! allow(assumed-size, assumed-size-character-intent)
+      interface
+         pure subroutine c_figures(x, digits, image, room) bind(c, name="gudgeon_figures")
+            import :: c_char, c_double, c_int
+            implicit none (type, external)
+            real(c_double), value :: x                              !! the number [any]
+            integer(c_int), value :: digits                         !! how many, at least 1
+            character(kind=c_char), intent(inout) :: image(*)       !! (room) as `d.ddde-07`, ended by a null
+            integer(c_int), value :: room                           !! characters
+         end subroutine c_figures
+      end interface
+
+      character(kind=c_char, len=40) :: image
       integer :: at, k
 
-      k = digits - 1
-      form = "(es40."//achar(iachar("0") + k/10)//achar(iachar("0") + modulo(k, 10))//"e4)"
-      write (image, form) x
-      image = adjustl(image)
-      at = index(image, "E")
-      power = 0  ! E, sign, four digits
-      do k = at + 2, at + 5
+      image = ""
+      call c_figures(real(x, c_double), int(digits, c_int), image, len(image, c_int))
+      at = index(image, "e")
+      power = 0  ! e, sign, two or three digits
+      do k = at + 2, index(image, c_null_char) - 1
          power = 10*power + iachar(image(k:k)) - iachar("0")
       end do
       if (image(at + 1:at + 1) == "-") power = -power

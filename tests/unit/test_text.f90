@@ -6,7 +6,7 @@ module test_text
    use kinds, only: not_a_number, pi, wp
    use numbers, only: number_length, read_number
    use spelling, only: nearest_word
-   use text, only: append_text, exact_text, join, lower, real_text, replace, split_blank, starts_with, text_t, to_text
+   use text, only: append_text, exact_text, join, lower, piece, real_text, replace, split_blank, starts_with, text_t, to_text
    use text_buffer, only: buffer_t
    implicit none (type, external)
    private
@@ -19,6 +19,8 @@ contains
       type(suite_t), intent(inout) :: suite  !! the suite
 
       call suite%test("numbers_as_text", test_numbers_as_text)
+      call suite%test("whole_numbers", test_whole_numbers)
+      call suite%test("figures", test_figures)
       call suite%test("exact_text", test_exact_text)
       call suite%test("lists", test_lists)
       call suite%test("strings", test_strings)
@@ -45,6 +47,54 @@ contains
       call check_equal(error, real_text(pi, 3), "3.14", "three digits")
       call check_equal(error, to_text(not_a_number()), "NaN", "not a number")
    end subroutine test_numbers_as_text
+
+   !> The digits of whole numbers are those of a formatted write.
+   subroutine test_whole_numbers(error)
+      type(error_t), allocatable, intent(out) :: error  !! first failure
+
+      character(24) :: image
+      integer :: i
+      integer(int64) :: n
+
+      call check_equal(error, to_text(0), "0", "nothing")
+      call check_equal(error, to_text(huge(1)), "2147483647", "the greatest")
+      call check_equal(error, to_text(-huge(1) - 1), "-2147483648", "the least")
+      n = -huge(1_int64) - 1_int64
+      do i = 1, 64
+         write (image, "(i0)") n
+         call check_equal(error, to_text(n), trim(image), "one and its half")
+         write (image, "(i0)") - (n + i)
+         call check_equal(error, to_text(-(n + i)), trim(image), "of the other sign")
+         n = n/2
+      end do
+   end subroutine test_whole_numbers
+
+   !> The digits of a number are those of a formatted write, all over the range and for each number of them.
+   subroutine test_figures(error)
+      type(error_t), allocatable, intent(out) :: error  !! first failure
+
+      character(40) :: form, image
+      character(:), allocatable :: s
+      real(wp) :: x
+      integer :: digits, i, power
+
+      do i = 1, 3000
+         x = 10.0_wp**(-307.0_wp + 615.0_wp*i/3000.0_wp)
+         if (i == 3000) x = huge(1.0_wp)
+         if (modulo(i, 7) == 0) x = anint(x*2.0_wp**min(0, 52 - exponent(x)))/8.0_wp  ! halves of the last digit
+         if (.not. x > 0.0_wp) cycle
+         digits = 1 + modulo(i, 17)
+         write (form, "(a, i0, a)") "(es40.", digits - 1, "e4)"
+         write (image, form) x
+         image = adjustl(image)
+         read (image(index(image, "E") + 1:), *) power
+         if (power >= -4 .and. power < max(digits, 6)) cycle  ! written without an exponent
+         s = image(1:index(image, "E") - 1)
+         if (index(s, ".") > 0) s = piece(s, 1, verify(s, "0", back=.true.))
+         if (s(len(s):) == ".") s = piece(s, 1, len(s) - 1)
+         call check_equal(error, real_text(x, digits), s//"e"//to_text(power), trim(image))
+      end do
+   end subroutine test_figures
 
    !> Text that reads back to the very same number.
    subroutine test_exact_text(error)
