@@ -2,6 +2,7 @@
 !>
 !> As in `hdf5_calls`, every procedure does nothing once `status` is negative. Strings are of variable length and UTF-8, and lie in
 !> heaps of the file; words that are replaced in a file that may be read meanwhile are of fixed length and lie where they are named.
+!> What most attributes share, the type of strings and the space of one value, is made once and stays for the life of the program.
 module hdf5_attributes
    use hdf5, only: h5aclose_f, h5acreate_f, h5aopen_f, h5aexists_f, h5awrite_f, h5sclose_f, h5screate_f, h5screate_simple_f
    use hdf5, only: h5tclose_f, h5tcopy_f, h5tset_cset_f, h5tset_size_f, h5tset_strpad_f
@@ -13,6 +14,9 @@ module hdf5_attributes
    implicit none (type, external)
    private
    public :: integer_attribute, long_attribute, real_attribute, string_type, text_attribute, word_attribute, word_type
+
+   integer(hid_t) :: text_id = -1   !! the type of strings, once an attribute was one
+   integer(hid_t) :: scalar_id = -1 !! the space of one value, once there was one
 
 contains
 
@@ -62,10 +66,11 @@ contains
          return
       end if
       if (n == 0) then
-         call h5screate_f(h5s_scalar_f, space, status)
-      else
-         call h5screate_simple_f(1, [int(n, hsize_t)], space, status)
+         if (scalar_id < 0) call h5screate_f(h5s_scalar_f, scalar_id, status)
+         if (status >= 0) call h5acreate_f(object, name, type_id, scalar_id, attribute, status)
+         return
       end if
+      call h5screate_simple_f(1, [int(n, hsize_t)], space, status)
       if (status < 0) return
       call h5acreate_f(object, name, type_id, space, attribute, status)
       call h5sclose_f(space, closed)
@@ -102,17 +107,16 @@ contains
 
       character(kind=c_char, len=:), allocatable, target :: store
       type(c_ptr), target :: pointer
-      integer(hid_t) :: attribute, type_id
+      integer(hid_t) :: attribute
       integer :: closed
 
-      call string_type(type_id, status)
-      call open_attribute(object, name, type_id, 0, attribute, status)
+      if (text_id < 0) call string_type(text_id, status)
+      call open_attribute(object, name, text_id, 0, attribute, status)
       if (status < 0) return
       store = value//c_null_char
       pointer = c_loc(store)
-      call h5awrite_f(attribute, type_id, c_loc(pointer), status)
+      call h5awrite_f(attribute, text_id, c_loc(pointer), status)
       call h5aclose_f(attribute, closed)
-      call h5tclose_f(type_id, closed)
    end subroutine text_attribute
 
    !> Write 32-bit integers as an attribute.
