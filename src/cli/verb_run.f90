@@ -10,7 +10,7 @@ module verb_run
    use options, only: options_t
    use output_size, only: check_size
    use output_tree, only: remove_run
-   use processes, only: asked_by
+   use processes, only: asked_by, take_memory
    use restart_run, only: check_restart, compare_restarted
    use run_place, only: directory_of
    use scene, only: analysis_dynamic, analysis_kinematic, analysis_names, analysis_static
@@ -45,8 +45,9 @@ contains
       type(options_t), intent(in) :: options               !! the command line
       type(error_t), allocatable, intent(out) :: error     !! whatever went wrong
 
-      type(loaded_t) :: loaded
+      type(loaded_t), save :: loaded  ! until the program ends: to take it apart before takes time
 
+      call take_memory()
       call load_deck(options, loaded, error)
       if (.not. allocated(error)) call run_loaded(options, loaded, error)
    end subroutine run_deck

@@ -8,7 +8,7 @@ module processes
    use text_buffer, only: buffer_t
    implicit none (type, external)
    private
-   public :: asked_by, begin_process, clock_ms, end_by, end_process, listen, start_program, wait_group
+   public :: asked_by, begin_process, clock_ms, end_by, end_process, listen, start_program, take_memory, wait_group
 
    ! allow(assumed-size)
    interface
@@ -16,6 +16,11 @@ module processes
       subroutine begin_process() bind(c, name="gudgeon_begin")
          implicit none (type, external)
       end subroutine begin_process
+
+      !> Have at once the memory that the smallest run fills.
+      subroutine take_memory() bind(c, name="gudgeon_take_memory")
+         implicit none (type, external)
+      end subroutine take_memory
 
       subroutine c_end(code) bind(c, name="gudgeon_end")
          import :: c_int
