@@ -50,6 +50,7 @@ static int make_one(const char *path)
 /* Makes a directory and those above it. */
 int gudgeon_make_directory(const char *path)
 {
+   if (make_one(path) == 0) return 0; /* most often all above it is there */
    char *copy = strdup(path);
    if (copy == NULL) return ENOMEM;
    int code = 0;
