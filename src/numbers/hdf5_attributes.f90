@@ -45,13 +45,14 @@ contains
    end subroutine word_type
 
    !> Open an attribute to write it, making it if need be.
-   subroutine open_attribute(object, name, type_id, n, attribute, status)
+   subroutine open_attribute(object, name, type_id, n, attribute, status, is_new)
       integer(hid_t), intent(in) :: object     !! what it belongs to
       character(*), intent(in) :: name         !! its name
       integer(hid_t), intent(in) :: type_id    !! type in the file
       integer, intent(in) :: n                 !! numbers in it, 0: a scalar
       integer(hid_t), intent(out) :: attribute !! the open attribute
       integer, intent(inout) :: status         !! negative: failed
+      logical, intent(in), optional :: is_new  !! it cannot be there yet: that is not asked
 
       integer(hid_t) :: space
       integer :: closed
@@ -59,7 +60,9 @@ contains
 
       attribute = -1
       if (status < 0) return
-      call h5aexists_f(object, name, exists, status)
+      exists = .true.
+      if (present(is_new)) exists = .not. is_new
+      if (exists) call h5aexists_f(object, name, exists, status)
       if (status < 0) return
       if (exists) then
          call h5aopen_f(object, name, attribute, status)
@@ -99,11 +102,12 @@ contains
 
    !> Write a string as an attribute; a string that is there is replaced, where nobody reads the file meanwhile: some versions of
    !> the library take the old one from its heap before the header knows of the new one.
-   subroutine text_attribute(object, name, value, status)
-      integer(hid_t), intent(in) :: object  !! what it belongs to
-      character(*), intent(in) :: name      !! its name
-      character(*), intent(in) :: value     !! the string
-      integer, intent(inout) :: status      !! negative: failed
+   subroutine text_attribute(object, name, value, status, is_new)
+      integer(hid_t), intent(in) :: object     !! what it belongs to
+      character(*), intent(in) :: name         !! its name
+      character(*), intent(in) :: value        !! the string
+      integer, intent(inout) :: status         !! negative: failed
+      logical, intent(in), optional :: is_new  !! the object has just been made and has none of this name
 
       character(kind=c_char, len=:), allocatable, target :: store
       type(c_ptr), target :: pointer
@@ -111,7 +115,7 @@ contains
       integer :: closed
 
       if (text_id < 0) call string_type(text_id, status)
-      call open_attribute(object, name, text_id, 0, attribute, status)
+      call open_attribute(object, name, text_id, 0, attribute, status, is_new)
       if (status < 0) return
       store = value//c_null_char
       pointer = c_loc(store)

@@ -2,7 +2,7 @@
 !>
 !> As in `hdf5_calls`, every procedure does nothing once `status` is negative, and shapes are given in Fortran's order.
 module hdf5_datasets
-   use hdf5, only: h5dclose_f, h5dwrite_f, h5p_dataset_xfer_f, h5pclose_f, h5pcreate_f, h5pset_buffer_f, h5tclose_f
+   use hdf5, only: h5dclose_f, h5dwrite_f, h5p_dataset_xfer_f, h5pcreate_f, h5pset_buffer_f, h5tclose_f
    use hdf5, only: hid_t, hsize_t, h5t_native_double, h5t_native_integer, h5t_std_i32le, h5t_ieee_f64le
    use, intrinsic :: iso_c_binding, only: c_char, c_loc, c_null_char, c_ptr
    use hdf5_attributes, only: string_type, text_attribute
@@ -14,10 +14,13 @@ module hdf5_datasets
    public :: describe, integer_dataset, real_dataset, text_dataset
 
    integer(hsize_t), parameter :: conversion = 65536_hsize_t  !! bytes in which strings get the form of the file; 1 MB is usual
+   integer(hsize_t), parameter :: bytes_of_string = 64_hsize_t  !! more than one takes there: its length and where its heap has it
+
+   integer(hid_t) :: transfer = -1  !! properties of writing strings, once some were written
 
 contains
 
-   !> Say what a dataset holds.
+   !> Say what a dataset that was just made holds.
    subroutine describe(dataset, units, long_name, frame, status)
       integer(hid_t), intent(in) :: dataset  !! the dataset
       character(*), intent(in) :: units      !! SI unit, `1` if none
@@ -25,9 +28,9 @@ contains
       character(*), intent(in) :: frame      !! world, body, joint or none
       integer, intent(inout) :: status       !! negative: failed
 
-      call text_attribute(dataset, "units", units, status)
-      call text_attribute(dataset, "long_name", long_name, status)
-      call text_attribute(dataset, "frame", frame, status)
+      call text_attribute(dataset, "units", units, status, is_new=.true.)
+      call text_attribute(dataset, "long_name", long_name, status, is_new=.true.)
+      call text_attribute(dataset, "frame", frame, status, is_new=.true.)
    end subroutine describe
 
    !> Make a dataset of strings and write it.
@@ -41,7 +44,7 @@ contains
 
       type(c_ptr), target :: pointers(max(size(list), 1))
       character(kind=c_char, len=:), allocatable, target :: store
-      integer(hid_t) :: dataset, transfer, type_id
+      integer(hid_t) :: dataset, type_id
       integer :: at, closed, k, total
 
       call string_type(type_id, status)
@@ -63,10 +66,9 @@ contains
          call new_dataset(file, path, type_id, [size(list, kind=hsize_t)], dataset, status)
       end if
       if (status >= 0 .and. size(list) > 0) then
-         call h5pcreate_f(h5p_dataset_xfer_f, transfer, status)
-         if (status >= 0) call h5pset_buffer_f(transfer, conversion, status)
+         if (transfer < 0) call h5pcreate_f(h5p_dataset_xfer_f, transfer, status)
+         if (status >= 0) call h5pset_buffer_f(transfer, min(conversion, bytes_of_string*size(list, kind=hsize_t)), status)
          if (status >= 0) call h5dwrite_f(dataset, type_id, c_loc(pointers), status, xfer_prp=transfer)
-         call h5pclose_f(transfer, closed)
       end if
       call describe(dataset, "1", long_name, "none", status)
       if (dataset >= 0) call h5dclose_f(dataset, closed)
