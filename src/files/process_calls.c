@@ -118,9 +118,9 @@ void gudgeon_begin(void)
    watch_memory();
 }
 
-/* Memory that the smallest run fills anyway, had at once: as it is needed the system hands it out page by page, at more than twice the
- * cost. What is freed stays in the program, up to 64 MB, and arrays up to 32 MB come from the same store, so that pages are used
- * again: the limits that the store of the GNU C library would come to by itself. No promise: where there is no room, or with
+/* Memory that the smallest run fills anyway, had at once: as it is needed the system hands it out page by page, at more than twice
+ * the cost. What is freed stays in the program, up to 64 MB, and arrays up to 32 MB come from the same store, so that pages are
+ * used again: the limits that the store of the GNU C library would come to by itself. No promise: where there is no room, or with
  * another library or a sanitizer, whose stores are their own, memory is had as it is needed. */
 void gudgeon_take_memory(void)
 {
