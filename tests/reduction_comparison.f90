@@ -95,9 +95,42 @@ contains
       small%is_direct = .false.
       call small%evaluate(t, y, general, status)
       call compare_form(full, small, t, y, error)
+      call compare_reports(small, t, y, error)
       small%is_direct = .true.
       call check_close(error, direct, general, 1.0e-13_wp*maxval(abs(general)), "the direct way at t = "//to_text(t))
    end subroutine compare_at
+
+   !> What a system tells the direct way, by balances, against what it tells the general one, from rows and multipliers.
+   subroutine compare_reports(system, t, y, error)
+      type(mechanism_t), intent(inout) :: system          !! a system that is evaluated the direct way; the general one is set
+      real(wp), intent(in) :: t                           !! time [s]
+      real(wp), intent(in) :: y(:)                        !! (n) a state [any]
+      type(error_t), allocatable, intent(inout) :: error  !! first failure
+
+      type(catalogue_t) :: of(2)
+      real(wp) :: rate(system%n)
+      integer :: first, form, k, last, status
+
+      do form = 1, 2
+         system%is_direct = form == 1
+         call build_catalogue(system, of(form))
+         call report_state(system, t, y, rate, 0.0_wp, of(form), status)
+         call check_equal(error, status, 0, "status of a form")
+         call check_true(error, of(form)%readings%balance%is_set .eqv. form == 1, "balances are found the direct way")
+      end do
+      do k = 1, size(of(1)%groups)
+         associate (group => of(1)%groups(k))
+            first = of(1)%place(k, 1, 1)
+            last = first + group%channel%components*size(group%has) - 1
+            associate (a => of(1)%values(first:last), b => of(2)%values(first:last))
+               call check_true(error, all(ieee_is_nan(a) .eqv. ieee_is_nan(b)), "the same items have "//group%channel%name)
+               call check_close(error, pack(a, .not. ieee_is_nan(a)), pack(b, .not. ieee_is_nan(b)), &
+                                3.0e-13_wp*max(1.0_wp, maxval(abs(b), .not. ieee_is_nan(b))), &
+                                group%channel%name//" the direct way at t = "//to_text(t))
+            end associate
+         end associate
+      end do
+   end subroutine compare_reports
 
    !> The same in the form that the system without them has now.
    subroutine compare_form(full, small, t, y, error)

@@ -42,43 +42,6 @@ contains
       end do
    end subroutine turn
 
-   !> The same on plain arrays.
-   pure subroutine report_bodies(n, reading, n_body, r, v, a, angle, omega, alpha, n_value, values)
-      integer, intent(in) :: n                         !! channels that are read
-      type(reading_t), intent(in) :: reading(n)        !! (n) the channels of the bodies
-      integer, intent(in) :: n_body                    !! number of bodies
-      real(wp), intent(in) :: r(3, 0:n_body)           !! (3, 0:bodies) centres of mass [m]
-      real(wp), intent(in) :: v(3, 0:n_body)           !! (3, 0:bodies) velocities [m/s]
-      real(wp), intent(in) :: a(3, 0:n_body)           !! (3, 0:bodies) accelerations [m/s^2]
-      real(wp), intent(in) :: angle(0:n_body)          !! (0:bodies) angles [rad]
-      real(wp), intent(in) :: omega(3, 0:n_body)       !! (3, 0:bodies) angular velocities [rad/s]
-      real(wp), intent(in) :: alpha(3, 0:n_body)       !! (3, 0:bodies) angular accelerations [rad/s^2]
-      integer, intent(in) :: n_value                   !! values of the catalogue
-      real(wp), intent(inout) :: values(n_value)       !! (n_value) they, those that are read are set [any]
-
-      integer :: at, k, m
-
-      do m = 1, n
-         at = reading(m)%place
-         k = reading(m)%item
-         select case (reading(m)%code)
-         case (of_position)
-            values(at + 1) = r(1, k)
-            values(at + 2) = r(2, k)
-         case (of_velocity)
-            values(at + 1) = v(1, k)
-            values(at + 2) = v(2, k)
-         case (of_acceleration)
-            values(at + 1) = a(1, k)
-            values(at + 2) = a(2, k)
-         case (of_angle)
-            values(at + 1) = angle(k)
-         case (of_angular_velocity)
-            values(at + 1) = omega(3, k)
-         case (of_angular_acceleration)
-            values(at + 1) = alpha(3, k)
-         end select
-      end do
-   end subroutine report_bodies
+   include "report_bodies.inc"
 
 end submodule planar_local_changes

@@ -3,6 +3,7 @@
 !> A kind numbers its channels in `info()`. What is read of a set is a list of these numbers, each with the place of its values
 !> among all values of the catalogue; of joints item by item.
 module readings
+   use balance_plan, only: balance_plan_t
    implicit none (type, external)
    private
    public :: reading_offer_t, reading_plan_t, reading_t, readings_t, wanted_rows_t
@@ -49,6 +50,9 @@ module readings
    !> Those that are read.
    type, extends(reading_offer_t) :: reading_plan_t
       type(wanted_rows_t) :: rows                  !! what they need of rows that are not solved for
+      type(balance_plan_t) :: balance              !! what follows from the balance of bodies, where it does
+      type(readings_t), allocatable :: others(:)   !! (sets) of joints and drivers: what does not follow from it
+      integer, allocatable :: of_others(:)         !! (any) sets of them of which something is read that does not
       integer, allocatable :: of_joints(:)         !! (any) sets of joints and drivers of which something is read
       integer, allocatable :: of_loose(:)          !! (any) sets of joints with clearance of which something is read
    end type reading_plan_t

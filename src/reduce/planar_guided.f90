@@ -114,30 +114,7 @@ contains
       call accelerate(self%n, self%n_turning, self%held, self%item, x_ddot, ubound(motion%angle, 1), motion%a, motion%alpha)
    end subroutine planar_set_acceleration
 
-   !> The same on plain arrays.
-   pure subroutine accelerate(n, n_turning, held, item, x_ddot, n_body, a, alpha)
-      integer, intent(in) :: n                         !! number of guided bodies
-      integer, intent(in) :: n_turning                 !! those that turn
-      type(held_t), intent(in) :: held(n)              !! (n) how they are held
-      type(planar_guide_t), intent(in) :: item(n)      !! (n) the bodies, moved
-      real(wp), intent(in) :: x_ddot(n)                !! (n) second derivatives [rad/s^2 or m/s^2]
-      integer, intent(in) :: n_body                    !! number of bodies
-      real(wp), intent(inout) :: a(3, 0:n_body)        !! (3, 0:bodies) accelerations [m/s^2]
-      real(wp), intent(inout) :: alpha(3, 0:n_body)    !! (3, 0:bodies) angular accelerations [rad/s^2]
-
-      integer :: b, k
-
-      do k = 1, n
-         b = held(k)%body
-         a(1, b) = item(k)%a_0(1) + x_ddot(k)*item(k)%along(1)
-         a(2, b) = item(k)%a_0(2) + x_ddot(k)*item(k)%along(2)
-         if (k <= n_turning) then
-            alpha(3, b) = x_ddot(k)
-         else
-            alpha(3, b) = alpha(3, held(k)%base)
-         end if
-      end do
-   end subroutine accelerate
+   include "planar_accelerate.inc"
 
    !> Coordinates and rates from a motion of all bodies that fulfils the joints.
    pure subroutine planar_read_coordinates(self, motion, x, x_dot)

@@ -3,6 +3,7 @@
 !> Names are compared when it is built, once for each set; what a set tells is a list of numbers from then on (`offer`), of which
 !> those are bound that someone wants.
 module mechanism_catalogue
+   use balanced_report, only: bind_balance
    use catalogue, only: catalogue_t, names_of_channels
    use catalogue_rooms, only: room_bodies, room_clearances, room_contacts, room_drivers, room_energy, room_forces, room_joints
    use joint_friction, only: friction_channels
@@ -140,6 +141,7 @@ contains
          do k = 1, size(plan%ideal)
             call catalogue%bind(offer%ideal(k), plan%ideal(k))
          end do
+         call bind_balance(system, plan)
          call list_rows(system, plan)
          do k = 1, size(plan%loose)
             call catalogue%bind(offer%loose(k), plan%loose(k))
@@ -163,8 +165,8 @@ contains
       is_read = .false.
       associate (joints => system%linkage%joints)
          do k = 1, size(joints)
-            do m = 1, plan%joints(k)%n
-               if (plan%joints(k)%of(m)%code /= of_coordinate) call mark(joints(k)%set, plan%joints(k)%of(m)%item)
+            do m = 1, plan%others(k)%n
+               if (plan%others(k)%of(m)%code /= of_coordinate) call mark(joints(k)%set, plan%others(k)%of(m)%item)
             end do
          end do
          do m = 1, plan%reactions%n

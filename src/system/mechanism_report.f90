@@ -1,15 +1,17 @@
 !> What a system reports: the values of its channels at a state.
 module mechanism_report
+   use balanced_report, only: report_balanced
    use catalogue, only: catalogue_t
    use force_set, only: force_set_t
    use kinds, only: wp
+   use linkage, only: linkage_t
    use mechanism_catalogue, only: of_dissipated_contact, of_dissipated_damper, of_dissipated_film, of_dissipated_friction, &
       of_drive_work, of_elastic, of_kinetic, of_load_work, of_potential, of_stabilisation_work
    use mechanism_energy, only: energy_of, energy_t
    use mechanism, only: mechanism_t
    use motion, only: motion_t
    use point_contacts, only: of_force
-   use readings, only: readings_t
+   use readings, only: reading_plan_t, readings_t
    use request_report, only: report_requests
    implicit none (type, external)
    private
@@ -29,16 +31,22 @@ contains
 
       call system%evaluate(t, y, ydot, status)
       if (status /= 0) return
-      if (system%way%at_stages) then  ! the evaluation was that of a corrected state
-         call system%linkage%set_state(t, y, ydot)
-      else
-         call system%linkage%set_acceleration(ydot)
-      end if
-      if (size(catalogue%readings%rows%sets) > 0) then
-         if (system%is_direct) call system%gather_loads()
-         call system%linkage%find_reactions(t, system%loading%g, catalogue%readings%rows)
-      end if
-      call fill_catalogue(system, t, y, residual, catalogue)
+      associate (linkage => system%linkage, plan => catalogue%readings)
+         if (plan%balance%is_set) then
+            call report_balanced(system, ydot, plan, size(catalogue%values), catalogue%values)
+         else if (system%way%at_stages) then  ! the evaluation was that of a corrected state
+            call linkage%set_state(t, y, ydot)
+         else
+            call linkage%set_acceleration(ydot)
+         end if
+         if (size(plan%rows%sets) > 0) then
+            if (system%is_direct) call system%gather_loads()
+            call linkage%find_reactions(t, system%loading%g, plan%rows)
+         end if
+         if (.not. plan%balance%is_set) call report_bodies(linkage, plan, catalogue%values)
+         if (size(plan%of_others) > 0) call report_joints(linkage, plan%of_others, plan%others, catalogue%values)
+      end associate
+      call report_rest(system, t, y, residual, catalogue)
    end subroutine report_state
 
    !> Fill the catalogue from what the system holds: motion with accelerations, rows, rates of their
@@ -50,26 +58,60 @@ contains
       real(wp), intent(in) :: residual               !! of the ledger at the last step [J]
       type(catalogue_t), intent(inout) :: catalogue  !! values
 
+      associate (plan => catalogue%readings)
+         call report_bodies(system%linkage, plan, catalogue%values)
+         call report_joints(system%linkage, plan%of_joints, plan%joints, catalogue%values)
+      end associate
+      call report_rest(system, t, y, residual, catalogue)
+   end subroutine fill_catalogue
+
+   !> Values of the bodies.
+   subroutine report_bodies(linkage, plan, values)
+      type(linkage_t), intent(in) :: linkage            !! the linkage at the state
+      type(reading_plan_t), intent(in) :: plan          !! what is read
+      real(wp), intent(inout), contiguous :: values(:)  !! (any) of the catalogue, those that are read are set [any]
+
+      if (plan%bodies%n > 0) call linkage%coordinates%report(plan%bodies, linkage%motion, values)
+   end subroutine report_bodies
+
+   !> Values of joints and drivers, from rows and multipliers.
+   subroutine report_joints(linkage, which, readings, values)
+      type(linkage_t), intent(in) :: linkage            !! the linkage at the state
+      integer, intent(in) :: which(:)                   !! (any) sets of which something is read
+      type(readings_t), intent(in) :: readings(:)       !! (sets) what is read of them
+      real(wp), intent(inout), contiguous :: values(:)  !! (any) of the catalogue, those that are read are set [any]
+
+      integer :: k, m
+
+      do m = 1, size(which)
+         k = which(m)
+         call linkage%joints(k)%set%report(readings(k), linkage%motion, linkage%coordinates, linkage%rows, &
+                                           linkage%solution%lambda, linkage%solution%phi_dot, values)
+      end do
+   end subroutine report_joints
+
+   !> Values of all else, expressions over channels last.
+   subroutine report_rest(system, t, y, residual, catalogue)
+      class(mechanism_t), intent(in) :: system       !! the system at the state
+      real(wp), intent(in) :: t                      !! time [s]
+      real(wp), intent(in) :: y(:)                   !! (n) state; without a ledger positions and velocities suffice [any]
+      real(wp), intent(in) :: residual               !! of the ledger at the last step [J]
+      type(catalogue_t), intent(inout) :: catalogue  !! values
+
       integer :: k, m
 
       associate (linkage => system%linkage, plan => catalogue%readings, values => catalogue%values)
-         if (plan%bodies%n > 0) call linkage%coordinates%report(plan%bodies, linkage%motion, values)
-         do m = 1, size(plan%of_joints)
-            k = plan%of_joints(m)
-            call linkage%joints(k)%set%report(plan%joints(k), linkage%motion, linkage%coordinates, linkage%rows, &
-                                              linkage%solution%lambda, linkage%solution%phi_dot, values)
-         end do
          do m = 1, size(plan%of_loose)
             k = plan%of_loose(m)
             call system%loose%sets(k)%set%report(plan%loose(k), linkage%motion, values)
          end do
          if (size(plan%ideal) > 0) call report_ideal(system, plan%ideal, values)
          if (size(plan%forces) > 0) call report_forces(system, t, plan%forces, values)
-         call report_requests(system, t, plan, values)
+         if (plan%points%n + plan%motions%n + plan%reactions%n > 0) call report_requests(system, t, plan, values)
          if (plan%energy%n > 0) call report_energy(system, y, residual, plan%energy, values)
       end associate
-      call catalogue%work_out(t)
-   end subroutine fill_catalogue
+      if (size(catalogue%formulas) > 0) call catalogue%work_out(t)
+   end subroutine report_rest
 
    !> Values of the ledger.
    subroutine report_energy(system, y, residual, readings, values)
