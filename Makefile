@@ -413,7 +413,7 @@ endif
 # Kernels that are text of a procedure so that they are part of it: the compiler finds sine and cosine too large for that. Their loops
 # are of one or two bodies, and what makes long loops fast is in their way.
 ifeq ($(MODE),release)
-$(call object,src/system/mechanism_direct.f90): private FFLAGS += -O2 -fno-gcse --param=max-inline-insns-auto=200
+$(call object,src/system/mechanism_direct.f90 src/system/balanced_report.f90 src/clearance/round_reports.f90): private FFLAGS += -O2 -fno-gcse --param=max-inline-insns-auto=200
 endif
 
 # What reads decks and makes kinds of their rows notes where it goes, for `make fuzz SECONDS=`.

@@ -27,7 +27,8 @@ module point_contacts
    public :: add_contact_channels, point_contacts_t, point_elastic_energy, point_gaps, point_report, point_watch
    public :: take_friction  ! for its submodule
    public :: named_channels
-   public :: of_axial_displacement, of_contact_point, of_eccentricity, of_force, of_moment, of_state, of_tilt
+   public :: of_axial_displacement, of_contact_point, of_eccentricity, of_force, of_friction_force, of_moment, of_normal_force
+   public :: of_penetration, of_penetration_rate, of_state, of_tilt
 
    ! channels
    integer, parameter :: of_force = 1             !! force on j
@@ -36,8 +37,8 @@ module point_contacts
    integer, parameter :: of_normal_force = 4      !! of a contact
    integer, parameter :: of_friction_force = 5    !! of a contact
    integer, parameter :: of_state = 6             !! of a contact
-   integer, parameter :: of_contact_point = 7     !! of a contact
-   integer, parameter :: of_eccentricity = 8      !! a geometry's own
+   integer, parameter :: of_eccentricity = 7      !! a geometry's own
+   integer, parameter :: of_contact_point = 8     !! of a contact
    integer, parameter :: of_moment = 9            !! a geometry's own
    integer, parameter :: of_tilt = 41             !! a geometry's own
    integer, parameter :: of_axial_displacement = 42 !! a geometry's own

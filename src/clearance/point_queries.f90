@@ -102,7 +102,7 @@ contains
       real(wp), intent(out) :: f_elastic(n)                 !! (n) elastic parts of the normal forces [N]
 
       associate (code => readings%of(:readings%n)%code)
-         if (.not. any(code <= of_contact_point .or. code == of_moment .or. code >= of_contact_angle)) return
+         if (.not. any(code <= of_state .or. code == of_contact_point .or. code == of_moment .or. code >= of_contact_angle)) return
       end associate
       if (takes_over) then
          call take_evaluated(self, (item - 1)*n, n, motion, contacts, f_n, f_t, f_elastic)

@@ -14,19 +14,13 @@ module round_contacts
    use clearance_set, only: loss_contact, loss_friction, n_integrand, normal_impulse
    use contact_laws, only: press_in_course
    use contact_memory, only: contact_memory_t
-   use film_law, only: film_motion_t
-   use film_places, only: film_state_t
    use kinds, only: wp
    use motion, only: loads_t, motion_t
    use normal_law, only: n_law_parameter, normal_law_t
    use planar_contacts, only: planar_sliding
    use point_contact, only: point_contact_t
    use planar_points, only: planar_points_t
-   use point_contacts, only: of_eccentricity, of_force, of_state, point_report
    use readings, only: readings_t
-   use revolute_level, only: of_drag_bearing, of_drag_journal, of_eccentricity_ratio, of_film_force, of_film_power, &
-      of_film_pressure, of_film_thickness, of_film_torque, of_side_flow, of_temperature_rise
-   use states_of_contacts, only: state_contact, state_film, state_mixed
    implicit none (type, external)
    private
    public :: journal_t, round_contacts_t
@@ -52,6 +46,31 @@ module round_contacts
       procedure :: report => round_report
       procedure :: report_item => round_report_item
    end type round_contacts_t
+
+   interface
+      !> Values that are read: of films here, and what they add to those of contacts. What is read of contacts is told from where
+      !> the evaluation of this motion found it, if it did.
+      module subroutine round_report(self, readings, motion, values)
+         implicit none (type, external)
+         class(round_contacts_t), intent(in) :: self  !! the set
+         type(readings_t), intent(in) :: readings     !! channels that are read
+         type(motion_t), intent(in) :: motion         !! positions and velocities
+         real(wp), intent(inout), contiguous :: values(:)  !! (any) of the catalogue, those that are read are set [any]
+      end subroutine round_report
+
+      !> The eccentricity: the journal's centre from the bearing's, world frame.
+      module subroutine round_report_item(self, code, item, motion, contacts, f_n, f_t, value)
+         implicit none (type, external)
+         class(round_contacts_t), intent(in) :: self         !! the set
+         integer, intent(in) :: code                         !! the channel
+         integer, intent(in) :: item                         !! the item
+         type(motion_t), intent(in) :: motion                !! positions and velocities
+         type(point_contact_t), intent(in) :: contacts(self%n_contact_item)  !! (n_contact_item) kinematics of its contact
+         real(wp), intent(in) :: f_n(self%n_contact_item)    !! (n_contact_item) normal force [N]
+         real(wp), intent(in) :: f_t(self%n_contact_item)    !! (n_contact_item) friction force on j along t [N]
+         real(wp), intent(inout), contiguous :: value(:)     !! (2) the value [m]
+      end subroutine round_report_item
+   end interface
 
 contains
 
@@ -266,106 +285,5 @@ contains
       e = motion%r(1:2, j) + s_j - motion%r(1:2, i) - s_i
       distance = sqrt(e(1)**2 + e(2)**2)
    end subroutine find_centres
-
-   !> Values that are read: of films here, and what they add to those of contacts.
-   subroutine round_report(self, readings, motion, values)
-      class(round_contacts_t), intent(in) :: self  !! the set
-      type(readings_t), intent(in) :: readings     !! channels that are read
-      type(motion_t), intent(in) :: motion         !! positions and velocities
-      real(wp), intent(inout), contiguous :: values(:)  !! (any) of the catalogue, those that are read are set [any]
-
-      type(film_motion_t) :: film
-      type(film_state_t) :: state
-      integer :: at, k, m
-      logical :: has_state
-
-      call point_report(self, readings, motion, values)
-      if (.not. allocated(self%laws%films)) return
-      do k = 1, self%n
-         film = self%laws%films%motion_of(k, self%items%body(:, k), self%items%s_i(:, k), self%items%s_j(:, k), motion)
-         has_state = .false.
-         do m = 1, readings%n
-            select case (readings%of(m)%code)
-            case (of_force, of_state, of_film_force, of_film_torque, of_drag_journal:of_temperature_rise)
-               if (.not. has_state) state = self%laws%films%state_of(k, self%items%body(:, k), film, motion)
-               has_state = .true.
-            end select
-            if (readings%of(m)%code == of_state) then
-               call add_film_state(state, values(readings%of(m)%place + self%before%contacts + k))
-            else
-               at = readings%of(m)%place + readings%of(m)%width*(self%before%items + k - 1)
-               call report_film(self, readings%of(m)%code, k, film, state, values(at + 1:at + readings%of(m)%width))
-            end if
-         end do
-      end do
-   end subroutine round_report
-
-   !> What a film makes of the state of a contact.
-   pure subroutine add_film_state(state, value)
-      type(film_state_t), intent(in) :: state   !! the film
-      real(wp), intent(inout) :: value          !! the state [1]
-
-      if (state%share > 0.0_wp) value = real(merge(state_mixed, state_film, nint(value) == state_contact), wp)
-   end subroutine add_film_state
-
-   !> A channel that films tell, or add to.
-   subroutine report_film(self, code, k, film, state, value)
-      class(round_contacts_t), intent(in) :: self    !! the set
-      integer, intent(in) :: code                    !! the channel
-      integer, intent(in) :: k                       !! the item
-      type(film_motion_t), intent(in) :: film        !! motion of its film
-      type(film_state_t), intent(in) :: state        !! what the film does, where the channel needs it
-      real(wp), intent(inout), contiguous :: value(:)  !! (components) the value [any]
-
-      select case (code)
-      case (of_force); value(1:2) = value(1:2) + state%force
-      case (of_film_force); value(1:2) = state%force
-      case (of_film_torque); value(1) = state%torque
-      case (of_film_pressure); value(1) = self%laws%films%greatest_pressure(k, film)
-      case (of_eccentricity_ratio); value(1) = norm2(film%e)/self%items%clearance(k)
-      case (of_film_thickness); value(1) = max(self%items%clearance(k) - norm2(film%e), 0.0_wp)
-      case (of_drag_journal); value(1) = state%drag_journal
-      case (of_drag_bearing); value(1) = state%drag_bearing
-      case (of_film_power); value(1) = state%power
-      case (of_side_flow); value(1) = state%side_flow
-      case (of_temperature_rise); value(1) = state%rise
-      end select
-   end subroutine report_film
-
-   !> The eccentricity: the journal's centre from the bearing's, world frame.
-   subroutine round_report_item(self, code, item, motion, contacts, f_n, f_t, value)
-      class(round_contacts_t), intent(in) :: self         !! the set
-      integer, intent(in) :: code                         !! the channel
-      integer, intent(in) :: item                         !! the item
-      type(motion_t), intent(in) :: motion                !! positions and velocities
-      type(point_contact_t), intent(in) :: contacts(self%n_contact_item)  !! (n_contact_item) kinematics of its contact
-      real(wp), intent(in) :: f_n(self%n_contact_item)    !! (n_contact_item) normal force [N]
-      real(wp), intent(in) :: f_t(self%n_contact_item)    !! (n_contact_item) friction force on j along t [N]
-      real(wp), intent(inout), contiguous :: value(:)     !! (2) the value [m]
-
-      if (code /= of_eccentricity) return
-      call find_eccentricity(self%items%body(:, item), self%items%s_i(:, item), self%items%s_j(:, item), ubound(motion%angle, 1), &
-                             motion%r, motion%rot, value)
-   end subroutine round_report_item
-
-   !> The same on plain arrays.
-   pure subroutine find_eccentricity(body, s_bearing, s_journal, n_body, r, rot, e)
-      integer, intent(in) :: body(2)                     !! (2) bodies of bearing and journal
-      real(wp), intent(in) :: s_bearing(3)               !! (3) centre of the bearing, frame of its body [m]
-      real(wp), intent(in) :: s_journal(3)               !! (3) centre of the journal, frame of its body [m]
-      integer, intent(in) :: n_body                      !! number of bodies
-      real(wp), intent(in) :: r(3, 0:n_body)             !! (3, 0:bodies) centres of mass [m]
-      real(wp), intent(in) :: rot(3, 3, 0:n_body)        !! (3, 3, 0:bodies) body frames to world frame [1]
-      real(wp), intent(inout) :: e(2)                    !! (2) of the journal's centre, world frame [m]
-
-      real(wp) :: s_i, s_j
-      integer :: c
-
-      do c = 1, 2
-         s_i = rot(c, 1, body(1))*s_bearing(1) + rot(c, 2, body(1))*s_bearing(2)
-         s_j = rot(c, 1, body(2))*s_journal(1) + rot(c, 2, body(2))*s_journal(2)
-         e(c) = r(c, body(2)) + s_j - r(c, body(1)) - s_i
-      end do
-   end subroutine find_eccentricity
 
 end module round_contacts
