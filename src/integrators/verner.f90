@@ -67,64 +67,76 @@ contains
       if (.not. allocated(self%k)) allocate (self%k(n, 2:8), self%y(n), source=0.0_wp)
    end subroutine verner_prepare
 
-   !> Stages of a step of length h from the start of the present step; the end state into `trial`. Nothing depends on quadratures:
-   !> states of stages are without them, and so are derivatives of stages that the end state has no part of.
-   !> Length: a formula for each stage.
+   !> Stages of a step of length h from the start of the present step; the end state into `trial`.
    subroutine verner_make_stages(self, system, h, status)
       class(verner_t), intent(inout) :: self        !! the integrator
       class(ode_system_t), intent(inout) :: system  !! the system
       real(wp), intent(in) :: h                     !! length of the step [s]
       integer, intent(out) :: status                !! of the evaluations
 
-      real(wp) :: t
+      self%count%n_evaluations = self%count%n_evaluations + n_new_stage
+      call pass_stages(system, system%n, self%step%t0, h, self%step%y0, self%step%f0, self%k, self%y, self%trial, status)
+   end subroutine verner_make_stages
+
+   !> The same on plain arrays. Nothing depends on quadratures: states of stages are without them, and so are derivatives of stages
+   !> that the end state has no part of.
+   !> Length: a formula for each stage.
+   subroutine pass_stages(system, n_all, t, h, y0, k1, k, y, y_end, status)
+      class(ode_system_t), intent(inout) :: system  !! the system
+      integer, intent(in) :: n_all                  !! entries of the state
+      real(wp), intent(in) :: t                     !! time at the start of the step [s]
+      real(wp), intent(in) :: h                     !! its length [s]
+      real(wp), intent(in) :: y0(n_all)             !! (n_all) state at its start [any]
+      real(wp), intent(in) :: k1(n_all)             !! (n_all) derivative there, the first stage [any]
+      real(wp), intent(inout) :: k(n_all, 2:8)      !! (n_all, 2:8) derivatives of the other stages [any]
+      real(wp), intent(inout) :: y(n_all)           !! (n_all) scratch: state of a stage [any]
+      real(wp), intent(inout) :: y_end(n_all)       !! (n_all) state at the end of the step, set [any]
+      integer, intent(out) :: status                !! of the evaluations
+
       integer :: i, n
 
       n = system%n - system%n_quadrature
-      t = self%step%t0
-      associate (y0 => self%step%y0, k1 => self%step%f0, k => self%k, y => self%y)
-         self%count%n_evaluations = self%count%n_evaluations + 7
-         do concurrent(i=1:n)
-            y(i) = y0(i) + h*a21*k1(i)
-         end do
-         call evaluate_stage(system, t + c2*h, y, k(:, 2), .false., status)
-         if (status /= 0) return
-         do concurrent(i=1:n)
-            y(i) = y0(i) + h*(a31*k1(i) + a32*k(i, 2))
-         end do
-         call evaluate_stage(system, t + c3*h, y, k(:, 3), .true., status)
-         if (status /= 0) return
-         do concurrent(i=1:n)
-            y(i) = y0(i) + h*(a41*k1(i) + a42*k(i, 2) + a43*k(i, 3))
-         end do
-         call evaluate_stage(system, t + c4*h, y, k(:, 4), .true., status)
-         if (status /= 0) return
-         do concurrent(i=1:n)
-            y(i) = y0(i) + h*(a51*k1(i) + a52*k(i, 2) + a53*k(i, 3) + a54*k(i, 4))
-         end do
-         call evaluate_stage(system, t + c5*h, y, k(:, 5), .true., status)
-         if (status /= 0) return
-         ! stage 7 does not need stage 6; evaluated before it, all stages at the end of the step follow one another, and what
-         ! is a function of time alone is found once
-         do concurrent(i=1:n)
-            y(i) = y0(i) + h*(a71*k1(i) + a72*k(i, 2) + a73*k(i, 3) + a74*k(i, 4) + a75*k(i, 5))
-         end do
-         call evaluate_stage(system, t + c7*h, y, k(:, 7), .true., status)
-         if (status /= 0) return
-         do concurrent(i=1:n)
-            y(i) = y0(i) + h*(a61*k1(i) + a62*k(i, 2) + a63*k(i, 3) + a64*k(i, 4) + a65*k(i, 5))
-         end do
-         call evaluate_stage(system, t + h, y, k(:, 6), .false., status)
-         if (status /= 0) return
-         do concurrent(i=1:n)
-            y(i) = y0(i) + h*(a81*k1(i) + a82*k(i, 2) + a83*k(i, 3) + a84*k(i, 4) + a85*k(i, 5) + a87*k(i, 7))
-         end do
-         call evaluate_stage(system, t + h, y, k(:, 8), .true., status)
-         if (status /= 0) return
-         do concurrent(i=1:system%n)
-            self%trial(i) = y0(i) + h*(b1*k1(i) + b3*k(i, 3) + b4*k(i, 4) + b5*k(i, 5) + b7*k(i, 7) + b8*k(i, 8))
-         end do
-      end associate
-   end subroutine verner_make_stages
+      do concurrent(i=1:n)
+         y(i) = y0(i) + h*a21*k1(i)
+      end do
+      call evaluate_stage(system, t + c2*h, y, k(:, 2), .false., status)
+      if (status /= 0) return
+      do concurrent(i=1:n)
+         y(i) = y0(i) + h*(a31*k1(i) + a32*k(i, 2))
+      end do
+      call evaluate_stage(system, t + c3*h, y, k(:, 3), .true., status)
+      if (status /= 0) return
+      do concurrent(i=1:n)
+         y(i) = y0(i) + h*(a41*k1(i) + a42*k(i, 2) + a43*k(i, 3))
+      end do
+      call evaluate_stage(system, t + c4*h, y, k(:, 4), .true., status)
+      if (status /= 0) return
+      do concurrent(i=1:n)
+         y(i) = y0(i) + h*(a51*k1(i) + a52*k(i, 2) + a53*k(i, 3) + a54*k(i, 4))
+      end do
+      call evaluate_stage(system, t + c5*h, y, k(:, 5), .true., status)
+      if (status /= 0) return
+      ! stage 7 does not need stage 6; evaluated before it, all stages at the end of the step follow one another, and what
+      ! is a function of time alone is found once
+      do concurrent(i=1:n)
+         y(i) = y0(i) + h*(a71*k1(i) + a72*k(i, 2) + a73*k(i, 3) + a74*k(i, 4) + a75*k(i, 5))
+      end do
+      call evaluate_stage(system, t + c7*h, y, k(:, 7), .true., status)
+      if (status /= 0) return
+      do concurrent(i=1:n)
+         y(i) = y0(i) + h*(a61*k1(i) + a62*k(i, 2) + a63*k(i, 3) + a64*k(i, 4) + a65*k(i, 5))
+      end do
+      call evaluate_stage(system, t + h, y, k(:, 6), .false., status)
+      if (status /= 0) return
+      do concurrent(i=1:n)
+         y(i) = y0(i) + h*(a81*k1(i) + a82*k(i, 2) + a83*k(i, 3) + a84*k(i, 4) + a85*k(i, 5) + a87*k(i, 7))
+      end do
+      call evaluate_stage(system, t + h, y, k(:, 8), .true., status)
+      if (status /= 0) return
+      do concurrent(i=1:n_all)
+         y_end(i) = y0(i) + h*(b1*k1(i) + b3*k(i, 3) + b4*k(i, 4) + b5*k(i, 5) + b7*k(i, 7) + b8*k(i, 8))
+      end do
+   end subroutine pass_stages
 
    !> Norm of the error estimate of the trial step, over the tolerance.
    real(wp) function verner_error_norm(self, system, h) result(norm)
@@ -132,22 +144,34 @@ contains
       class(ode_system_t), intent(in) :: system  !! the system
       real(wp), intent(in) :: h                  !! length of the step [s]
 
+      call self%set_scales(system, self%trial)
+      norm = estimate_norm(system%n - system%n_quadrature, system%n, self%controls%norm == norm_euclidean, self%step%f0, self%k, &
+                           self%scale)
+      norm = h*norm/self%controls%tolerance
+   end function verner_error_norm
+
+   !> Norm of the error estimate by length of the step, over the scales; on plain arrays.
+   pure real(wp) function estimate_norm(n, n_all, is_euclidean, k1, k, scale) result(norm)
+      integer, intent(in) :: n                !! entries that count
+      integer, intent(in) :: n_all            !! entries of the state
+      logical, intent(in) :: is_euclidean     !! the root of the sum of squares; else the greatest entry
+      real(wp), intent(in) :: k1(n_all)       !! (n_all) derivative of the first stage [any]
+      real(wp), intent(in) :: k(n_all, 2:8)   !! (n_all, 2:8) derivatives of the other stages [any]
+      real(wp), intent(in) :: scale(n_all)    !! (n_all) what the entries are measured by [any]
+
       real(wp) :: estimate
       integer :: i
 
-      call self%set_scales(system, self%trial)
       norm = 0.0_wp
-      do i = 1, system%n - system%n_quadrature
-         estimate = abs(e1*self%step%f0(i) + e3*self%k(i, 3) + e4*self%k(i, 4) + e5*self%k(i, 5) + e6*self%k(i, 6) &
-                        + e7*self%k(i, 7) + e8*self%k(i, 8))/self%scale(i)
-         if (self%controls%norm == norm_euclidean) then
+      do i = 1, n
+         estimate = abs(e1*k1(i) + e3*k(i, 3) + e4*k(i, 4) + e5*k(i, 5) + e6*k(i, 6) + e7*k(i, 7) + e8*k(i, 8))/scale(i)
+         if (is_euclidean) then
             norm = norm + estimate**2
          else if (.not. estimate <= norm) then
             norm = estimate  ! a NaN comes through
          end if
       end do
-      if (self%controls%norm == norm_euclidean) norm = sqrt(norm)
-      norm = h*norm/self%controls%tolerance
-   end function verner_error_norm
+      if (is_euclidean) norm = sqrt(norm)
+   end function estimate_norm
 
 end module verner
