@@ -212,7 +212,7 @@ contains
       integer :: c, k, m
 
       if (.not. self%is_set) return
-      call self%films%look(system, t)
+      if (system%loose%has_films) call self%films%look(system, t)
       do k = 1, size(system%loose%sets)
          associate (set => system%loose%sets(k)%set)
             if (set%n_touching == 0) cycle

@@ -128,7 +128,7 @@ contains
       class(whole_motion_t), intent(inout) :: self   !! the motion
       integer, intent(in) :: part                    !! number of the part
 
-      call self%queue%add(self%parts(part)%method%t, part)
+      if (size(self%parts) > 1) call self%queue%add(self%parts(part)%method%t, part)
       if (self%parts(part)%watch%n_peak == 0) return
       self%n_peak = self%n_peak + 1
       self%with_peak(self%n_peak) = part
@@ -149,11 +149,15 @@ contains
       is_smooth = .true.
    end function whole_is_smooth
 
-   !> All parts of the front have made a step: those that are behind now are the front.
+   !> All parts of the front have made a step: those that are behind now are the front. A single part is always there.
    pure subroutine whole_move_front(self)
       class(whole_motion_t), intent(inout) :: self   !! the motion
 
-      call self%queue%take_first(self%t, self%front, self%n_front)
+      if (size(self%parts) > 1) then
+         call self%queue%take_first(self%t, self%front, self%n_front)
+      else
+         self%t = self%parts(1)%method%t
+      end if
    end subroutine whole_move_front
 
    !> Time of the first peak that is not told; far away if there is none.

@@ -33,6 +33,7 @@ module ode_system
       integer :: n_turning = 0              !! bodies that turn in space, the first ones
       logical :: follows_step = .false.     !! whether `set_step` changes the derivative
       logical :: has_films = .false.        !! whether films act, whose forces multiply what is wrong of a state
+      logical :: sees_wild = .false.        !! whether `evaluate` itself gives up derivatives that are wild, see `wild_stages`
       logical :: contact_begins = .false.   !! whether the last event was the onset of a contact
       logical :: with_quadratures = .true.  !! whether quadratures are wanted now: else they, or their rates, may be left
    end type ode_traits_t

@@ -1,5 +1,5 @@
 !> Evaluation of the stages of a step. A derivative may be that of a step far too long for a stiff force: such a step is given up
-!> before its numbers overflow.
+!> before its numbers overflow. A system may see that itself, while it has them in hand (`sees_wild`).
 module wild_stages
    use kinds, only: wp
    use ode_system, only: ode_system_t
@@ -22,13 +22,17 @@ contains
 
       logical :: are_wanted
 
-      if (has_part) then
+      if (has_part .and. system%traits%sees_wild) then
+         call system%evaluate(t, y, f, status)
+         return
+      else if (has_part) then
          call system%evaluate(t, y, f, status)
       else
          are_wanted = system%traits%with_quadratures
          system%traits%with_quadratures = .false.
          call system%evaluate(t, y, f, status)
          system%traits%with_quadratures = are_wanted
+         if (system%traits%sees_wild) return
       end if
       associate (first => system%n_position + 1, last => system%n - system%n_quadrature)
          call judge_stage(last - first + 1, f(first:last), status)

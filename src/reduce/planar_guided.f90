@@ -12,7 +12,6 @@
 !>
 !> Source: Flores et al. (2008), eqs. (2.1), (2.14), in the coordinate of the joint. Limits: the axis is fixed in the base.
 module planar_guided
-   use, intrinsic :: ieee_arithmetic, only: ieee_is_finite
    use kinds, only: wp
    use motion, only: motion_t
    use reduced_bodies, only: guided_bodies_t, held_t
@@ -79,7 +78,7 @@ contains
       real(wp), intent(inout) :: x_ddot(self%n)        !! (n) second derivatives [rad/s^2 or m/s^2]
       integer, intent(out) :: status                   !! 0: all finite
 
-      call find_rates(self%n, self%held, self%item, n_body, g, g, x_dot, rate, x_ddot, status)
+      call find_rates(self%n, self%held, self%item, n_body, g, g, x_dot, huge(1.0_wp), rate, x_ddot, status)
    end subroutine planar_rates
 
    !> Accelerations of the guided bodies under loads, with those that they have by their motion or without: then what the loads

@@ -32,7 +32,7 @@ module mechanism
       procedure :: multipliers => mechanism_multipliers
       procedure :: effect_of => mechanism_effect_of
       procedure :: choose_form => mechanism_choose_form
-      procedure, private :: evaluate_terms, evaluate_directly, ledger_rates
+      procedure, private :: evaluate_terms, evaluate_any, ledger_rates
       procedure :: events => mechanism_events, last_events => mechanism_last_events, settle => mechanism_settle
       procedure :: set_step => mechanism_set_step
       procedure :: hold => mechanism_hold, mend => mechanism_mend, take_way => mechanism_take_way
@@ -59,15 +59,16 @@ module mechanism
          class(mechanism_t), intent(inout) :: self  !! the system
       end subroutine mechanism_choose_form
 
-      !> Rates of the coordinates and their derivatives where they do. Status 1 if they, or a known motion, are not finite numbers.
-      module subroutine evaluate_directly(self, t, y, ydot, status)
+      !> Rates of the coordinates and their derivatives, and those of bristles, in any scene. Status 1: singular or not a number.
+      module subroutine evaluate_any(self, t, inside, y, ydot, status)
          implicit none (type, external)
          class(mechanism_t), intent(inout) :: self  !! the system
-         real(wp), intent(in) :: t                  !! time, in the smooth stretch [s]
+         real(wp), intent(in) :: t                  !! time [s]
+         real(wp), intent(in) :: inside             !! the same in the smooth stretch [s]
          real(wp), intent(in) :: y(self%n)          !! (n) state [any]
          real(wp), intent(inout) :: ydot(self%n)    !! (n) its derivative, but for quadratures [any]
          integer, intent(out) :: status             !! outcome
-      end subroutine evaluate_directly
+      end subroutine evaluate_any
 
       !> Loads and solved rows at the present motion. Status 1 if a known motion is not finite.
       module subroutine evaluate_terms(self, t, status)

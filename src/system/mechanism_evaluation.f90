@@ -1,6 +1,5 @@
-!> The right-hand side: loads, rows, accelerations, and what is integrated besides.
+!> The right-hand side of any scene: loads, rows, accelerations.
 submodule(mechanism) mechanism_evaluation
-   use contact_places, only: impulse_rates
    use loading, only: loading_t, start_loads
    use mechanism_parts, only: loose_t
    use motion, only: loads_t, motion_t
@@ -8,38 +7,8 @@ submodule(mechanism) mechanism_evaluation
 
 contains
 
-   !> Right-hand side. Status 1: singular or not a number, try a smaller step.
-   module procedure mechanism_evaluate
-      real(wp) :: inside
-
-      ! in the smooth stretch: `smooth_piece`, without its call
-      inside = min(max(t, self%linkage%piece%low), self%linkage%piece%high)
-      self%n_evaluations = self%n_evaluations + 1
-      if (self%is_direct) then
-         call evaluate_directly(self, inside, y, ydot, status)
-      else
-         call evaluate_any(self, t, inside, y, ydot, status)
-      end if
-      if (status /= 0 .or. .not. self%traits%with_quadratures) return
-      if (self%ledger%is_kept) then
-         associate (guided => self%linkage%reduced%guided, last => self%linkage%n_position + self%linkage%n_rate)
-            if (guided%n > 0) call guided%set_acceleration(ydot(last - guided%n + 1:), self%linkage%motion)
-         end associate
-         if (self%is_direct) call self%gather_loads()
-         call self%ledger_rates(ydot(self%n - self%n_quadrature + 1:))
-      end if
-      call impulse_rates(self%n_impulse, self%loose%integrands, ydot(self%n - self%n_impulse + 1:))
-   end procedure mechanism_evaluate
-
-   !> Rates of the coordinates and their derivatives, and those of bristles, in any scene. Status 1: singular or not a number.
-   subroutine evaluate_any(self, t, inside, y, ydot, status)
-      class(mechanism_t), intent(inout) :: self  !! the system
-      real(wp), intent(in) :: t                  !! time [s]
-      real(wp), intent(in) :: inside             !! the same in the smooth stretch [s]
-      real(wp), intent(in) :: y(self%n)          !! (n) state [any]
-      real(wp), intent(inout) :: ydot(self%n)    !! (n) its derivative, but for quadratures [any]
-      integer, intent(out) :: status             !! outcome
-
+   !> Rates of the coordinates and their derivatives, and those of bristles, in any scene.
+   module procedure evaluate_any
       if (self%friction%grips%n_bristle > 0) call self%take_bristles(y)
       if (self%way%at_stages) then
          call move_corrected(self, t, y, status)
@@ -72,7 +41,7 @@ contains
          end if
       end associate
       if (self%friction%grips%n_bristle > 0) call self%bristle_rates(ydot)
-   end subroutine evaluate_any
+   end procedure evaluate_any
 
    !> Loads and solved rows at the present motion. Status 1 if a known motion is not finite.
    module procedure evaluate_terms
