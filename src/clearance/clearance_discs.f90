@@ -68,8 +68,7 @@ contains
 
       integer :: k
 
-      call self%make_room()
-      allocate (self%journal(self%n))
+      call self%make_journals()
       do k = 1, self%n
          associate (item => items(k), journal => self%journal(k))
             journal%side = -1.0_wp

@@ -82,8 +82,7 @@ contains
       integer :: k
 
       self%traits%is_round = .true.
-      call self%make_room()
-      allocate (self%journal(self%n))
+      call self%make_journals()
       do k = 1, self%n
          associate (item => items(k), journal => self%journal(k))
             self%items%clearance(k) = item%number("clearance")

@@ -76,10 +76,10 @@ contains
       include "point_way.inc"
    end subroutine flat_evaluate
 
-   include "press.inc"
+   include "push.inc"
    include "planar_loads.inc"
 
-   !> Measure the contacts that touch, all of them where they share faces or act apart.
+   !> Measure the contacts that touch, all of them where they share faces or act apart, and take what the law gets of them.
    subroutine measure_touching(self, motion)
       class(flat_contacts_t), intent(inout) :: self  !! the set; kinematics are set
       type(motion_t), intent(in) :: motion           !! positions and velocities
@@ -88,9 +88,12 @@ contains
       integer :: k
 
       do k = 1, self%n_contact
-         if (.not. (self%contact(k)%is_touching .or. self%traits%has_faces .or. self%laws%normal%acts_apart)) cycle
-         call measure_one(self, k, .true., motion, contact)
-         self%work%contacts(k) = contact
+         if (self%contact(k)%is_touching .or. self%traits%has_faces .or. self%laws%normal%acts_apart) then
+            call measure_one(self, k, .true., motion, contact)
+            self%work%contacts(k) = contact
+         end if
+         call take_contact(self%contact(k), self%work%contacts(k), self%laws%normal%acts_apart, self%work%delta(k), &
+                           self%work%rate(k), self%work%impact_speed(k))
       end do
    end subroutine measure_touching
 

@@ -25,8 +25,11 @@ module round_contacts
    private
    public :: journal_t, round_contacts_t
 
-   !> The surfaces of one joint.
+   !> The surfaces of one joint, and where they are: beside each other, as an evaluation reads them.
    type :: journal_t
+      integer :: body(2) = 0                !! (2) bodies of bearing and journal
+      real(wp) :: s_i(2) = 0.0_wp           !! (2) centre of the bearing, frame of its body [m]
+      real(wp) :: s_j(2) = 0.0_wp           !! (2) centre of the journal, frame of its body [m]
       real(wp) :: radius_i = 0.0_wp         !! radius of the bearing; negative: a disc that the journal touches from outside [m]
       real(wp) :: radius_j = 0.0_wp         !! radius of the journal [m]
       real(wp) :: clearance = 0.0_wp        !! radius_i less radius_j [m]
@@ -39,6 +42,7 @@ module round_contacts
    type, abstract, extends(planar_points_t) :: round_contacts_t
       type(journal_t), allocatable :: journal(:)       !! (n) the surfaces
    contains
+      procedure, non_overridable :: make_journals
       procedure :: evaluate => round_evaluate
       procedure :: measure => measure_one
       procedure :: penetration_acceleration => round_penetration_acceleration
@@ -74,6 +78,21 @@ module round_contacts
 
 contains
 
+   !> Room for the contacts and their surfaces, these where the points of the items are.
+   subroutine make_journals(self)
+      class(round_contacts_t), intent(inout) :: self   !! the set, its items placed
+
+      integer :: k
+
+      call self%make_room()
+      allocate (self%journal(self%n))
+      do k = 1, self%n
+         self%journal(k)%body = self%items%body(:, k)
+         self%journal(k)%s_i = self%items%s_i(1:2, k)
+         self%journal(k)%s_j = self%items%s_j(1:2, k)
+      end do
+   end subroutine make_journals
+
    !> Add the contact forces of the touching contacts.
    subroutine round_evaluate(self, motion, loads, integrands)
       class(round_contacts_t), intent(inout) :: self        !! the set
@@ -84,28 +103,26 @@ contains
       include "point_way.inc"
    end subroutine round_evaluate
 
-   include "press.inc"
+   include "push.inc"
    include "planar_loads.inc"
 
-   !> Measure the contacts that touch, all of them where they act apart, with their sliding velocities where there is friction.
+   !> Measure the contacts that touch, all of them where they act apart, with their sliding velocities where there is friction, and
+   !> take what the law gets of them.
    subroutine measure_touching(self, motion)
       class(round_contacts_t), intent(inout) :: self  !! the set; kinematics are set
       type(motion_t), intent(in) :: motion            !! positions and velocities
 
-      call measure_journals(self%n, self%laws%normal%acts_apart, self%contact, self%items%body, self%items%s_i, self%items%s_j, &
-                            self%journal, &
+      call measure_journals(self%n, self%laws%normal%acts_apart, self%contact, self%journal, &
                             ubound(motion%angle, 1), motion%r, motion%rot, motion%v, motion%omega, allocated(self%laws%friction), &
-                            self%work%contacts)
+                            self%work%contacts, self%work%delta, self%work%rate, self%work%impact_speed)
    end subroutine measure_touching
 
    !> The same on plain arrays.
-   pure subroutine measure_journals(n, all_act, memory, body, s_i, s_j, journal, n_body, r, rot, v, omega, with_sliding, contacts)
+   pure subroutine measure_journals(n, all_act, memory, journal, n_body, r, rot, v, omega, with_sliding, contacts, &
+                                    delta, rate, impact_speed)
       integer, intent(in) :: n                            !! number of contacts
       logical, intent(in) :: all_act                      !! those that are free too
       type(contact_memory_t), intent(in) :: memory(n)     !! (n) states
-      integer, intent(in) :: body(2, n)                   !! (2, n) bodies of bearing and journal
-      real(wp), intent(in) :: s_i(3, n)                   !! (3, n) centre of the bearing, frame of its body [m]
-      real(wp), intent(in) :: s_j(3, n)                   !! (3, n) centre of the journal, frame of its body [m]
       type(journal_t), intent(in) :: journal(n)           !! (n) the surfaces
       integer, intent(in) :: n_body                       !! number of bodies
       real(wp), intent(in) :: r(3, 0:n_body)              !! (3, 0:bodies) centres of mass [m]
@@ -114,14 +131,20 @@ contains
       real(wp), intent(in) :: omega(3, 0:n_body)          !! (3, 0:bodies) angular velocities [rad/s]
       logical, intent(in) :: with_sliding                 !! their sliding velocities too
       type(point_contact_t), intent(inout) :: contacts(n) !! (n) kinematics of those that act
+      real(wp), intent(inout) :: delta(n)                 !! (n) penetration, as `take_contact` has it [m]
+      real(wp), intent(inout) :: rate(n)                  !! (n) its rate [m/s]
+      real(wp), intent(inout) :: impact_speed(n)          !! (n) impact speed [m/s]
 
       real(wp) :: distance
       integer :: k
 
       do k = 1, n
-         if (.not. (memory(k)%is_touching .or. all_act)) cycle
-         call measure_journal(body(:, k), s_i(:, k), s_j(:, k), journal(k), n_body, r, rot, v, omega, contacts(k), distance)
-         if (with_sliding) call measure_sliding(journal(k), distance, body(:, k), n_body, v, omega, contacts(k))
+         if (memory(k)%is_touching .or. all_act) then
+            call measure_journal(journal(k)%body, journal(k)%s_i, journal(k)%s_j, journal(k), n_body, r, rot, v, omega, &
+                                 contacts(k), distance)
+            if (with_sliding) call measure_sliding(journal(k), distance, journal(k)%body, n_body, v, omega, contacts(k))
+         end if
+         call take_contact(memory(k), contacts(k), all_act, delta(k), rate(k), impact_speed(k))
       end do
    end subroutine measure_journals
 
@@ -135,7 +158,7 @@ contains
 
       real(wp) :: distance
 
-      call measure_journal(self%items%body(:, k), self%items%s_i(:, k), self%items%s_j(:, k), self%journal(k), &
+      call measure_journal(self%journal(k)%body, self%journal(k)%s_i, self%journal(k)%s_j, self%journal(k), &
                            ubound(motion%angle, 1), motion%r, &
                            motion%rot, motion%v, motion%omega, contact, distance)
       if (with_sliding) then
@@ -147,8 +170,8 @@ contains
    !> All but the sliding velocity.
    pure subroutine measure_journal(body, s_bearing, s_journal, journal, n_body, r, rot, v, omega, contact, distance)
       integer, intent(in) :: body(2)                     !! (2) bodies of bearing and journal
-      real(wp), intent(in) :: s_bearing(3)               !! (3) centre of the bearing, frame of its body [m]
-      real(wp), intent(in) :: s_journal(3)               !! (3) centre of the journal, frame of its body [m]
+      real(wp), intent(in) :: s_bearing(2)               !! (2) centre of the bearing, frame of its body [m]
+      real(wp), intent(in) :: s_journal(2)               !! (2) centre of the journal, frame of its body [m]
       type(journal_t), intent(in) :: journal             !! the surfaces
       integer, intent(in) :: n_body                      !! number of bodies
       real(wp), intent(in) :: r(3, 0:n_body)             !! (3, 0:bodies) centres of mass [m]

@@ -49,16 +49,18 @@ contains
       include "point_way.inc"
    end subroutine spatial_evaluate
 
-   include "press.inc"
+   include "push.inc"
    include "../math/across.inc"
    include "spatial_loads.inc"
 
-   !> Measure the contacts that act.
+   !> Measure the contacts that act, and take what the law gets of them.
    subroutine measure_touching(self, motion)
       class(spatial_contacts_t), intent(inout) :: self  !! the set; kinematics are set
       type(motion_t), intent(in) :: motion              !! positions and velocities
 
       call self%measure_acting(motion)
+      call take_contact(self%contact, self%work%contacts, self%laws%normal%acts_apart, self%work%delta, self%work%rate, &
+                        self%work%impact_speed)
    end subroutine measure_touching
 
 end module spatial_contacts

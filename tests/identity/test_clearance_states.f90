@@ -12,6 +12,7 @@ module test_clearance_states
    use motion, only: loads_t
    use read_channel, only: read_loose
    use recorder, only: event_t
+   use round_contacts, only: round_contacts_t
    implicit none (type, external)
    private
    public :: run_test_clearance_states
@@ -91,6 +92,12 @@ contains
       bench%set%contact%is_touching = .false.
       bench%set%n_touching = 0
       bench%set%items%s_j = bench%set%items%s_i
+      select type (set => bench%set)
+      class is (round_contacts_t)
+         do k = 1, n_item
+            set%journal(k)%s_j = set%journal(k)%s_i
+         end do
+      end select
       bench%q = 0.0_wp
       bench%q(3, 1:2) = 1.1_wp
       info = bench%set%info()
