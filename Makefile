@@ -411,10 +411,13 @@ $(TEST_OBJECTS) $(call object,$(filter src/scene/% src/cli/%,$(SOURCES))): priva
 endif
 
 # Kernels that are text of a procedure so that they are part of it: the compiler finds sine and cosine too large for that. Their loops
-# are of one or two bodies or contacts: what makes long loops fast is in their way, and registers are shared out best over all of it.
+# are of one or two bodies or contacts: what makes long loops fast is in their way, and so is what keeps more at hand than there are
+# registers.
 ifeq ($(MODE),release)
-$(call object,src/system/mechanism_direct.f90): private FFLAGS += -O2 -fno-gcse -fno-tree-ch -fira-region=one --param=max-inline-insns-auto=200
-$(call object,src/clearance/round_contacts.f90): private FFLAGS += -fno-tree-ch -fira-region=one
+SHORT_LOOPS := -fno-tree-ch -fira-region=one -fno-move-loop-invariants -fno-tree-slsr
+$(call object,src/system/mechanism_direct.f90): private FFLAGS += -O2 -fno-gcse -fno-code-hoisting -fno-tree-pre $(SHORT_LOOPS) \
+  --param=max-inline-insns-auto=200
+$(call object,src/clearance/round_contacts.f90): private FFLAGS += $(SHORT_LOOPS)
 $(call object,src/system/balanced_report.f90 src/clearance/round_reports.f90): private FFLAGS += -O2 -fno-gcse --param=max-inline-insns-auto=200
 endif
 

@@ -21,6 +21,10 @@ contains
       type(planar_link_t) :: link             !! what the kernel needs
 
       call take_points(set, k, held%side, link%s_body, link%s_base)
+      link%body = held%body
+      link%base = held%base
+      link%slot = held%slot
+      link%driver = held%item
       if (held%slot == 0) then
          link%offset = angle(held%body) - angle(held%base)
       else
@@ -41,6 +45,8 @@ contains
       real(wp) :: s_body(2)
 
       call take_points(set, k, held%side, s_body, guide%s_base)
+      guide%body = held%body
+      guide%base = held%base
       guide%mass = mass(1)
       if (slides) then
          guide%offset = angle(held%body) - angle(held%base)

@@ -75,20 +75,21 @@ contains
       integer, intent(out) :: status                !! of the evaluations
 
       self%count%n_evaluations = self%count%n_evaluations + n_new_stage
-      call pass_stages(system, system%n, self%step%t0, h, self%step%y0, self%step%f0, self%k, self%y, self%trial, status)
+      call pass_stages(system, system%n, self%step%t0, h, self%step%y0, self%step%f0, self%k(:, 2), self%k(:, 3), self%k(:, 4), &
+                       self%k(:, 5), self%k(:, 6), self%k(:, 7), self%k(:, 8), self%y, self%trial, status)
    end subroutine verner_make_stages
 
    !> The same on plain arrays. Nothing depends on quadratures: states of stages are without them, and so are derivatives of stages
    !> that the end state has no part of.
    !> Length: a formula for each stage.
-   subroutine pass_stages(system, n_all, t, h, y0, k1, k, y, y_end, status)
+   subroutine pass_stages(system, n_all, t, h, y0, k1, k2, k3, k4, k5, k6, k7, k8, y, y_end, status)
       class(ode_system_t), intent(inout) :: system  !! the system
       integer, intent(in) :: n_all                  !! entries of the state
       real(wp), intent(in) :: t                     !! time at the start of the step [s]
       real(wp), intent(in) :: h                     !! its length [s]
       real(wp), intent(in) :: y0(n_all)             !! (n_all) state at its start [any]
       real(wp), intent(in) :: k1(n_all)             !! (n_all) derivative there, the first stage [any]
-      real(wp), intent(inout) :: k(n_all, 2:8)      !! (n_all, 2:8) derivatives of the other stages [any]
+      real(wp), intent(inout), dimension(n_all) :: k2, k3, k4, k5, k6, k7, k8  !! (n_all) derivatives of the other stages [any]
       real(wp), intent(inout) :: y(n_all)           !! (n_all) scratch: state of a stage [any]
       real(wp), intent(inout) :: y_end(n_all)       !! (n_all) state at the end of the step, set [any]
       integer, intent(out) :: status                !! of the evaluations
@@ -99,42 +100,42 @@ contains
       do concurrent(i=1:n)
          y(i) = y0(i) + h*a21*k1(i)
       end do
-      call evaluate_stage(system, t + c2*h, y, k(:, 2), .false., status)
+      call evaluate_stage(system, t + c2*h, y, k2, .false., status)
       if (status /= 0) return
       do concurrent(i=1:n)
-         y(i) = y0(i) + h*(a31*k1(i) + a32*k(i, 2))
+         y(i) = y0(i) + h*(a31*k1(i) + a32*k2(i))
       end do
-      call evaluate_stage(system, t + c3*h, y, k(:, 3), .true., status)
+      call evaluate_stage(system, t + c3*h, y, k3, .true., status)
       if (status /= 0) return
       do concurrent(i=1:n)
-         y(i) = y0(i) + h*(a41*k1(i) + a42*k(i, 2) + a43*k(i, 3))
+         y(i) = y0(i) + h*(a41*k1(i) + a42*k2(i) + a43*k3(i))
       end do
-      call evaluate_stage(system, t + c4*h, y, k(:, 4), .true., status)
+      call evaluate_stage(system, t + c4*h, y, k4, .true., status)
       if (status /= 0) return
       do concurrent(i=1:n)
-         y(i) = y0(i) + h*(a51*k1(i) + a52*k(i, 2) + a53*k(i, 3) + a54*k(i, 4))
+         y(i) = y0(i) + h*(a51*k1(i) + a52*k2(i) + a53*k3(i) + a54*k4(i))
       end do
-      call evaluate_stage(system, t + c5*h, y, k(:, 5), .true., status)
+      call evaluate_stage(system, t + c5*h, y, k5, .true., status)
       if (status /= 0) return
       ! stage 7 does not need stage 6; evaluated before it, all stages at the end of the step follow one another, and what
       ! is a function of time alone is found once
       do concurrent(i=1:n)
-         y(i) = y0(i) + h*(a71*k1(i) + a72*k(i, 2) + a73*k(i, 3) + a74*k(i, 4) + a75*k(i, 5))
+         y(i) = y0(i) + h*(a71*k1(i) + a72*k2(i) + a73*k3(i) + a74*k4(i) + a75*k5(i))
       end do
-      call evaluate_stage(system, t + c7*h, y, k(:, 7), .true., status)
+      call evaluate_stage(system, t + c7*h, y, k7, .true., status)
       if (status /= 0) return
       do concurrent(i=1:n)
-         y(i) = y0(i) + h*(a61*k1(i) + a62*k(i, 2) + a63*k(i, 3) + a64*k(i, 4) + a65*k(i, 5))
+         y(i) = y0(i) + h*(a61*k1(i) + a62*k2(i) + a63*k3(i) + a64*k4(i) + a65*k5(i))
       end do
-      call evaluate_stage(system, t + h, y, k(:, 6), .false., status)
+      call evaluate_stage(system, t + h, y, k6, .false., status)
       if (status /= 0) return
       do concurrent(i=1:n)
-         y(i) = y0(i) + h*(a81*k1(i) + a82*k(i, 2) + a83*k(i, 3) + a84*k(i, 4) + a85*k(i, 5) + a87*k(i, 7))
+         y(i) = y0(i) + h*(a81*k1(i) + a82*k2(i) + a83*k3(i) + a84*k4(i) + a85*k5(i) + a87*k7(i))
       end do
-      call evaluate_stage(system, t + h, y, k(:, 8), .true., status)
+      call evaluate_stage(system, t + h, y, k8, .true., status)
       if (status /= 0) return
       do concurrent(i=1:n_all)
-         y_end(i) = y0(i) + h*(b1*k1(i) + b3*k(i, 3) + b4*k(i, 4) + b5*k(i, 5) + b7*k(i, 7) + b8*k(i, 8))
+         y_end(i) = y0(i) + h*(b1*k1(i) + b3*k3(i) + b4*k4(i) + b5*k5(i) + b7*k7(i) + b8*k8(i))
       end do
    end subroutine pass_stages
 

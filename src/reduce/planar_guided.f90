@@ -20,7 +20,7 @@ module planar_guided
    private
    public :: planar_guide_t, planar_guided_t
 
-   !> One guided body.
+   !> One guided body: all that the kernel reads of it, side by side.
    type :: planar_guide_t
       real(wp) :: arm(2) = 0.0_wp          !! (2) d in the frame of the body; sliding: u in that of the base [m or 1]
       real(wp) :: s_base(2) = 0.0_wp       !! (2) P, sliding: centre of mass at x = 0; frame of the base [m]
@@ -28,6 +28,8 @@ module planar_guided
       real(wp) :: offset = 0.0_wp          !! sliding: angle of the body less that of its base [rad]
       real(wp) :: turns = 0.0_wp           !! 1: the body turns with the coordinate, 0: it slides [1]
       real(wp) :: mass = 0.0_wp            !! mass of the body [kg]
+      integer :: body = 0                  !! the body, as `held` has it
+      integer :: base = 0                  !! what it is tied to, 0: the ground
       real(wp) :: ease = 0.0_wp            !! one over what the freedom moves: I + m |d|^2, or m [1/(kg.m^2) or 1/kg]
       ! of the motion that is set
       real(wp) :: along(2) = 0.0_wp        !! (2) change of the centre of mass per coordinate, world frame [m or 1]
@@ -59,11 +61,11 @@ contains
       type(motion_t), intent(inout) :: motion         !! the motion of the guided bodies is set
 
       associate (n => self%n_turning, n_body => ubound(motion%angle, 1))
-         call place_turning(n, self%held, self%item, x, x_dot, n_body, motion%a, motion%alpha, motion%r, motion%rot, motion%v, &
-                            motion%omega, motion%angle)
+         call place_turning(n, self%item, x, x_dot, n_body, motion%a, motion%alpha, motion%r, motion%rot, motion%v, motion%omega, &
+                            motion%angle)
          if (n == self%n) return
-         call place_sliding(n, self%n, self%held, self%item, x, x_dot, n_body, motion%a, motion%alpha, motion%r, motion%rot, &
-                            motion%v, motion%omega, motion%angle)
+         call place_sliding(n, self%n, self%item, x, x_dot, n_body, motion%a, motion%alpha, motion%r, motion%rot, motion%v, &
+                            motion%omega, motion%angle)
       end associate
    end subroutine planar_move
 
@@ -78,7 +80,7 @@ contains
       real(wp), intent(inout) :: x_ddot(self%n)        !! (n) second derivatives [rad/s^2 or m/s^2]
       integer, intent(out) :: status                   !! 0: all finite
 
-      call find_rates(self%n, self%held, self%item, n_body, g, g, x_dot, huge(1.0_wp), rate, x_ddot, status)
+      call find_rates(self%n, self%item, n_body, g, g, x_dot, huge(1.0_wp), rate, x_ddot, status)
    end subroutine planar_rates
 
    !> Accelerations of the guided bodies under loads, with those that they have by their motion or without: then what the loads

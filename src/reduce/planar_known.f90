@@ -4,7 +4,6 @@
 !>
 !> Source: Flores et al. (2008), eqs. (2.1), (2.14). Limits: drivers of angles.
 module planar_known
-   use, intrinsic :: ieee_arithmetic, only: ieee_is_finite
    use joint_set, only: joint_slot_t
    use kinds, only: wp
    use motion, only: motion_t
@@ -14,10 +13,14 @@ module planar_known
    private
    public :: planar_known_t, planar_link_t
 
-   !> One known body.
+   !> One known body: all that the kernel reads of it, side by side.
    type :: planar_link_t
       real(wp) :: s_body(2) = 0.0_wp      !! (2) common point in the frame of the body [m]
       real(wp) :: s_base(2) = 0.0_wp      !! (2) the same in the frame of its base [m]
+      integer :: body = 0                 !! the body, as `held` has it
+      integer :: base = 0                 !! what it is tied to, 0: the ground
+      integer :: slot = 0                 !! set of its driver, 0: none
+      integer :: driver = 0               !! its item there
       real(wp) :: sign = 0.0_wp           !! of the driver's angle in that of the body; 0: rigid [1]
       real(wp) :: offset = 0.0_wp         !! angle of the body less that of its base, less sign times f [rad]
    end type planar_link_t
@@ -45,8 +48,8 @@ contains
 
       if (.not. abs(t - self%t) > 0.0_wp) return
       self%t = t
-      call place_bodies(self%n, self%held, self%item, size(joints), joints, t, ubound(motion%angle, 1), motion%r, motion%rot, &
-                        motion%v, motion%omega, motion%angle, motion%a, motion%alpha, self%is_finite)
+      call place_bodies(self%n, self%item, size(joints), joints, t, ubound(motion%angle, 1), motion%r, motion%rot, motion%v, &
+                        motion%omega, motion%angle, motion%a, motion%alpha, self%is_finite)
    end subroutine planar_move
 
    !> Power that the drivers of known bodies give to the mechanism.

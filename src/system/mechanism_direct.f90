@@ -8,7 +8,7 @@
 !> Source: see `planar_known`, `planar_guided`. Limits: nothing that has states or unknowns of its own but coordinates and
 !> quadratures: no bristles, no contacts that stick, no joints that rub by multipliers, no correction of stages.
 submodule(mechanism) mechanism_direct
-   use, intrinsic :: ieee_arithmetic, only: ieee_is_finite
+   use clearance_set, only: clearance_slot_t, n_integrand
    use contact_places, only: impulse_rates
    use joint_set, only: joint_slot_t
    use loading, only: loading_t, start_loads
@@ -16,7 +16,6 @@ submodule(mechanism) mechanism_direct
    use motion, only: loads_t, motion_t
    use planar_guided, only: planar_guide_t, planar_guided_t
    use planar_known, only: planar_known_t, planar_link_t
-   use reduced_bodies, only: held_t
    use wild_stages, only: wild
    implicit none (type, external)
 
@@ -85,13 +84,13 @@ contains
                motion%number = motion%number + 1
                if (abs(t - known%t) > 0.0_wp) then
                   known%t = t
-                  call place_bodies(known%n, known%held, known%item, size(joints), joints, t, n_body, motion%r, motion%rot, &
+                  call place_bodies(known%n, known%item, size(joints), joints, t, n_body, motion%r, motion%rot, &
                                     motion%v, motion%omega, motion%angle, motion%a, motion%alpha, known%is_finite)
                end if
                if (.not. known%is_finite) return
-               call place_guided(guided%n, guided%n_turning, guided%held, guided%item, y, n_body, motion)
+               call place_guided(guided%n, guided%n_turning, guided%item, y, n_body, motion)
                call sum_loads(t, motion, n_body, self%loading, self%loose)
-               call find_rates(guided%n, guided%held, guided%item, n_body, self%loading%loads%force, self%loading%loads%moment, &
+               call find_rates(guided%n, guided%item, n_body, self%loading%loads%force, self%loading%loads%moment, &
                                y(guided%n + 1:), wild, ydot, ydot(guided%n + 1:), status)
             end select
          end select
@@ -104,18 +103,17 @@ contains
    include "sum_loads.inc"
 
    !> Positions and velocities of the guided bodies.
-   pure subroutine place_guided(n, n_turning, held, item, y, n_body, motion)
+   pure subroutine place_guided(n, n_turning, item, y, n_body, motion)
       integer, intent(in) :: n                              !! number of guided bodies
       integer, intent(in) :: n_turning                      !! those that turn
-      type(held_t), intent(in) :: held(n)                   !! (n) how they are held
       type(planar_guide_t), intent(inout) :: item(n)        !! (n) the bodies, moved
       real(wp), intent(in) :: y(2*n)                        !! (2 n) coordinates and rates [rad or m, and per s]
       integer, intent(in) :: n_body                         !! number of bodies
       type(motion_t), intent(inout) :: motion               !! the motion of the guided bodies is set
 
-      call place_turning(n_turning, held, item, y, y(n + 1:), n_body, motion%a, motion%alpha, motion%r, motion%rot, motion%v, &
+      call place_turning(n_turning, item, y, y(n + 1:), n_body, motion%a, motion%alpha, motion%r, motion%rot, motion%v, &
                          motion%omega, motion%angle)
-      call place_sliding(n_turning, n, held, item, y, y(n + 1:), n_body, motion%a, motion%alpha, motion%r, motion%rot, motion%v, &
+      call place_sliding(n_turning, n, item, y, y(n + 1:), n_body, motion%a, motion%alpha, motion%r, motion%rot, motion%v, &
                          motion%omega, motion%angle)
    end subroutine place_guided
 

@@ -1,5 +1,6 @@
 !> The right-hand side of any scene: loads, rows, accelerations.
 submodule(mechanism) mechanism_evaluation
+   use clearance_set, only: clearance_slot_t, n_integrand
    use loading, only: loading_t, start_loads
    use mechanism_parts, only: loose_t
    use motion, only: loads_t, motion_t
