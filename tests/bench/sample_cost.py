@@ -45,7 +45,7 @@ def profile(command, directory):
             callers.append(int((found[4] or "0").replace(",", "")))
             continue
         for name, symbol in PARTS.items():
-            if found[3] == symbol:
+            if found[3] == symbol and sum(callers) > parts[name][0]:  # texts that it includes are listed as its own, without their callers
                 parts[name] = [sum(callers), number]
         callers = []
     return int(total[1]), parts
