@@ -12,6 +12,7 @@
 !>
 !> Source: Flores et al. (2008), eqs. (2.1), (2.14), in the coordinate of the joint. Limits: the axis is fixed in the base.
 module planar_guided
+   use, intrinsic :: ieee_arithmetic, only: ieee_is_finite
    use kinds, only: wp
    use motion, only: motion_t
    use reduced_bodies, only: guided_bodies_t, held_t

@@ -4,6 +4,7 @@
 !>
 !> Source: Flores et al. (2008), eqs. (2.1), (2.14). Limits: drivers of angles.
 module planar_known
+   use, intrinsic :: ieee_arithmetic, only: ieee_is_finite
    use joint_set, only: joint_slot_t
    use kinds, only: wp
    use motion, only: motion_t

@@ -8,6 +8,7 @@
 !> Source: see `planar_known`, `planar_guided`. Limits: nothing that has states or unknowns of its own but coordinates and
 !> quadratures: no bristles, no contacts that stick, no joints that rub by multipliers, no correction of stages.
 submodule(mechanism) mechanism_direct
+   use, intrinsic :: ieee_arithmetic, only: ieee_is_finite
    use clearance_set, only: clearance_slot_t, n_integrand
    use contact_places, only: impulse_rates
    use joint_set, only: joint_slot_t
