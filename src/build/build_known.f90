@@ -15,7 +15,7 @@ module build_known
    use linkage, only: linkage_t
    use planar_guided, only: planar_guided_t
    use planar_known, only: planar_known_t
-   use planar_reduction, only: planar_guide, planar_link
+   use planar_reduction, only: planar_guide, planar_link, take_driver
    use reduced_bodies, only: guided_bodies_t, held_t, known_bodies_t
    use rows, only: side_place
    use scene, only: analysis_dynamic, scene_t
@@ -132,6 +132,9 @@ contains
       select type (known)
       type is (planar_known_t)
          known%item = [(planar_link(linkage%joints(slot(k))%set, item(k), known%held(k), start_angles(scene)), k=1, known%n)]
+         do k = 1, known%n
+            if (known%item(k)%slot > 0) call take_driver(linkage%joints(known%item(k)%slot)%set, known%item(k))
+         end do
       type is (spatial_known_t)
          x = 0.0_wp
          do k = 1, known%n

@@ -1,6 +1,7 @@
 !> What the kernels of known and guided bodies of the plane take of joints.
 !> Planar: the kernels are of the plane.
 module planar_reduction
+   use driver_speed, only: driver_speed_t
    use joint_set, only: joint_set_t
    use kinds, only: wp
    use planar_guided, only: planar_guide_t
@@ -8,7 +9,7 @@ module planar_reduction
    use reduced_bodies, only: held_t
    implicit none (type, external)
    private
-   public :: planar_guide, planar_link
+   public :: planar_guide, planar_link, take_driver
 
 contains
 
@@ -31,6 +32,19 @@ contains
          link%sign = merge(1.0_wp, -1.0_wp, held%side == 2)
       end if
    end function planar_link
+
+   !> The driver of a known body: what one of constant speed says is kept with the body.
+   pure subroutine take_driver(set, link)
+      class(joint_set_t), intent(in) :: set      !! the driver's set
+      type(planar_link_t), intent(inout) :: link !! what the kernel needs, its driver known
+
+      select type (set)
+      type is (driver_speed_t)
+         link%is_steady = .true.
+         link%start = set%start(link%driver)
+         link%speed = set%speed(link%driver)
+      end select
+   end subroutine take_driver
 
    !> A guided body, held by a revolute or a translational joint.
    pure function planar_guide(set, k, held, slides, angle, mass) result(guide)

@@ -22,6 +22,9 @@ module planar_known
       integer :: base = 0                 !! what it is tied to, 0: the ground
       integer :: slot = 0                 !! set of its driver, 0: none
       integer :: driver = 0               !! its item there
+      logical :: is_steady = .false.      !! that driver has a constant speed, which stands here: no call is made for it
+      real(wp) :: start = 0.0_wp          !! f at t = 0 of a steady driver [rad]
+      real(wp) :: speed = 0.0_wp          !! its f' [rad/s]
       real(wp) :: sign = 0.0_wp           !! of the driver's angle in that of the body; 0: rigid [1]
       real(wp) :: offset = 0.0_wp         !! angle of the body less that of its base, less sign times f [rad]
    end type planar_link_t
