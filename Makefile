@@ -417,7 +417,7 @@ ifeq ($(MODE),release)
 SHORT_LOOPS := -fno-tree-ch -fira-region=one -fno-move-loop-invariants -fno-tree-slsr
 $(call object,src/system/mechanism_direct.f90): private FFLAGS += -O2 -fno-gcse -fno-code-hoisting -fno-tree-pre $(SHORT_LOOPS) \
   --param=max-inline-insns-auto=200
-$(call object,src/clearance/round_contacts.f90): private FFLAGS += $(SHORT_LOOPS)
+$(call object,src/clearance/round_contacts.f90): private FFLAGS += $(SHORT_LOOPS) --param=max-inline-insns-auto=200
 $(call object,src/system/balanced_report.f90 src/clearance/round_reports.f90): private FFLAGS += -O2 -fno-gcse --param=max-inline-insns-auto=200
 endif
 

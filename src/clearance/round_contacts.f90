@@ -14,9 +14,10 @@ module round_contacts
    use clearance_set, only: loss_contact, loss_friction, n_integrand, normal_impulse
    use contact_laws, only: press_in_course
    use contact_memory, only: contact_memory_t
+   use deep_damping, only: damp_deep
    use kinds, only: wp
    use motion, only: loads_t, motion_t
-   use normal_law, only: n_law_parameter, normal_law_t
+   use normal_law, only: n_law_parameter, normal_law_t, parameter_gentle
    use planar_contacts, only: planar_sliding
    use point_contact, only: point_contact_t
    use planar_points, only: planar_points_t
@@ -100,11 +101,79 @@ contains
       type(loads_t), intent(inout) :: loads                 !! loads on the bodies
       real(wp), intent(inout) :: integrands(n_integrand, self%n_contact)  !! (3, contacts) power lost and normal force [W and N]
 
+      if (self%n_touching > 0 .and. self%laws%normal%hertz_damping > 0.0_wp .and. .not. allocated(self%laws%friction)) then
+         self%evaluated_at = motion%number
+         call press_journals(self%n, self%laws%normal%hertz_damping, self%laws%parameters, self%contact, self%journal, &
+                             ubound(motion%angle, 1), motion%r, motion%rot, motion%v, motion%omega, self%work%contacts, &
+                             self%work%f_n, self%work%slope_delta, self%work%slope_rate, self%work%f_elastic, loads%force, &
+                             loads%moment, integrands)
+         return
+      end if
       include "point_way.inc"
    end subroutine round_evaluate
 
+   include "../contact/hertz_force.inc"
    include "push.inc"
    include "planar_loads.inc"
+
+   !> One evaluation of contacts without friction whose law is Hertz's with hysteresis damping, contact by contact: what the law
+   !> gets and gives goes through no array, which takes as long as a root.
+   pure subroutine press_journals(n, hysteresis, parameters, memory, journal, n_body, r, rot, v, omega, contacts, f_n, &
+                                  slope_delta, slope_rate, f_elastic, force, moment, integrands)
+      integer, intent(in) :: n                               !! number of contacts
+      real(wp), intent(in) :: hysteresis                     !! h of the law [1]
+      real(wp), intent(in) :: parameters(n_law_parameter, n) !! (n_law_parameter, n) of the law, fitted to them [any]
+      type(contact_memory_t), intent(in) :: memory(n)        !! (n) states
+      type(journal_t), intent(in) :: journal(n)              !! (n) the surfaces
+      integer, intent(in) :: n_body                          !! number of bodies
+      real(wp), intent(in) :: r(3, 0:n_body)                 !! (3, 0:bodies) centres of mass [m]
+      real(wp), intent(in) :: rot(3, 3, 0:n_body)            !! (3, 3, 0:bodies) body frames to world frame [1]
+      real(wp), intent(in) :: v(3, 0:n_body)                 !! (3, 0:bodies) velocities [m/s]
+      real(wp), intent(in) :: omega(3, 0:n_body)             !! (3, 0:bodies) angular velocities [rad/s]
+      type(point_contact_t), intent(inout) :: contacts(n)    !! (n) kinematics of those that touch
+      real(wp), intent(inout) :: f_n(n)                      !! (n) normal forces [N]
+      real(wp), intent(inout) :: slope_delta(n)              !! (n) their derivatives by the penetration [N/m]
+      real(wp), intent(inout) :: slope_rate(n)               !! (n) their derivatives by its rate [N.s/m]
+      real(wp), intent(inout) :: f_elastic(n)                !! (n) their elastic parts [N]
+      real(wp), intent(inout) :: force(3, 0:n_body)          !! (3, 0:bodies) forces, added to [N]
+      real(wp), intent(inout) :: moment(3, 0:n_body)         !! (3, 0:bodies) moments about the centres of mass, added to [N.m]
+      real(wp), intent(inout) :: integrands(n_integrand, n)  !! (3, n) power lost and normal force, set [W and N]
+
+      real(wp) :: distance
+      integer :: k
+      logical :: any_deep, is_deep
+
+      any_deep = .false.
+      do k = 1, n
+         if (.not. memory(k)%is_touching) then
+            f_n(k) = 0.0_wp
+            slope_delta(k) = 0.0_wp
+            slope_rate(k) = 0.0_wp
+            f_elastic(k) = 0.0_wp
+            integrands(:, k) = 0.0_wp
+            cycle
+         end if
+         call measure_journal(journal(k)%body, journal(k)%s_i, journal(k)%s_j, journal(k), n_body, r, rot, v, omega, &
+                              contacts(k), distance)
+         call press_hertz(hysteresis, contacts(k)%delta, contacts(k)%rate, memory(k)%impact_speed, parameters(:, k), f_n(k), &
+                          slope_delta(k), slope_rate(k), f_elastic(k), is_deep)
+         if (is_deep) then
+            any_deep = .true.
+            f_n(k) = -1.0_wp  ! marked
+            cycle
+         end if
+         call add_load(journal(k)%body(1), journal(k)%body(2), contacts(k), f_n(k), f_elastic(k), 0.0_wp, n_body, force, moment, &
+                       integrands(:, k))
+      end do
+      if (.not. any_deep) return
+      do k = 1, n
+         if (f_n(k) >= 0.0_wp) cycle  ! but those marked above
+         call damp_deep(hysteresis, contacts(k)%delta, contacts(k)%rate, memory(k)%impact_speed, &
+                        parameters(parameter_gentle, k), f_elastic(k), f_n(k), slope_delta(k), slope_rate(k))
+         call add_load(journal(k)%body(1), journal(k)%body(2), contacts(k), f_n(k), f_elastic(k), 0.0_wp, n_body, force, moment, &
+                       integrands(:, k))
+      end do
+   end subroutine press_journals
 
    !> Measure the contacts that touch, all of them where they act apart, with their sliding velocities where there is friction, and
    !> take what the law gets of them.
@@ -231,18 +300,21 @@ contains
       type(motion_t), intent(in) :: motion           !! positions, velocities and accelerations
       type(point_contact_t), intent(in) :: contact   !! its kinematics
 
-      acceleration = acceleration_along(self%items%body(:, k), self%items%s_i(:, k), self%items%s_j(:, k), self%journal(k)%side, &
-                                        ubound(motion%angle, 1), motion%r, motion%rot, motion%v, motion%omega, motion%a, &
-                                        motion%alpha, contact%normal, contact%rate)
+      associate (journal => self%journal(k))
+         acceleration = acceleration_along(journal%body, journal%s_i, journal%s_j, journal%side, &
+                                           journal%side*(contact%delta + journal%clearance), ubound(motion%angle, 1), motion%r, &
+                                           motion%rot, motion%v, motion%omega, motion%a, motion%alpha, contact%normal, contact%rate)
+      end associate
    end function round_penetration_acceleration
 
    !> The same on plain arrays.
-   pure real(wp) function acceleration_along(body, s_bearing, s_journal, side, n_body, r, rot, v, omega, a, alpha, normal, rate) &
-      result(acceleration)
+   pure real(wp) function acceleration_along(body, s_bearing, s_journal, side, distance, n_body, r, rot, v, omega, a, alpha, &
+                                             normal, rate) result(acceleration)
       integer, intent(in) :: body(2)                     !! (2) bodies of bearing and journal
-      real(wp), intent(in) :: s_bearing(3)               !! (3) centre of the bearing, frame of its body [m]
-      real(wp), intent(in) :: s_journal(3)               !! (3) centre of the journal, frame of its body [m]
+      real(wp), intent(in) :: s_bearing(2)               !! (2) centre of the bearing, frame of its body [m]
+      real(wp), intent(in) :: s_journal(2)               !! (2) centre of the journal, frame of its body [m]
       real(wp), intent(in) :: side                       !! 1: in a hole; -1: beside a disc [1]
+      real(wp), intent(in) :: distance                   !! of the centres [m]
       integer, intent(in) :: n_body                      !! number of bodies
       real(wp), intent(in) :: r(3, 0:n_body)             !! (3, 0:bodies) centres of mass [m]
       real(wp), intent(in) :: rot(3, 3, 0:n_body)        !! (3, 3, 0:bodies) body frames to world frame [1]
@@ -260,7 +332,7 @@ contains
       e_ddot(1) = a(1, j) - a(1, i) - alpha(3, j)*s_j(2) - omega(3, j)**2*s_j(1) + alpha(3, i)*s_i(2) + omega(3, i)**2*s_i(1)
       e_ddot(2) = a(2, j) - a(2, i) + alpha(3, j)*s_j(1) - omega(3, j)**2*s_j(2) - alpha(3, i)*s_i(1) + omega(3, i)**2*s_i(2)
       acceleration = normal(1)*e_ddot(1) + normal(2)*e_ddot(2) &
-                     + (e_dot(1)**2 + e_dot(2)**2 - rate**2)/(side*max(sqrt(e(1)**2 + e(2)**2), tiny(1.0_wp)))
+                     + (e_dot(1)**2 + e_dot(2)**2 - rate**2)/(side*max(distance, tiny(1.0_wp)))
    end function acceleration_along
 
    !> The normal turns with e' . t / |e|, and the point of contact goes along with it: of its velocity only the part along the

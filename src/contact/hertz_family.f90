@@ -22,8 +22,7 @@ module hertz_family
 
    !> Contact of curved surfaces with hysteresis damping.
    type, abstract, extends(normal_law_t) :: hertz_family_t
-      real(wp) :: stiffness = 0.0_wp   !! given contact stiffness, 0: from the geometry [N/m^1.5]
-      real(wp) :: hysteresis = 0.0_wp  !! h [1]
+      real(wp) :: stiffness = 0.0_wp  !! given contact stiffness, 0: from the geometry [N/m^1.5]
    contains
       procedure(hysteresis_interface), nopass, deferred :: hysteresis_of
       procedure :: prepare => family_prepare
@@ -69,7 +68,7 @@ contains
 
       self%name = item%name
       self%stiffness = item%number("stiffness")
-      if (find_place(item, "restitution") > 0) self%hysteresis = self%hysteresis_of(item%number("restitution"))
+      if (find_place(item, "restitution") > 0) self%hertz_damping = self%hysteresis_of(item%number("restitution"))
    end subroutine family_prepare
 
    !> Stiffness: given, or from the surfaces.
@@ -103,32 +102,18 @@ contains
       real(wp), intent(out) :: df_drate(n)                   !! (n) its derivative by rate [N.s/m]
       real(wp), intent(out) :: f_elastic(n)                  !! (n) elastic part of the force [N]
 
-      real(wp) :: by_delta, elastic, factor, slope
       integer :: k
-      logical :: is_deep
+      logical :: any_deep, is_deep
 
-      is_deep = .false.
+      any_deep = .false.
       do k = 1, n
-         call elastic_force(parameters(1, k), delta(k), elastic, by_delta)
-         f_elastic(k) = elastic
-         if (parameters(parameter_gentle, k)*elastic*delta(k) < impact_speed(k)*impact_speed(k)) then
-            slope = self%hysteresis/impact_speed(k)
-            factor = 1.0_wp + slope*rate(k)
-            if (factor < 0.0_wp) then
-               f(k) = 0.0_wp
-               df_ddelta(k) = 0.0_wp
-               df_drate(k) = 0.0_wp
-            else
-               f(k) = elastic*factor
-               df_ddelta(k) = by_delta*factor
-               df_drate(k) = elastic*slope
-            end if
-         else
-            df_ddelta(k) = by_delta
-            is_deep = .true.
-         end if
+         call press_hertz(self%hertz_damping, delta(k), rate(k), impact_speed(k), parameters(:, k), f(k), df_ddelta(k), &
+                          df_drate(k), f_elastic(k), is_deep)
+         any_deep = any_deep .or. is_deep
       end do
-      if (is_deep) call damp_all_deep(self%hysteresis, n, delta, rate, impact_speed, parameters, f, df_ddelta, df_drate, f_elastic)
+      if (any_deep) then
+         call damp_all_deep(self%hertz_damping, n, delta, rate, impact_speed, parameters, f, df_ddelta, df_drate, f_elastic)
+      end if
    end subroutine family_force
 
    !> Elastic energy of one contact.
@@ -148,22 +133,10 @@ contains
       character(:), allocatable :: words                   !! for `gudgeon explain`
 
       words = "stiffness "//real_text(parameters(1), 6)//" N/m^1.5"
-      if (self%hysteresis > 0.0_wp) words = words//", damping factor "//real_text(self%hysteresis, 6)
+      if (self%hertz_damping > 0.0_wp) words = words//", damping factor "//real_text(self%hertz_damping, 6)
    end function family_story
 
-   !> K delta^1.5 and its derivative; zero where delta is not positive.
-   elemental subroutine elastic_force(stiffness, delta, f, df_ddelta)
-      real(wp), intent(in) :: stiffness   !! contact stiffness [N/m^1.5]
-      real(wp), intent(in) :: delta       !! penetration [m]
-      real(wp), intent(out) :: f          !! elastic force [N]
-      real(wp), intent(out) :: df_ddelta  !! its derivative [N/m]
-
-      real(wp) :: root
-
-      root = sqrt(max(delta, 0.0_wp))
-      f = stiffness*root*max(delta, 0.0_wp)
-      df_ddelta = 1.5_wp*stiffness*root
-   end subroutine elastic_force
+   include "hertz_force.inc"
 
    !> The potential K delta^2.5 / 2.5 of that force.
    elemental real(wp) function elastic_potential(stiffness, delta) result(energy)

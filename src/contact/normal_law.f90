@@ -32,6 +32,7 @@ module normal_law
    type, abstract :: normal_law_t
       character(:), allocatable :: name   !! name of the row
       logical :: jumps_at_turn = .false.  !! the force jumps where the penetration turns (rate = 0), which must be located
+      real(wp) :: hertz_damping = 0.0_wp  !! h of K delta^1.5 (1 + h rate/v0), see `hertz_family`; 0: it is another force [1]
       logical :: acts_apart = .false.     !! there is a force between surfaces that do not touch, as of a film: see `press.inc`
    contains
       procedure(info_interface), nopass, deferred :: info

@@ -35,20 +35,22 @@ contains
       call compare_alone("rubbing", .false., 0.51e-3_wp, error)
    end subroutine test_free
 
-   !> It touches, with friction and without.
+   !> It touches, with friction and without; once it is deeper than its impact speed could take it.
    subroutine test_touching(error)
       type(error_t), allocatable, intent(out) :: error  !! what failed
 
       call compare_alone("none", .true., 0.51e-3_wp, error)
       call compare_alone("rubbing", .true., 0.51e-3_wp, error)
+      call compare_alone("none", .true., 0.51e-3_wp, error, speed=1.0e-3_wp)
    end subroutine test_touching
 
    !> Every channel of every item alone.
-   subroutine compare_alone(friction, touches, aside, error)
+   subroutine compare_alone(friction, touches, aside, error, speed)
       character(*), intent(in) :: friction                 !! law of friction
       logical, intent(in) :: touches                       !! whether the contact has begun
       real(wp), intent(in) :: aside                        !! displacement of the slider [m]
       type(error_t), allocatable, intent(inout) :: error   !! first failure
+      real(wp), intent(in), optional :: speed              !! impact speed of a contact that has begun, instead of 2 m/s [m/s]
 
       type(catalogue_t) :: all_of, one_of
       type(mechanism_t) :: system
@@ -61,6 +63,7 @@ contains
       if (allocated(error)) return
       call check_true(error, system%is_direct, "nothing is solved")
       if (touches) call system%loose%sets(1)%set%begin_contact(1, 0.0_wp, 2.0_wp, 0.0_wp)
+      if (present(speed)) system%loose%sets(1)%set%contact(1)%impact_speed = speed
       start(1:2) = start(1:2) + [0.0_wp, aside]
       start(3:4) = start(3:4) + [20.0_wp, 0.4_wp]
       ydot = start
