@@ -34,7 +34,6 @@ module coordinates
       procedure(difference_interface), deferred :: difference
       procedure(acceleration_interface), deferred :: find_acceleration
       procedure(energy_interface), deferred, nopass :: kinetic_energy
-      procedure(rate_interface), deferred, nopass :: rate_of
       procedure(split_interface), deferred, nopass :: split_load
       procedure(report_interface), deferred, nopass :: report
       procedure(along_interface), deferred, nopass :: along
@@ -196,16 +195,6 @@ module coordinates
          real(wp), intent(out) :: q_change(self%n_q, n)   !! (n_q, n) changes of the coordinates [any]
          real(wp), intent(out) :: v_change(self%n_v, n)   !! (n_v, n) changes of the rates [any]
       end subroutine from_local_interface
-
-      !> Greatest of velocity over a length and angular velocity of a body, by components.
-      pure function rate_interface(motion, body, length) result(rate)
-         import :: motion_t, wp
-         implicit none (type, external)
-         type(motion_t), intent(in) :: motion       !! the motion
-         integer, intent(in) :: body                !! the body
-         real(wp), intent(in) :: length             !! the length [m]
-         real(wp) :: rate                           !! the rate [1/s]
-      end function rate_interface
 
       !> Derivatives of the rates of a body from a motion.
       pure subroutine acceleration_interface(self, motion, body, a)

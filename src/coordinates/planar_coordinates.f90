@@ -35,7 +35,6 @@ module planar_coordinates
       procedure :: from_local => planar_from_local
       procedure :: find_acceleration => planar_find_acceleration
       procedure, nopass :: kinetic_energy => planar_kinetic_energy
-      procedure, nopass :: rate_of => planar_rate_of
       procedure, nopass :: split_load => planar_split_load
       procedure, nopass :: report => planar_report
       procedure, nopass :: along => planar_along
@@ -314,16 +313,6 @@ contains
       scale(2::3) = length
       scale(3::3) = 1.0_wp
    end subroutine planar_weigh_positions
-
-   !> Greatest of velocities over a length and angular velocity.
-   pure function planar_rate_of(motion, body, length) result(rate)
-      type(motion_t), intent(in) :: motion   !! the motion
-      integer, intent(in) :: body            !! the body
-      real(wp), intent(in) :: length         !! the length [m]
-      real(wp) :: rate                       !! the rate [1/s]
-
-      rate = max(max(abs(motion%v(1, body)), abs(motion%v(2, body)))/length, abs(motion%omega(3, body)))
-   end function planar_rate_of
 
    !> Derivatives of the rates of a body.
    pure subroutine planar_find_acceleration(self, motion, body, a)

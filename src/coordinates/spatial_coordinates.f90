@@ -43,7 +43,6 @@ module spatial_coordinates
       procedure :: from_local => spatial_from_local
       procedure :: find_acceleration => spatial_find_acceleration
       procedure, nopass :: kinetic_energy => spatial_kinetic_energy
-      procedure, nopass :: rate_of => spatial_rate_of
       procedure, nopass :: split_load => spatial_split_load
       procedure, nopass :: report => spatial_report
       procedure, nopass :: along => spatial_along
@@ -307,16 +306,6 @@ contains
          scale(n_q*k - 3:n_q*k) = 0.5_wp
       end do
    end subroutine spatial_weigh_positions
-
-   !> Greatest of velocities over a length and angular velocities.
-   pure function spatial_rate_of(motion, body, length) result(rate)
-      type(motion_t), intent(in) :: motion   !! the motion
-      integer, intent(in) :: body            !! the body
-      real(wp), intent(in) :: length         !! the length [m]
-      real(wp) :: rate                       !! the rate [1/s]
-
-      rate = max(maxval(abs(motion%v(:, body)))/length, maxval(abs(motion%omega(:, body))))
-   end function spatial_rate_of
 
    !> Derivatives of the rates of a body.
    pure subroutine spatial_find_acceleration(self, motion, body, a)

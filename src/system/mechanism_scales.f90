@@ -6,13 +6,21 @@
 !> start; sqrt(|a|/L) and sqrt(|alpha|), which is where the accelerations of the start lead; one millionth of 1/end, so that what
 !> never moves has one too. Where a load jumps, the accelerations lead anew.
 submodule(mechanism_state) mechanism_scales
-   use clearance_set, only: clearance_set_t
+   use contact_memory, only: contact_memory_t
    use coordinates, only: most_rates
    use floors, only: idle_part, late, remembered, shortest_difference
+   use reduced_bodies, only: held_t
    implicit none (type, external)
 
    real(wp), parameter :: part = 1.0e-4_wp   !! of the step: distance of the difference that gives rates [1]
    real(wp), parameter :: first = 1.0e-6_wp  !! of the run: step in hand before there is one [1]
+
+   !> What makes error scales smaller.
+   type :: factors_t
+      real(wp) :: in_film = 1.0_wp    !! all of them, where films act [1]
+      real(wp) :: position = 1.0_wp   !! those of coordinates, while surfaces touch [1]
+      real(wp) :: speed = 1.0_wp      !! those of rates [1]
+   end type factors_t
 
 contains
 
@@ -28,77 +36,93 @@ contains
    module procedure mechanism_weights
       real(wp), parameter :: touching = 0.1_wp  ! scales during contact [1]
       real(wp), parameter :: in_film = 0.003_wp  ! of the clearance: error of a length at most [1]
-      real(wp) :: noise, rate, ratio
-      integer :: i, k, n
+      real(wp) :: noise, rate
+      type(factors_t) :: factors
+      integer :: i, k
 
+      associate (scales => self%linkage%scales)
+         rate = max(rate_of(self, y), remembered*scales%pace, scales%late_rate)
+         if (self%loose%has_films) factors%in_film = min(in_film*self%loose%film_clearance/(scales%tolerance*scales%length), 1.0_wp)
+         noise = noise_of_all()
+         if (noise >= 0.0_wp) then
+            factors%position = touching
+            factors%speed = touching*max(1.0_wp, epsilon(1.0_wp)*noise/(scales%tolerance*scales%length*rate))
+         end if
+      end associate
       associate (linkage => self%linkage, n_unknown => self%linkage%rows%n_unknown, guided => self%linkage%reduced%guided, &
                  nq => self%linkage%n_position, length => self%linkage%scales%length)
-         n = linkage%n_rate
-         rate = max(rate_of(self, y), remembered*linkage%scales%pace, linkage%scales%late_rate)
-         if (n_unknown > 0) call linkage%coordinates%weigh_positions(length, n_unknown, scale)
-         associate (n_v => linkage%coordinates%n_v, is_turn => linkage%coordinates%is_turn)
-            do k = 1, n_unknown
-               do i = 1, n_v
-                  scale(nq + n_v*(k - 1) + i) = merge(1.0_wp, length, is_turn(i))*rate
+         associate (last => nq + linkage%n_rate)
+            call weigh_guided(guided%n, guided%n_turning, length, rate, factors, scale(nq - guided%n + 1:nq), &
+                              scale(last - guided%n + 1:last))
+         end associate
+         if (n_unknown > 0) then
+            call linkage%coordinates%weigh_positions(length, n_unknown, scale)
+            do k = 1, nq - guided%n
+               scale(k) = factors%position*(factors%in_film*scale(k))
+            end do
+            associate (n_v => linkage%coordinates%n_v, is_turn => linkage%coordinates%is_turn)
+               do k = 1, n_unknown
+                  do i = 1, n_v
+                     scale(nq + n_v*(k - 1) + i) = factors%speed*(factors%in_film*(merge(1.0_wp, length, is_turn(i))*rate))
+                  end do
                end do
-            end do
-         end associate
-         call weigh_guided(guided%n, guided%n_turning, length, rate, scale(nq - guided%n + 1:nq), &
-                           scale(nq + n - guided%n + 1:nq + n))
+            end associate
+         end if
       end associate
-      if (self%loose%has_films) then
-         ratio = in_film*self%loose%film_clearance/(self%linkage%scales%tolerance*self%linkage%scales%length)
-         if (ratio < 1.0_wp) scale(:self%linkage%n_position + n) = ratio*scale(:self%linkage%n_position + n)
-      end if
       if (self%friction%grips%n_bristle > 0) call self%bristle_weights(scale)
-      noise = -1.0_wp
-      do k = 1, size(self%loose%sets)
-         associate (set => self%loose%sets(k)%set, scales => self%linkage%scales, motion => self%linkage%motion)
-            if (set%n_touching == 0) cycle
-            do i = 1, set%n_contact
-               if (.not. set%contact(i)%is_touching) cycle
-               noise = max(noise, set%contact(i)%swing*reach_of(set, i, scales%length, ubound(motion%angle, 1), motion%r))
-            end do
-         end associate
-      end do
-      if (noise < 0.0_wp) return
-      associate (nq => self%linkage%n_position, scales => self%linkage%scales)
-         rate = max(1.0_wp, epsilon(1.0_wp)*noise/(scales%tolerance*scales%length*rate))
-         do k = 1, nq
-            scale(k) = touching*scale(k)
+
+   contains
+
+      !> The greatest noise of all contacts that touch; negative if none does.
+      pure real(wp) function noise_of_all() result(greatest)
+         integer :: slot
+
+         greatest = -1.0_wp  ! [m/s]
+         do slot = 1, size(self%loose%sets)
+            associate (set => self%loose%sets(slot)%set, linkage => self%linkage)
+               if (set%n_touching == 0) cycle
+               greatest = max(greatest, noise_of(set%n_contact, set%contact, set%n_contact_item, set%n, set%items%body, &
+                                                 linkage%scales%length, linkage%bodies%n, linkage%motion%r))
+            end associate
          end do
-         do k = nq + 1, nq + n
-            scale(k) = touching*rate*scale(k)
-         end do
-      end associate
+      end function noise_of_all
+
    end procedure mechanism_weights
 
-   !> Length by whose rounding the penetration of a contact is known.
-   pure real(wp) function reach_of(set, contact, length, n_body, r) result(reach)
-      class(clearance_set_t), intent(in) :: set   !! loose joints
-      integer, intent(in) :: contact              !! one of their contacts
-      real(wp), intent(in) :: length              !! size of the bodies [m]
-      integer, intent(in) :: n_body               !! number of bodies
-      real(wp), intent(in) :: r(3, 0:n_body)      !! (3, 0:bodies) centres of mass [m]
+   !> Swing of the contacts of a set that touch, times the length by whose rounding their penetration is known: the greatest.
+   pure real(wp) function noise_of(n_contact, contact, n_contact_item, n, body, length, n_body, r) result(noise)
+      integer, intent(in) :: n_contact                       !! number of contacts of the set
+      type(contact_memory_t), intent(in) :: contact(n_contact)  !! (n_contact) the contacts
+      integer, intent(in) :: n_contact_item                  !! contacts of an item
+      integer, intent(in) :: n                               !! number of items
+      integer, intent(in) :: body(2, n)                      !! (2, n) their bodies
+      real(wp), intent(in) :: length                         !! size of the bodies [m]
+      integer, intent(in) :: n_body                          !! number of bodies
+      real(wp), intent(in) :: r(3, 0:n_body)                 !! (3, 0:bodies) centres of mass [m]
 
-      integer :: c, side
+      real(wp) :: reach
+      integer :: i, side
 
-      reach = length
-      associate (item => (contact - 1)/set%n_contact_item + 1)
+      noise = -1.0_wp
+      do i = 1, n_contact
+         if (.not. contact(i)%is_touching) cycle
+         reach = length
          do side = 1, 2
-            do c = 1, 3
-               reach = max(reach, abs(r(c, set%items%body(side, item))))
-            end do
+            associate (place => r(:, body(side, (i - 1)/n_contact_item + 1)))
+               reach = max(reach, abs(place(1)), abs(place(2)), abs(place(3)))
+            end associate
          end do
-      end associate
-   end function reach_of
+         noise = max(noise, contact(i)%swing*reach)
+      end do
+   end function noise_of
 
    !> Scales of the coordinates of guided bodies and of their rates.
-   pure subroutine weigh_guided(n, n_turning, length, rate, position, speed)
+   pure subroutine weigh_guided(n, n_turning, length, rate, factors, position, speed)
       integer, intent(in) :: n                    !! number of guided bodies
       integer, intent(in) :: n_turning            !! those that turn, the first ones
       real(wp), intent(in) :: length              !! scale of lengths [m]
       real(wp), intent(in) :: rate                !! that rates are measured by [1/s]
+      type(factors_t), intent(in) :: factors      !! what makes the scales smaller
       real(wp), intent(inout) :: position(n)      !! (n) of the coordinates, set [1 or m]
       real(wp), intent(inout) :: speed(n)         !! (n) of their rates, set [1/s or m/s]
 
@@ -106,13 +130,13 @@ contains
 
       !GCC$ novector
       do k = 1, n_turning
-         position(k) = 1.0_wp
-         speed(k) = rate
+         position(k) = factors%position*factors%in_film
+         speed(k) = factors%speed*(factors%in_film*rate)
       end do
       !GCC$ novector
       do k = n_turning + 1, n
-         position(k) = length
-         speed(k) = length*rate
+         position(k) = factors%position*(factors%in_film*length)
+         speed(k) = factors%speed*(factors%in_film*(length*rate))
       end do
    end subroutine weigh_guided
 
@@ -121,27 +145,59 @@ contains
       class(mechanism_state_t), intent(in) :: self  !! the system
       real(wp), intent(in) :: y(self%n)             !! (n) state [any]
 
-      integer :: k
-
-      associate (linkage => self%linkage, coordinates => self%linkage%coordinates, length => self%linkage%scales%length, &
-                 known => self%linkage%reduced%known, guided => self%linkage%reduced%guided)
-         associate (nq => linkage%n_position, last => linkage%n_position + linkage%n_rate - guided%n)
-            rate = 0.0_wp
-            if (linkage%rows%n_unknown > 0) rate = coordinates%greatest_rate(linkage%rows%n_unknown, y(nq + 1:), length)
-            do k = 1, known%n
-               rate = max(rate, coordinates%rate_of(linkage%motion, known%held(k)%body, length))
-            end do
-            !GCC$ novector
-            do k = last + 1, last + guided%n_turning
-               rate = max(rate, abs(y(k)))
-            end do
-            !GCC$ novector
-            do k = last + guided%n_turning + 1, last + guided%n
-               rate = max(rate, abs(y(k))/length)
-            end do
+      associate (linkage => self%linkage, length => self%linkage%scales%length, known => self%linkage%reduced%known, &
+                 guided => self%linkage%reduced%guided)
+         rate = rate_of_known(known%n, known%held, linkage%bodies%n, linkage%motion%v, linkage%motion%omega, length)
+         associate (last => linkage%n_position + linkage%n_rate)
+            rate = max(rate, rate_of_guided(guided%n, guided%n_turning, y(last - guided%n + 1:last), length))
          end associate
+         if (linkage%rows%n_unknown > 0) then
+            rate = max(rate, linkage%coordinates%greatest_rate(linkage%rows%n_unknown, y(linkage%n_position + 1:), length))
+         end if
       end associate
    end function rate_of
+
+   !> Greatest rate of bodies whose motion is known: of velocities over a length, and of angular velocities.
+   pure real(wp) function rate_of_known(n, held, n_body, v, omega, length) result(rate)
+      integer, intent(in) :: n                       !! number of such bodies
+      type(held_t), intent(in) :: held(n)            !! (n) which they are
+      integer, intent(in) :: n_body                  !! number of bodies
+      real(wp), intent(in) :: v(3, 0:n_body)         !! (3, 0:bodies) velocities [m/s]
+      real(wp), intent(in) :: omega(3, 0:n_body)     !! (3, 0:bodies) angular velocities [rad/s]
+      real(wp), intent(in) :: length                 !! the length [m]
+
+      integer :: k
+
+      rate = 0.0_wp
+      do k = 1, n
+         associate (u => v(:, held(k)%body), w => omega(:, held(k)%body))
+            rate = max(rate, max(abs(u(1)), abs(u(2)), abs(u(3)))/length, abs(w(1)), abs(w(2)), abs(w(3)))
+         end associate
+      end do
+   end function rate_of_known
+
+   !> Greatest rate of guided bodies.
+   pure real(wp) function rate_of_guided(n, n_turning, speed, length) result(rate)
+      integer, intent(in) :: n           !! number of guided bodies
+      integer, intent(in) :: n_turning   !! those that turn, the first ones
+      real(wp), intent(in) :: speed(n)   !! (n) rates of their coordinates [rad/s or m/s]
+      real(wp), intent(in) :: length     !! the length [m]
+
+      real(wp) :: sliding
+      integer :: k
+
+      rate = 0.0_wp
+      !GCC$ novector
+      do k = 1, n_turning
+         rate = max(rate, abs(speed(k)))
+      end do
+      sliding = 0.0_wp
+      !GCC$ novector
+      do k = n_turning + 1, n
+         sliding = max(sliding, abs(speed(k)))
+      end do
+      rate = max(rate, sliding/length)
+   end function rate_of_guided
 
    !> Raise the pace to that of a state.
    module procedure mechanism_follow_pace
