@@ -5,9 +5,9 @@
 !> greater force is found. What is greater by no more than the noise of an integration is not told anew.
 module contact_watch
    use clearance_set, only: clearance_set_t, loss_contact, loss_friction
-   use contact_peaks, only: add_peak, drop_peaks, find_force_peak, find_penetration_peak, has_peak_above, look, peak_t, trend_t
+   use contact_peaks, only: drop_peaks, look, peak_t, trend_t
    use contact_places, only: place_of_loss, slip_function, touch_function, transition_function, turn_function
-   use cut_off, only: follow_cut_off, lost_by_damping
+   use cut_off, only: lost_by_damping
    use floors, only: at_rest
    use force_jumps, only: find_derivative_behind, law_jumps, time_to_see
    use integrator, only: integrator_t
@@ -52,6 +52,14 @@ module contact_watch
 
    interface
 
+      !> Look for maxima of force and penetration within the last step, and whether a force is cut off.
+      module subroutine after_step(self, system, method)
+         implicit none (type, external)
+         class(contact_watch_t), intent(inout) :: self   !! the watch
+         type(mechanism_t), intent(inout) :: system      !! the system
+         class(integrator_t), intent(inout) :: method    !! the integrator, after a step; the system is at its end
+      end subroutine after_step
+
       !> Numbers that a checkpoint needs.
       module integer function watch_memory_size(self) result(n)
          implicit none (type, external)
@@ -90,95 +98,6 @@ contains
       allocate (watch%y(system%n), watch%ydot(system%n), source=0.0_wp)
       allocate (watch%g(system%loose%n_contact), watch%g_rate(system%loose%n_contact), source=0.0_wp)
    end subroutine new_contact_watch
-
-   !> Look for maxima of force and penetration within the last step, and whether a force is cut off.
-   subroutine after_step(self, system, method)
-      class(contact_watch_t), intent(inout) :: self     !! the watch
-      type(mechanism_t), intent(inout) :: system    !! the system
-      class(integrator_t), intent(inout) :: method      !! the integrator, after a step; the system is at its end
-
-      type(trend_t) :: force, penetration
-      type(peak_t) :: peak
-      real(wp) :: deepest, deepest_at
-      integer :: i, k, number, place
-      logical :: has_force_peak, has_peak
-
-      self%n_peak = 0
-      do k = 1, size(system%loose%sets)
-         associate (set => system%loose%sets(k)%set)
-            if (set%n_touching == 0) cycle
-            call system%linkage%set_acceleration(method%step%f1)
-            do i = 1, set%n_contact
-               if (.not. set%contact(i)%is_touching) cycle
-               number = set%before%contacts + i
-               call look(system, k, i, force, penetration)
-               has_peak = self%penetration(number)%rate >= 0.0_wp .and. penetration%rate < 0.0_wp
-               has_force_peak = has_peak_above(self%force(number), force, penetration, method%step%h, set%contact(i)%peak_force)
-               deepest = penetration%value
-               deepest_at = method%t
-               if (has_peak) then
-                  call find_penetration_peak(system, method, k, i, self%penetration(number), penetration, self%y, deepest, &
-                                             deepest_at)
-               end if
-               peak%force = -1.0_wp
-               if (has_force_peak) then
-                  call find_force_peak(system, method, k, i, self%force(number), force, self%y, self%ydot, peak)
-               end if
-               place = system%place_of_impulse(number)
-               call set%add_impulse(i, method%step%y1(place) - method%step%y0(place))
-               if (has_peak .or. has_force_peak) then
-                  call system%linkage%set_state(method%t, method%step%y1, method%step%f1)
-               end if
-               if (penetration%value > deepest) deepest_at = method%t
-               call set%note_depth(i, max(deepest, penetration%value), deepest_at)
-               call keep_force(self, method, set, i, peak, force%value)
-               if (system%ledger%is_kept) then
-                  call follow_cut_off(set, i, penetration%value, force%value, &
-                                      method%step%y1(system%in_state(place_of_loss(number, loss_contact))))
-               end if
-               self%force(number) = force
-               self%penetration(number) = penetration
-            end do
-         end associate
-      end do
-   end subroutine after_step
-
-   !> Raise the greatest force that a contact remembers, by what the last step had. Where it stood at the start of the step and the
-   !> step does not go beyond it, the row that is owed is told now.
-   subroutine keep_force(self, method, set, item, peak, at_end)
-      type(contact_watch_t), intent(inout) :: self    !! the watch
-      class(integrator_t), intent(in) :: method       !! the integrator, after a step
-      class(clearance_set_t), intent(inout) :: set    !! set of the contact
-      integer, intent(in) :: item                     !! contact of the set
-      type(peak_t), intent(in) :: peak                !! maximum within the step
-      real(wp), intent(in) :: at_end                  !! force at its end [N]
-
-      real(wp) :: greatest
-      integer :: number
-
-      number = set%before%contacts + item
-      associate (contact => set%contact(item))
-         greatest = contact%peak_force
-         if (peak%force > max(greatest, at_end)) then
-            if (peak%force > (1.0_wp + noise)*self%told(number)) call tell(peak)
-         else if (self%owes_row(number) .and. at_end <= greatest) then
-            call tell(peak_t(method%step%t0, greatest, method%step%y0))
-         end if
-         call set%note_force(item, max(peak%force, at_end), merge(peak%t, method%t, peak%force > at_end))
-         self%owes_row(number) = at_end >= contact%peak_force .and. at_end > (1.0_wp + noise)*self%told(number)
-      end associate
-
-   contains
-
-      !> Tell of a force.
-      subroutine tell(one)
-         type(peak_t), intent(in) :: one  !! the force and where it is
-
-         call add_peak(one, self%peaks, self%n_peak)
-         self%told(number) = one%force
-      end subroutine tell
-
-   end subroutine keep_force
 
    !> Peaks up to a time are told.
    subroutine watch_drop_peaks(self, t)

@@ -45,7 +45,7 @@ module contact_states
       procedure :: begin_at_rest
       procedure :: note_depth
       procedure :: note_force
-      procedure :: add_impulse
+      procedure :: note_step
       procedure :: set_course
       procedure :: cross_transition
       procedure :: slip_as
@@ -230,14 +230,20 @@ contains
       end associate
    end subroutine note_force
 
-   !> Add to the impulse that a contact has given.
-   pure subroutine add_impulse(self, k, impulse)
+   !> What a step made of a contact that touches: greatest penetration and force, and the impulse that it gave.
+   pure subroutine note_step(self, k, delta, delta_at, force, force_at, impulse)
       class(contact_states_t), intent(inout) :: self  !! the set
       integer, intent(in) :: k                        !! contact of the set
-      real(wp), intent(in) :: impulse                 !! of its normal force over a step [N.s]
+      real(wp), intent(in) :: delta                   !! greatest penetration of the step [m]
+      real(wp), intent(in) :: delta_at                !! when [s]
+      real(wp), intent(in) :: force                   !! greatest normal force of the step [N]
+      real(wp), intent(in) :: force_at                !! when [s]
+      real(wp), intent(in) :: impulse                 !! of the normal force over the step [N.s]
 
+      call note_depth(self, k, delta, delta_at)
+      call note_force(self, k, force, force_at)
       self%contact(k)%went%impulse = self%contact(k)%went%impulse + impulse
-   end subroutine add_impulse
+   end subroutine note_step
 
    !> A contact crosses the end of the transition from a film, one way or the other.
    pure subroutine cross_transition(self, k)

@@ -1,0 +1,129 @@
+!> What the watch over contacts sees at the end of a step.
+submodule(contact_watch) contact_watch_steps
+   use contact_peaks, only: add_peak, find_force_peak, find_penetration_peak, has_peak_above
+   use cut_off, only: follow_cut_off
+   implicit none (type, external)
+
+   !> What a contact had at most in a step.
+   type :: greatest_t
+      real(wp) :: depth       !! penetration [m]
+      real(wp) :: depth_at    !! when [s]
+      real(wp) :: force       !! maximum of the force within the step; negative: none was found [N]
+      real(wp) :: force_at    !! when [s]
+   end type greatest_t
+
+contains
+
+   !> Look for maxima of force and penetration within the last step, and whether a force is cut off.
+   module procedure after_step
+      integer :: i, k
+
+      self%n_peak = 0
+      do k = 1, size(system%loose%sets)
+         associate (set => system%loose%sets(k)%set)
+            if (set%n_touching == 0) cycle
+            call system%linkage%set_acceleration(method%step%f1)
+            do i = 1, set%n_contact
+               if (set%contact(i)%is_touching) call see_contact(k, i)
+            end do
+         end associate
+      end do
+
+   contains
+
+      !> Look at a contact that touches. Where its greatest force stood at the start of the step and the step does not go beyond it,
+      !> the row that is owed is told now.
+      subroutine see_contact(slot, item)
+         integer, intent(in) :: slot                     !! set of the contact
+         integer, intent(in) :: item                     !! contact of the set
+
+         type(trend_t) :: force, penetration
+         type(greatest_t) :: most
+         real(wp) :: greatest   ! force before the step [N]
+         integer :: number, place
+         logical :: has_force_peak, has_peak, is_greatest
+
+         associate (set => system%loose%sets(slot)%set)
+            call set%watch(item, system%linkage%motion, penetration%value, penetration%rate, force%value, force%rate)
+            greatest = set%contact(item)%peak_force
+            number = set%before%contacts + item
+            place = system%place_of_impulse(number)
+            has_peak = self%penetration(number)%rate >= 0.0_wp .and. penetration%rate < 0.0_wp
+            has_force_peak = self%force(number)%rate >= 0.0_wp .and. force%rate <= 0.0_wp
+            if (has_force_peak) has_force_peak = has_peak_above(self%force(number), force, penetration, method%step%h, greatest)
+            most = greatest_t(penetration%value, method%t, -1.0_wp, method%t)
+            if (has_peak .or. has_force_peak) then
+               call find_peaks(self, system, method, slot, item, has_peak, has_force_peak, force, penetration, most)
+            end if
+            is_greatest = force%value >= max(greatest, most%force)
+            if (self%owes_row(number) .and. max(force%value, most%force) <= greatest) then
+               call tell(self, number, peak_t(method%step%t0, greatest, method%step%y0))
+            end if
+            if (most%force <= force%value) then
+               most%force = force%value
+               most%force_at = method%t
+            end if
+            call set%note_step(item, most%depth, most%depth_at, most%force, most%force_at, &
+                               method%step%y1(place) - method%step%y0(place))
+            self%owes_row(number) = is_greatest
+            if (is_greatest) self%owes_row(number) = force%value > (1.0_wp + noise)*self%told(number)
+            if (system%ledger%is_kept) then
+               call follow_cut_off(set, item, penetration%value, force%value, &
+                                   method%step%y1(system%in_state(place_of_loss(number, loss_contact))))
+            end if
+         end associate
+         self%force(number) = force
+         self%penetration(number) = penetration
+      end subroutine see_contact
+
+   end procedure after_step
+
+   !> Find maxima within the step; a force that is the greatest so far is told. The system comes back to the end of the step.
+   subroutine find_peaks(self, system, method, slot, item, has_peak, has_force_peak, force, penetration, most)
+      class(contact_watch_t), intent(inout) :: self   !! the watch
+      type(mechanism_t), intent(inout) :: system      !! the system
+      class(integrator_t), intent(inout) :: method    !! the integrator, after a step
+      integer, intent(in) :: slot                     !! set of the contact
+      integer, intent(in) :: item                     !! contact of the set
+      logical, intent(in) :: has_peak                 !! the penetration has a maximum there
+      logical, intent(in) :: has_force_peak           !! the force has one
+      type(trend_t), intent(in) :: force              !! the force at the end of the step
+      type(trend_t), intent(in) :: penetration        !! the penetration there
+      type(greatest_t), intent(inout) :: most         !! what was at most, so far the end of the step
+
+      type(peak_t) :: peak
+      real(wp) :: deepest, deepest_at
+      integer :: number
+
+      associate (set => system%loose%sets(slot)%set)
+         number = set%before%contacts + item
+         if (has_peak) then
+            call find_penetration_peak(system, method, slot, item, self%penetration(number), penetration, self%y, deepest, &
+                                       deepest_at)
+            if (penetration%value <= deepest) then
+               most%depth = deepest
+               most%depth_at = deepest_at
+            end if
+         end if
+         if (has_force_peak) then
+            call find_force_peak(system, method, slot, item, self%force(number), force, self%y, self%ydot, peak)
+            most%force = peak%force
+            most%force_at = peak%t
+            if (peak%force > max(set%contact(item)%peak_force, force%value) &
+                .and. peak%force > (1.0_wp + noise)*self%told(number)) call tell(self, number, peak)
+         end if
+      end associate
+      call system%linkage%set_state(method%t, method%step%y1, method%step%f1)
+   end subroutine find_peaks
+
+   !> Tell of a force.
+   subroutine tell(self, number, peak)
+      class(contact_watch_t), intent(inout) :: self   !! the watch
+      integer, intent(in) :: number                   !! number of the contact
+      type(peak_t), intent(in) :: peak                !! the force and where it is
+
+      call add_peak(peak, self%peaks, self%n_peak)
+      self%told(number) = peak%force
+   end subroutine tell
+
+end submodule contact_watch_steps
