@@ -9,6 +9,7 @@
 !> the contacts' memory, so that they are as right as its; speeds and ways are those at the ends of steps.
 module guards
    use clearance_set, only: clearance_set_t
+   use contact_memory, only: contact_memory_t
    use contact_pressure, only: force_at_pressure
    use film_watch, only: film_watch_t
    use kinds, only: eps, wp
@@ -91,6 +92,20 @@ module guards
          integer, intent(in) :: c                        !! contact of the set
          character(:), allocatable :: words              !! joint, contact and law
       end function joint_words
+
+      !> Write what was seen.
+      module subroutine guards_save(self, tape)
+         implicit none (type, external)
+         class(guards_t), intent(in) :: self     !! the guards of a run that need not end
+         type(tape_t), intent(inout) :: tape     !! receives it
+      end subroutine guards_save
+
+      !> Take it back.
+      module subroutine guards_load(self, tape)
+         implicit none (type, external)
+         class(guards_t), intent(inout) :: self  !! the guards, begun
+         type(tape_t), intent(inout) :: tape     !! holds it
+      end subroutine guards_load
 
       !> What was passed, in words.
       module function breach_words(self, g, m) result(words)
@@ -208,27 +223,18 @@ contains
       type(mechanism_t), intent(in) :: system    !! the system, its motion that at the end of the step
       real(wp), intent(in) :: t                      !! time there [s]
 
-      real(wp) :: values(n_contact_guard), way
-      integer :: c, k, m
+      real(wp) :: way
+      integer :: k
 
       if (.not. self%is_set) return
       if (system%loose%has_films) call self%films%look(system, t)
       do k = 1, size(system%loose%sets)
          associate (set => system%loose%sets(k)%set)
             if (set%n_touching == 0) cycle
-            do c = 1, set%n_contact
-               if (.not. set%contact(c)%is_touching) cycle
-               m = set%before%contacts + c
-               associate (contact => set%contact(c))
-                  values(guard_penetration) = contact%peak_penetration
-                  values(guard_clearance) = contact%peak_penetration
-                  values(guard_law_range) = contact%peak_penetration
-                  values(guard_impact_speed) = contact%impact_speed
-                  values(guard_strength) = contact%peak_force
-               end associate
-               ! no more is told of what was passed by more before
-               if (are_beyond(values, self%limit(:, m), self%breach(:, m))) call note(self, set, c, values, t)
-            end do
+            associate (first => set%before%contacts + 1)
+               if (are_within(set%n_contact, set%contact, self%limit(1, first), self%breach(1, first))) cycle
+            end associate
+            call note(self, set, t)
          end associate
       end do
       associate (motion => system%linkage%motion)
@@ -244,20 +250,39 @@ contains
       end associate
    end subroutine guards_look
 
-   !> Whether a value is beyond its limit, and the greatest there was.
-   pure logical function are_beyond(values, limit, breach)
-      real(wp), intent(in) :: values(n_contact_guard)         !! (guards of a contact) the values [m, m/s or N]
-      real(wp), intent(in) :: limit(n_contact_guard)          !! (guards of a contact) their limits [m, m/s or N]
-      type(breach_t), intent(in) :: breach(n_contact_guard)   !! (guards of a contact) where these were passed
+   !> Whether all contacts of a set that touch are within their limits, or beyond one by no more than they were before: of what was
+   !> passed by more before no more is told.
+   pure logical function are_within(n, contact, limit, breach)
+      integer, intent(in) :: n                                  !! number of contacts
+      type(contact_memory_t), intent(in) :: contact(n)          !! (n) the contacts
+      real(wp), intent(in) :: limit(n_contact_guard, n)         !! (guards of a contact, n) their limits [m, m/s or N]
+      type(breach_t), intent(in) :: breach(n_contact_guard, n)  !! (guards of a contact, n) where these were passed
 
-      integer :: g
+      real(wp) :: values(n_contact_guard)
+      integer :: c, g
 
-      are_beyond = .true.
-      do g = 1, n_contact_guard
-         if (values(g) > limit(g) .and. values(g) > breach(g)%value) return
+      are_within = .false.
+      do c = 1, n
+         if (.not. contact(c)%is_touching) cycle
+         values = guarded(contact(c))
+         do g = 1, n_contact_guard
+            if (values(g) > limit(g, c) .and. values(g) > breach(g, c)%value) return
+         end do
       end do
-      are_beyond = .false.
-   end function are_beyond
+      are_within = .true.
+   end function are_within
+
+   !> What of a contact is guarded.
+   pure function guarded(contact) result(values)
+      type(contact_memory_t), intent(in) :: contact   !! the contact
+      real(wp) :: values(n_contact_guard)             !! (guards of a contact) the values [m, m/s or N]
+
+      values(guard_penetration) = contact%peak_penetration
+      values(guard_clearance) = contact%peak_penetration
+      values(guard_law_range) = contact%peak_penetration
+      values(guard_impact_speed) = contact%impact_speed
+      values(guard_strength) = contact%peak_force
+   end function guarded
 
    !> Whether all bodies are near their starts, and none is too fast.
    pure logical function are_near(n, r, v, start, way_2, speed_2)
@@ -329,65 +354,25 @@ contains
       breach%is_there = .true.
    end subroutine raise
 
-   !> Note what a contact has passed, and whether the run ends with it.
-   subroutine note(self, set, c, values, t)
+   !> Note what the contacts of a set have passed, and whether the run ends with it.
+   subroutine note(self, set, t)
       class(guards_t), intent(inout) :: self          !! the guards
-      class(clearance_set_t), intent(in) :: set       !! set of the contact
-      integer, intent(in) :: c                        !! contact of the set
-      real(wp), intent(in) :: values(n_contact_guard) !! (guards of a contact) what is compared [any]
+      class(clearance_set_t), intent(in) :: set       !! the set
       real(wp), intent(in) :: t                       !! time [s]
 
-      integer :: g, m
+      real(wp) :: values(n_contact_guard)
+      integer :: c, g, m
 
-      m = set%before%contacts + c
-      do g = 1, n_contact_guard
-         if (.not. values(g) > self%limit(g, m)) cycle
-         call raise(self%breach(g, m), values(g), t)
-         if (self%stops(g)) call end_run(self, joint_words(set, c)//": "//breach_words(self, g, m))
+      do c = 1, set%n_contact
+         if (.not. set%contact(c)%is_touching) cycle
+         m = set%before%contacts + c
+         values = guarded(set%contact(c))
+         do g = 1, n_contact_guard
+            if (.not. (values(g) > self%limit(g, m) .and. values(g) > self%breach(g, m)%value)) cycle
+            call raise(self%breach(g, m), values(g), t)
+            if (self%stops(g)) call end_run(self, joint_words(set, c)//": "//breach_words(self, g, m))
+         end do
       end do
    end subroutine note
-
-   !> Write what was seen.
-   subroutine guards_save(self, tape)
-      class(guards_t), intent(in) :: self   !! the guards of a run that need not end
-      type(tape_t), intent(inout) :: tape   !! receives it
-
-      integer :: g, k
-
-      call self%films%save(tape)
-      call tape%put(self%n_wrong)
-      if (.not. self%is_set) return
-      do k = 1, size(self%breach, 2)
-         do g = 1, n_contact_guard
-            call tape%put(transfer(self%breach(g, k), [0.0_wp]))
-         end do
-      end do
-      do k = 1, size(self%travel)
-         call tape%put(transfer(self%travel(k), [0.0_wp]))
-      end do
-   end subroutine guards_save
-
-   !> Take it back.
-   subroutine guards_load(self, tape)
-      class(guards_t), intent(inout) :: self  !! the guards, begun
-      type(tape_t), intent(inout) :: tape     !! holds it
-
-      real(wp) :: numbers(size(transfer(breach_t(), [0.0_wp])))
-      integer :: g, k
-
-      call self%films%load(tape)
-      call tape%get(self%n_wrong)
-      if (.not. self%is_set) return
-      do k = 1, size(self%breach, 2)
-         do g = 1, n_contact_guard
-            call tape%get(numbers)
-            self%breach(g, k) = transfer(numbers, self%breach(g, k))
-         end do
-      end do
-      do k = 1, size(self%travel)
-         call tape%get(numbers)
-         self%travel(k) = transfer(numbers, self%travel(k))
-      end do
-   end subroutine guards_load
 
 end module guards

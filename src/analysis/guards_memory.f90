@@ -1,0 +1,44 @@
+!> What the guards remember in a checkpoint.
+submodule(guards) guards_memory
+   implicit none (type, external)
+
+contains
+
+   !> Write what was seen.
+   module procedure guards_save
+      integer :: g, k
+
+      call self%films%save(tape)
+      call tape%put(self%n_wrong)
+      if (.not. self%is_set) return
+      do k = 1, size(self%breach, 2)
+         do g = 1, n_contact_guard
+            call tape%put(transfer(self%breach(g, k), [0.0_wp]))
+         end do
+      end do
+      do k = 1, size(self%travel)
+         call tape%put(transfer(self%travel(k), [0.0_wp]))
+      end do
+   end procedure guards_save
+
+   !> Take it back.
+   module procedure guards_load
+      real(wp) :: numbers(size(transfer(breach_t(), [0.0_wp])))
+      integer :: g, k
+
+      call self%films%load(tape)
+      call tape%get(self%n_wrong)
+      if (.not. self%is_set) return
+      do k = 1, size(self%breach, 2)
+         do g = 1, n_contact_guard
+            call tape%get(numbers)
+            self%breach(g, k) = transfer(numbers, self%breach(g, k))
+         end do
+      end do
+      do k = 1, size(self%travel)
+         call tape%get(numbers)
+         self%travel(k) = transfer(numbers, self%travel(k))
+      end do
+   end procedure guards_load
+
+end submodule guards_memory
