@@ -12,10 +12,10 @@ module cpu_budget
 
    !> The time left.
    type :: cpu_budget_t
-      private
-      real(wp) :: until = 0.0_wp      !! processor time of the program at which it is used up, 0: no limit [s]
-      integer(i8) :: last = 0_i8      !! count of the clock at which it is used up, 0: no limit
-      integer(i8) :: looked_at = 0_i8 !! count of the clock when it was looked at
+      logical :: is_limited = .false.          !! there is a limit: `is_spent` is worth asking
+      real(wp), private :: until = 0.0_wp      !! processor time of the program at which it is used up, 0: no limit [s]
+      integer(i8), private :: last = 0_i8      !! count of the clock at which it is used up, 0: no limit
+      integer(i8), private :: looked_at = 0_i8 !! count of the clock when it was looked at
    contains
       procedure :: begin
       procedure :: is_spent
@@ -35,8 +35,10 @@ contains
 
       self%until = 0.0_wp
       self%last = 0_i8
+      self%is_limited = limit > 0.0_wp
       if (present(clock)) then
          if (clock > 0.0_wp) then
+            self%is_limited = .true.
             call system_clock(now, ticks)
             self%last = now + ceiling(clock*real(ticks, wp), i8)
          end if
@@ -55,7 +57,7 @@ contains
       real(wp) :: now
 
       is_spent = .false.
-      if (self%until <= 0.0_wp .and. self%last == 0_i8) return
+      if (.not. self%is_limited) return
       call system_clock(clock, ticks)  ! far cheaper than the processor time, which cannot grow faster
       is_spent = self%last > 0_i8 .and. clock >= self%last
       if (is_spent .or. self%until <= 0.0_wp) return

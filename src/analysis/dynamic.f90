@@ -15,7 +15,6 @@ module dynamic
    use recorder, only: event_t, recorder_t, status_stopped, summary_t
    use run_audit, only: limits_t
    use run_failure, only: describe_failure, guard_reached, stopped_words, time_used_up
-   use run_memory, only: load_run, save_run
    use run_summary, only: sum_up
    use run_tally, only: run_tally_t
    use sampling, only: new_sampler, sampler_t
@@ -46,6 +45,33 @@ module dynamic
       real(wp) :: cpu_before = 0.0_wp            !! processor time used before it was resumed [s]
       real(wp) :: cpu_begin = 0.0_wp             !! processor time of the program at its begin [s]
    end type run_t
+
+   interface
+      !> Go on from what was saved, instead of from the start.
+      module subroutine go_on(run, saved, recorder, error)
+         implicit none (type, external)
+         type(run_t), intent(inout) :: run                   !! state of the run, begun
+         type(saved_run_t), intent(inout) :: saved           !! what was remembered
+         class(recorder_t), intent(inout) :: recorder        !! keeps the results
+         type(error_t), allocatable, intent(out) :: error    !! it is another run's
+      end subroutine go_on
+
+      !> The instant of the plan that comes next.
+      module subroutine next_checkpoint(run, plan)
+         implicit none (type, external)
+         type(run_t), intent(inout) :: run                   !! state of the run
+         type(time_plan_t), intent(in) :: plan               !! times
+      end subroutine next_checkpoint
+
+      !> Save the run.
+      module subroutine save_now(run, plan, recorder, error)
+         implicit none (type, external)
+         type(run_t), intent(inout) :: run                   !! state of the run, between two steps
+         type(time_plan_t), intent(in) :: plan               !! times
+         class(recorder_t), intent(inout) :: recorder        !! keeps the results
+         type(error_t), allocatable, intent(out) :: error    !! a file could not be written
+      end subroutine save_now
+   end interface
 
 contains
 
@@ -111,6 +137,7 @@ contains
       type(error_t), allocatable, intent(out) :: error    !! the integration failed, or a file could not be written
 
       integer :: n_since_progress
+      logical :: is_over
 
       call begin(run, y, plan, recorder, error)
       if (allocated(error)) return
@@ -124,11 +151,14 @@ contains
       call next_checkpoint(run, plan)
       if (.not. allocated(error)) call run%sampler%take(run%whole, plan, run%tally%residual, recorder, error)
       n_since_progress = 0
-      do while (run%whole%t < plan%end .and. run%stop%met == 0 .and. .not. (run%is_stopped .or. allocated(error)))
+      is_over = run%whole%t >= plan%end .or. run%stop%met > 0 .or. allocated(error)
+      do while (.not. is_over)
          call step(run, plan, error)
          if (allocated(error)) return
-         call run%sampler%take(run%whole, plan, run%tally%residual, recorder, error)
-         if (.not. run%whole%is_smooth()) then
+         if (run%whole%t >= run%sampler%due .or. run%whole%n_peak > 0) then
+            call run%sampler%take(run%whole, plan, run%tally%residual, recorder, error)
+         end if
+         if (.not. run%whole%is_smooth) then
             if (.not. allocated(error)) call look_at_guards(run, error)
             if (run%stop%met == 0 .and. .not. allocated(error)) call handle_events(run, plan, recorder, error)
             if (run%stop%met == 0 .and. .not. allocated(error)) call pass_instants(run, plan, recorder, error)
@@ -138,37 +168,16 @@ contains
             n_since_progress = 0
             call recorder%progress(run%whole%t/plan%end)
          end if
-         if (run%stop%met == 0 .and. run%whole%t < plan%end .and. .not. allocated(error)) call heed(run, plan, recorder, error)
+         is_over = run%whole%t >= plan%end .or. run%stop%met > 0 .or. allocated(error)
+         if (.not. is_over) then
+            call heed(run, plan, recorder, error)
+            is_over = run%is_stopped .or. allocated(error)
+         end if
       end do
       if (run%stop%met > 0 .and. .not. allocated(error)) then
          call run%sampler%take_stop(run%whole, plan, run%tally%residual, recorder, error)
       end if
    end subroutine integrate
-
-   !> Go on from what was saved, instead of from the start.
-   subroutine go_on(run, saved, recorder, error)
-      type(run_t), intent(inout) :: run                   !! state of the run, begun
-      type(saved_run_t), intent(inout) :: saved           !! what was remembered
-      class(recorder_t), intent(inout) :: recorder        !! keeps the results
-      type(error_t), allocatable, intent(out) :: error    !! it is another run's
-
-      call load_run(saved, run%whole, run%sampler, run%tally, run%stop, run%cpu_before, error)
-      if (.not. allocated(error)) call recorder%go_on(saved, error)
-      run%saved_at = run%whole%t
-   end subroutine go_on
-
-   !> The instant of the plan that comes next.
-   subroutine next_checkpoint(run, plan)
-      type(run_t), intent(inout) :: run                   !! state of the run
-      type(time_plan_t), intent(in) :: plan               !! times
-
-      if (plan%checkpoint <= 0.0_wp) return
-      do
-         run%next_checkpoint = (run%n_checkpoint + 1)*plan%checkpoint
-         if (run%next_checkpoint > run%whole%t) return
-         run%n_checkpoint = run%n_checkpoint + 1
-      end do
-   end subroutine next_checkpoint
 
    !> Save the run if it is time for it or wished for, and end it if that is.
    subroutine heed(run, plan, recorder, error)
@@ -177,29 +186,15 @@ contains
       class(recorder_t), intent(inout) :: recorder        !! keeps the results
       type(error_t), allocatable, intent(out) :: error    !! a file could not be written
 
-      type(saved_run_t) :: saved
       integer :: wish
       logical :: can_save, is_due
-      real(wp) :: aside, cpu_0, cpu_1
 
       is_due = run%whole%t >= run%next_checkpoint .and. run%whole%is_together()
       can_save = is_due .or. .not. run%is_scheduled
       wish = recorder%wish(can_save)
       if (wish == wish_stop .and. run%is_scheduled .and. run%next_checkpoint < plan%end) wish = merge(wish, wish_nothing, can_save)
       run%is_stopped = wish == wish_stop
-      if (.not. (is_due .or. (wish /= wish_nothing .and. can_save))) return
-      aside = run%tally%aside%seconds()
-      call cpu_time(cpu_0)
-      call save_run(run%whole, run%sampler, run%tally, run%stop, run%cpu_before + cpu_0 - run%cpu_begin, saved)
-      call recorder%save(saved, error)
-      if (allocated(error)) return
-      run%saved_at = run%whole%t
-      if (run%is_scheduled .and. .not. run%is_stopped) then
-         call load_run(saved, run%whole, run%sampler, run%tally, run%stop, cpu_1, error)
-      end if
-      call next_checkpoint(run, plan)
-      call cpu_time(cpu_1)
-      call run%tally%aside%begin(aside + cpu_1 - cpu_0)
+      if (is_due .or. (wish /= wish_nothing .and. can_save)) call save_now(run, plan, recorder, error)
    end subroutine heed
 
    !> All parts begin.
@@ -249,12 +244,12 @@ contains
                call make_step(part, error, merge(run%next_checkpoint, huge(1.0_wp), run%is_scheduled))
                if (.not. allocated(error)) call look_for_stop(run, plan, error)
                if (.not. allocated(error)) call see_step(part, run%tally, error)
-               if (.not. allocated(error) .and. run%budget%is_spent()) then
-                  call describe_failure(part%system, part%method, time_used_up, error)
-               end if
                if (allocated(error)) return
+               if (run%budget%is_limited) then
+                  if (run%budget%is_spent()) call describe_failure(part%system, part%method, time_used_up, error)
+                  if (allocated(error)) return
+               end if
                if (run%sampler%films%has_least) call run%sampler%films%look(part%system, part%method%t)
-               call whole%note_step(whole%front(k))
             end associate
          end do
          call whole%move_front()

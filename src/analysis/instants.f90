@@ -51,7 +51,7 @@ module instants
       real(wp) :: known_omega = 0.0_wp           !! greatest one of a body whose motion is known [rad/s]
       logical :: is_still = .false.              !! whether nothing else can move
       real(wp) :: tolerance = -1.0_wp            !! that the next are of [1]
-      real(wp) :: known_turn(2) = 0.0_wp         !! (2) greatest turns of such a body in a step: others move too, none does [rad]
+      real(wp) :: known_turn(2) = 0.0_wp         !! (2) greatest turns of such a body in a step: others move too; none does [rad]
    contains
       procedure :: begin => instants_begin
       procedure :: is_at => instants_is_at
@@ -314,11 +314,12 @@ contains
          call ieee_set_status(status)
       end if
       if (self%omega*(stop - method%t) > turn) stop = method%t + turn/self%omega
-      if (self%known_omega > 0.0_wp .and. (self%is_still .or. .not. method%begins_anew())) then
+      if (self%known_omega > 0.0_wp) then
          if (abs(method%controls%tolerance - self%tolerance) > 0.0_wp) then
             self%tolerance = method%controls%tolerance
             self%known_turn(1) = min(turn, beside(1)*self%tolerance**(1.0_wp/beside(2)))
             self%known_turn(2) = min(turn, alone(1)*self%tolerance**(1.0_wp/alone(2)))
+            if (method%begins_anew()) self%known_turn(1) = huge(1.0_wp)
          end if
          known_turn = merge(self%known_turn(2), self%known_turn(1), self%is_still)
          if (self%known_omega*(stop - method%t) > known_turn) stop = method%t + known_turn/self%known_omega

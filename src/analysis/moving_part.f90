@@ -48,6 +48,7 @@ module moving_part
       type(guards_t) :: guards                             !! what no mechanism does
       type(instants_t) :: instants                         !! when its functions of time are not smooth
       type(velocity_jumps_t) :: jumps                      !! drivers whose velocity jumps there
+      logical :: must_follow = .false.                     !! something goes on from step to step, see `step_follower`
       integer :: status = 0                                !! how its last step ended; an event, until it is handled
       integer :: n_idle = 0                                !! events since the last time that time passed
       real(wp) :: t_event = 0.0_wp                         !! time of the last event [s]
@@ -71,6 +72,7 @@ contains
       part%method => method
       part%instants = instants
       part%guards = guards
+      part%must_follow = must_follow(system)
       call new_contact_watch(system, part%watch)
    end subroutine new_part
 
@@ -102,7 +104,7 @@ contains
          part%ledger%balance_0 = energy%balance()
          part%ledger%potential_0 = energy%potential
          call look_at_step(part, tally)
-         call look_at_energy(part, tally)
+         if (system%ledger%is_kept) call look_at_energy(part, tally)
          if (system%loose%n > 0) call part%watch%after_restart(system, method)
       end associate
    end subroutine begin_part
@@ -134,7 +136,7 @@ contains
             call describe_failure(system, method, part%status, error)
             return
          end if
-         if (must_follow(system)) then
+         if (part%must_follow) then
             call system%linkage%set_motion(method%t, method%step%y1)
             call follow_motion(system)
          end if
@@ -154,7 +156,7 @@ contains
             return
          end if
          if (system%loose%n > 0) call part%watch%after_step(system, method)
-         call look_at_energy(part, tally)
+         if (system%ledger%is_kept) call look_at_energy(part, tally)
          call part%guards%look(system, method%t)
       end associate
    end subroutine see_step
@@ -248,7 +250,7 @@ contains
          end if
          call system%follow_pace(method%step%y1, method%step%f1 - before)
          call look_at_step(part, tally)  ! a jump of a driver is seen here, before the stabilisation acts
-         call look_at_energy(part, tally)
+         if (system%ledger%is_kept) call look_at_energy(part, tally)
          if (part%is_lost) then
             call describe_failure(system, method, constraints_lost, error)
             return
@@ -264,12 +266,22 @@ contains
       type(moving_part_t), intent(inout) :: part   !! the part, its system last evaluated at the end of the step
       type(run_tally_t), intent(inout) :: tally    !! maxima are raised
 
+      associate (linkage => part%system%linkage)
+         call part%system%follow_pace(part%method%step%y1)
+         call part%instants%note_turning(part%system)
+         if (linkage%rows%n_solve > 0) call look_at_rows(part, tally)
+      end associate
+   end subroutine look_at_step
+
+   !> Constraint violation at the end of a step.
+   subroutine look_at_rows(part, tally)
+      type(moving_part_t), intent(inout) :: part   !! the part, its system last evaluated at the end of the step
+      type(run_tally_t), intent(inout) :: tally    !! maxima are raised
+
       real(wp) :: scaled
       integer :: k
 
       associate (linkage => part%system%linkage)
-         call part%system%follow_pace(part%method%step%y1)
-         call part%instants%note_turning(part%system)
          do k = 1, linkage%rows%n_solve
             scaled = linkage%solution%row_weight(k)*abs(linkage%rows%phi(k))
             part%is_lost = part%is_lost .or. scaled > merge(lost_angle, lost_length, linkage%rows%is_angle(k))
@@ -281,16 +293,15 @@ contains
             tally%violation_rate_max = max(tally%violation_rate_max, abs(linkage%solution%phi_dot(k)))
          end do
       end associate
-   end subroutine look_at_step
+   end subroutine look_at_rows
 
-   !> Energy balance at the end of a step, after `watch` has looked at it.
+   !> Energy balance at the end of a step, after `watch` has looked at it. The ledger is kept.
    subroutine look_at_energy(part, tally)
       type(moving_part_t), intent(inout) :: part   !! the part, its motion that of the end of the step
       type(run_tally_t), intent(inout) :: tally    !! sums follow, maxima are raised
 
       type(energy_t) :: energy
 
-      if (.not. part%system%ledger%is_kept) return
       energy = energy_of(part%system, part%method%step%y1)
       call follow(energy%balance() - part%ledger%balance_0, part%ledger%residual, tally%residual)
       call follow(energy%dissipated_contact, part%ledger%lost, tally%lost)

@@ -34,6 +34,7 @@ module sampling
       real(wp) :: until = huge(1.0_wp)           !! no later instant is reported [s]
       type(film_moments_t) :: films              !! films that are asked for
       integer(i8), private :: n_last_sample = 0  !! number of the last output instant, from 0
+      real(wp) :: due = -huge(1.0_wp)            !! only peaks are to be taken before that; early if it is not known [s]
       real(wp), private :: t_row = -1.0_wp       !! time of the last row [s]
       logical, private :: has_onset = .false.    !! of the events in hand: a contact begins
       logical, private :: has_jump = .false.     !! of the events in hand: a normal force may jump
@@ -50,6 +51,22 @@ module sampling
       procedure :: save => save_samples
       procedure :: load => load_samples
    end type sampler_t
+
+   interface
+      !> Write how far the reports are.
+      module subroutine save_samples(self, tape)
+         implicit none (type, external)
+         class(sampler_t), intent(in) :: self  !! what is reported
+         type(tape_t), intent(inout) :: tape   !! what is remembered
+      end subroutine save_samples
+
+      !> Take it back.
+      module subroutine load_samples(self, tape)
+         implicit none (type, external)
+         class(sampler_t), intent(inout) :: self  !! what is reported, at the start
+         type(tape_t), intent(inout) :: tape      !! what was remembered
+      end subroutine load_samples
+   end interface
 
 contains
 
@@ -98,6 +115,20 @@ contains
       class(recorder_t), intent(inout) :: recorder        !! keeps the results
       type(error_t), allocatable, intent(out) :: error    !! a file could not be written, or the equations not be solved
 
+      call take_all(self, whole, plan, residual, recorder, error)
+      self%due = min(next_instant(self, whole%system, plan), self%films%next())
+      if (self%n_strobe < size(plan%strobes)) self%due = min(self%due, plan%strobes(self%n_strobe + 1))
+   end subroutine take_samples
+
+   !> What of these is due, if anything is.
+   subroutine take_all(self, whole, plan, residual, recorder, error)
+      class(sampler_t), intent(inout) :: self             !! what is reported
+      type(whole_motion_t), intent(inout) :: whole        !! the motion, after steps
+      type(time_plan_t), intent(in) :: plan               !! times
+      real(wp), intent(in) :: residual                    !! of the ledger at the last step [J]
+      class(recorder_t), intent(inout) :: recorder        !! keeps the results
+      type(error_t), allocatable, intent(out) :: error    !! a file could not be written, or the equations not be solved
+
       real(wp) :: reached, t, t_peak
 
       reached = min(whole%t, self%until)
@@ -133,7 +164,7 @@ contains
       end do
       if (self%t_row >= whole%t) call whole%note_row()
       call self%aside%come_back()
-   end subroutine take_samples
+   end subroutine take_all
 
    !> The row at which a condition ends the run, unless there is a row at that instant.
    subroutine take_stop(self, whole, plan, residual, recorder, error)
@@ -191,7 +222,7 @@ contains
       call whole%note_row()
    end subroutine before_events
 
-   !> The row before an instant at which functions of time are not smooth, if one is owed: the force may jump there.
+   !> The row before an instant at which functions of time are not smooth, if one is owed. What is due behind it is found anew.
    subroutine before_instant(self, whole, plan, residual, recorder, error)
       class(sampler_t), intent(inout) :: self             !! what is reported
       type(whole_motion_t), intent(inout) :: whole        !! the motion at the instant, functions of time those before it
@@ -200,6 +231,7 @@ contains
       class(recorder_t), intent(inout) :: recorder        !! keeps the results
       type(error_t), allocatable, intent(out) :: error    !! a file could not be written
 
+      self%due = -huge(1.0_wp)
       if (.not. whole%owes_row() .or. self%t_row >= whole%t) return
       call put_row_here(self, whole, plan, row_peak, 0.0_wp, residual, recorder, error)
       call whole%note_row()
@@ -364,35 +396,5 @@ contains
          call describe_failure(part%system, part%method, advance_failed_evaluation, error)
       end associate
    end subroutine report
-
-   !> Write how far the reports are.
-   subroutine save_samples(self, tape)
-      class(sampler_t), intent(in) :: self  !! what is reported
-      type(tape_t), intent(inout) :: tape   !! what is remembered
-
-      call tape%put(self%n_sample)
-      call tape%put(self%n_strobe)
-      call tape%put(self%n_row)
-      call tape%put(self%n_reports)
-      call tape%put([self%t_row, self%aside%seconds()])
-      call self%films%save(tape)
-   end subroutine save_samples
-
-   !> Take it back.
-   subroutine load_samples(self, tape)
-      class(sampler_t), intent(inout) :: self  !! what is reported, at the start
-      type(tape_t), intent(inout) :: tape      !! what was remembered
-
-      real(wp) :: aside
-
-      call tape%get(self%n_sample)
-      call tape%get(self%n_strobe)
-      call tape%get(self%n_row)
-      call tape%get(self%n_reports)
-      call tape%get(self%t_row)
-      call tape%get(aside)
-      call self%aside%begin(aside)
-      call self%films%load(tape)
-   end subroutine load_samples
 
 end module sampling

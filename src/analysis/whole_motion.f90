@@ -26,18 +26,18 @@ module whole_motion
       real(wp) :: t = 0.0_wp                                 !! time that all have reached [s]
       integer, allocatable :: front(:)                       !! (parts) those that are there, the first n_front
       integer :: n_front = 0                                 !! how many
+      logical :: is_smooth = .true.                          !! the motion goes on as it is: no part there has an event or an
+                                                             !! instant, or a guard that ends the run
+      integer :: n_peak = 0                                  !! parts with peaks to be told
       type(instants_t) :: instants                           !! of several parts: when functions of time of any are not smooth
       type(subsystem_t), pointer, private :: places(:) => null()  !! (parts) where they are in the whole; a single part: none
       type(time_queue_t), private :: queue                   !! parts that are ahead, by their time
       integer, allocatable, private :: with_peak(:)          !! (parts) those with peaks to be told, the first n_peak
-      integer, private :: n_peak = 0                         !! how many
       real(wp), allocatable, private :: q(:), v(:)           !! (n_q bodies), (n_v bodies) scratch: coordinates and rates [any]
       real(wp), allocatable, private :: y(:)                 !! (most of a part) scratch: state of a part [any]
    contains
       procedure :: scatter => whole_scatter
-      procedure :: note_step => whole_note_step
       procedure :: move_front => whole_move_front
-      procedure :: is_smooth => whole_is_smooth
       procedure :: next_peak => whole_next_peak
       procedure :: drop_peaks => whole_drop_peaks
       procedure :: note_row => whole_note_row
@@ -123,42 +123,44 @@ contains
       end associate
    end subroutine whole_scatter
 
-   !> A part of the front has made a step.
-   pure subroutine whole_note_step(self, part)
-      class(whole_motion_t), intent(inout) :: self   !! the motion
-      integer, intent(in) :: part                    !! number of the part
-
-      if (size(self%parts) > 1) call self%queue%add(self%parts(part)%method%t, part)
-      if (self%parts(part)%watch%n_peak == 0) return
-      self%n_peak = self%n_peak + 1
-      self%with_peak(self%n_peak) = part
-   end subroutine whole_note_step
-
-   !> Whether the motion goes on as it is: no part at the front has an event or an instant there, or a guard that ends the run.
-   pure logical function whole_is_smooth(self) result(is_smooth)
-      class(whole_motion_t), intent(in) :: self  !! the motion
-
-      integer :: k
-
-      is_smooth = .false.
-      do k = 1, self%n_front
-         associate (part => self%parts(self%front(k)))
-            if (part%status == advance_event .or. part%method%t >= part%instants%next%at .or. allocated(part%guards%reason)) return
-         end associate
-      end do
-      is_smooth = .true.
-   end function whole_is_smooth
-
    !> All parts of the front have made a step: those that are behind now are the front. A single part is always there.
    pure subroutine whole_move_front(self)
       class(whole_motion_t), intent(inout) :: self   !! the motion
 
-      if (size(self%parts) > 1) then
-         call self%queue%take_first(self%t, self%front, self%n_front)
-      else
+      integer :: k
+
+      if (.not. associated(self%places)) then
          self%t = self%parts(1)%method%t
+         if (self%parts(1)%watch%n_peak > 0) call note_peak(self, 1)
+         self%is_smooth = goes_on(self%parts(1))
+         return
       end if
+      do k = 1, self%n_front
+         call self%queue%add(self%parts(self%front(k))%method%t, self%front(k))
+         if (self%parts(self%front(k))%watch%n_peak > 0) call note_peak(self, self%front(k))
+      end do
+      call self%queue%take_first(self%t, self%front, self%n_front)
+      self%is_smooth = .true.
+      do k = 1, self%n_front
+         self%is_smooth = self%is_smooth .and. goes_on(self%parts(self%front(k)))
+      end do
    end subroutine whole_move_front
+
+   !> Note that a part has peaks to be told.
+   pure subroutine note_peak(self, part)
+      type(whole_motion_t), intent(inout) :: self   !! the motion
+      integer, intent(in) :: part                   !! number of the part
+
+      self%n_peak = self%n_peak + 1
+      self%with_peak(self%n_peak) = part
+   end subroutine note_peak
+
+   !> Whether a part goes on as it is: without an event or an instant where it is, or a guard that ends the run.
+   pure logical function goes_on(part)
+      type(moving_part_t), intent(in) :: part   !! the part
+
+      goes_on = .not. (part%status == advance_event .or. part%method%t >= part%instants%next%at .or. allocated(part%guards%reason))
+   end function goes_on
 
    !> Time of the first peak that is not told; far away if there is none.
    pure real(wp) function whole_next_peak(self) result(t)

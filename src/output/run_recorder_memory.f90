@@ -19,8 +19,6 @@ contains
    !> Whether the run is to be saved or to end. Where it can be saved at some instants only, it ends at the last that is safely
    !> within the time of the wall.
    module procedure wish_of_run
-      integer(i8) :: gap, left, now
-
       wish = wish_nothing
       associate (pace => self%pace, life => self%plan%life)
          if (.not. life%is_saved) return
@@ -31,6 +29,19 @@ contains
          pace%n_step = pace%n_step + 1
          if (pace%n_step < steps_between .and. .not. (can_save .and. pace%longest >= second)) return
          pace%n_step = 0
+      end associate
+      wish = wish_by_clock(self, can_save)
+   end procedure wish_of_run
+
+   !> The same, by the time that it is.
+   integer function wish_by_clock(self, can_save) result(wish)
+      class(run_recorder_t), intent(inout) :: self  !! the recorder
+      logical, intent(in) :: can_save               !! the run can be saved as it is
+
+      integer(i8) :: gap, left, now
+
+      wish = wish_nothing
+      associate (pace => self%pace, life => self%plan%life)
          now = clock_ms()
          if (pace%saved_at == 0) pace%saved_at = now
          gap = 0
@@ -46,7 +57,7 @@ contains
             wish = wish_checkpoint
          end if
       end associate
-   end procedure wish_of_run
+   end function wish_by_clock
 
    !> Write all that waits, and the checkpoint. A checkpoint that cannot be written is a failure: the run could not go on from where
    !> its reader believes.
