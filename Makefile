@@ -418,6 +418,9 @@ SHORT_LOOPS := -fno-tree-ch -fira-region=one -fno-move-loop-invariants -fno-tree
 $(call object,src/system/mechanism_direct.f90): private FFLAGS += -O2 -fno-gcse -fno-code-hoisting -fno-tree-pre $(SHORT_LOOPS) \
   --param=max-inline-insns-auto=200
 $(call object,src/clearance/round_contacts.f90): private FFLAGS += $(SHORT_LOOPS) --param=max-inline-insns-auto=200
+# what is looked at after each step
+$(call object,$(patsubst %,src/analysis/%.f90,dynamic guards instants contact_watch_steps) src/system/mechanism_scales.f90): \
+  private FFLAGS += $(SHORT_LOOPS)
 $(call object,src/system/balanced_report.f90 src/clearance/round_reports.f90): private FFLAGS += -O2 -fno-gcse --param=max-inline-insns-auto=200
 endif
 
