@@ -419,7 +419,8 @@ $(call object,src/system/mechanism_direct.f90): private FFLAGS += -O2 -fno-gcse 
   --param=max-inline-insns-auto=200
 $(call object,src/clearance/round_contacts.f90): private FFLAGS += $(SHORT_LOOPS) --param=max-inline-insns-auto=200
 # what is looked at after each step
-$(call object,$(patsubst %,src/analysis/%.f90,dynamic guards instants contact_watch_steps) src/system/mechanism_scales.f90): \
+$(call object,$(patsubst %,src/analysis/%.f90,dynamic guards instants contact_watch_steps) src/system/mechanism_scales.f90 \
+  src/integrators/integrator.f90 src/reduce/planar_guided.f90): \
   private FFLAGS += $(SHORT_LOOPS)
 $(call object,src/system/balanced_report.f90 src/clearance/round_reports.f90): private FFLAGS += -O2 -fno-gcse --param=max-inline-insns-auto=200
 endif

@@ -1,11 +1,11 @@
-!> Whether a step leaves room for an event, from the event functions at its ends.
+!> Whether a step, or a part of it, leaves room for an event, from the event functions at its ends.
 module event_chance
    use integrator, only: integrator_t
    use kinds, only: wp
    use ode_system, only: ode_system_t
    implicit none (type, external)
    private
-   public :: is_long, is_worth_a_search, may_any_happen, may_happen
+   public :: is_long, is_worth_a_search, leaves_room, may_any_happen, may_happen, only_rises
 
 contains
 
@@ -42,7 +42,6 @@ contains
    end function may_any_happen
 
    !> Whether a function with these end values and rates (times the step) may become positive within.
-   !> The curvature is taken from the cubic of Hermite, twice over.
    pure logical function may_happen(g0, r0, g1, r1)
       real(wp), intent(in) :: g0  !! value at the start [any]
       real(wp), intent(in) :: r0  !! rate at the start times the step [any]
@@ -53,9 +52,45 @@ contains
 
       may_happen = g1 > 0.0_wp
       if (may_happen) return
-      curvature = 2.0_wp*max(abs(6.0_wp*(g1 - g0) - 4.0_wp*r0 - 2.0_wp*r1), abs(6.0_wp*(g0 - g1) + 2.0_wp*r0 + 4.0_wp*r1))
+      curvature = curvature_of(g0, r0, g1, r1)
       if (r0 < 0.0_wp .and. r1 < 0.0_wp .and. curvature < min(-r0, -r1)) return
       may_happen = max(g0, g1) + 0.125_wp*curvature > 0.0_wp
    end function may_happen
+
+   !> The same of a part of a step that is searched, where it is told apart how far each end keeps the function below zero: with a
+   !> curvature up to c, g0 + r0 s + c s^2/2 < 0 from the left end on and g1 - r1 s + c s^2/2 < 0 from the right end back.
+   pure logical function leaves_room(g0, r0, g1, r1)
+      real(wp), intent(in) :: g0  !! value at the start [any]
+      real(wp), intent(in) :: r0  !! rate at the start times the part [any]
+      real(wp), intent(in) :: g1  !! value at the end [any]
+      real(wp), intent(in) :: r1  !! rate at the end times the part [any]
+
+      real(wp) :: curvature
+
+      leaves_room = may_happen(g0, r0, g1, r1)
+      if (.not. leaves_room .or. g0 > 0.0_wp .or. g1 > 0.0_wp) return
+      curvature = curvature_of(g0, r0, g1, r1)
+      leaves_room = sqrt(r0*r0 - 2.0_wp*curvature*g0) - r0 + sqrt(r1*r1 - 2.0_wp*curvature*g1) + r1 <= curvature
+   end function leaves_room
+
+   !> Whether a function with these end values and rates (times the part) rises all the way.
+   pure logical function only_rises(g0, r0, g1, r1)
+      real(wp), intent(in) :: g0  !! value at the start [any]
+      real(wp), intent(in) :: r0  !! rate at the start times the part [any]
+      real(wp), intent(in) :: g1  !! value at the end [any]
+      real(wp), intent(in) :: r1  !! rate at the end times the part [any]
+
+      only_rises = r0 > 0.0_wp .and. r1 > 0.0_wp .and. curvature_of(g0, r0, g1, r1) < min(r0, r1)
+   end function only_rises
+
+   !> Bound of the second derivative of a function, times the square of the part: twice that of the cubic of Hermite.
+   pure real(wp) function curvature_of(g0, r0, g1, r1) result(curvature)
+      real(wp), intent(in) :: g0  !! value at the start [any]
+      real(wp), intent(in) :: r0  !! rate at the start times the part [any]
+      real(wp), intent(in) :: g1  !! value at the end [any]
+      real(wp), intent(in) :: r1  !! rate at the end times the part [any]
+
+      curvature = 2.0_wp*max(abs(6.0_wp*(g1 - g0) - 4.0_wp*r0 - 2.0_wp*r1), abs(6.0_wp*(g0 - g1) + 2.0_wp*r0 + 4.0_wp*r1))
+   end function curvature_of
 
 end module event_chance

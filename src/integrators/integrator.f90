@@ -12,8 +12,7 @@ module integrator
    use ode_system, only: ode_system_t
    implicit none (type, external)
    private
-   public :: integrator_t
-   public :: event_values_t
+   public :: event_values_t, integrator_t, kept_places
    public :: advance_event, advance_failed_evaluation, advance_no_memory, advance_step, advance_too_many_evaluations
    public :: advance_too_many_steps, advance_too_small
    public :: steps_any, steps_fixed, steps_variable
@@ -31,6 +30,7 @@ module integrator
    integer, parameter :: steps_variable = 2   !! variable steps only
 
    integer, parameter :: base_version = 2     !! of the form of what every integrator saves
+   integer, parameter :: kept_places = 5      !! places of a step that a search keeps at once
 
    !> Event functions along a step.
    type :: event_values_t
@@ -40,6 +40,7 @@ module integrator
       real(wp), allocatable :: g(:), rate(:)    !! (n_event) elsewhere [any]
       real(wp), allocatable :: noise(:)         !! (n_event) their round-off in the last step that was searched [any]
       real(wp), allocatable :: threshold(:)     !! (n_event) what they must exceed in that step to be at their event [any]
+      real(wp), allocatable :: kept_g(:, :), kept_rate(:, :)  !! (n_event, kept_places) scratch of a search: at several places [any]
       logical, allocatable :: is_hidden(:)      !! (n_event) event functions that are not searched for now
       integer, allocatable :: happened(:)       !! (n_event) event functions that made the last step end
       integer :: n_happened = 0                 !! how many
@@ -103,14 +104,8 @@ module integrator
       procedure :: memory_size => integrator_memory_size
       procedure :: save => integrator_save
       procedure :: load => integrator_load
-      procedure :: make_room
-      procedure :: begin_step
-      procedure :: look_at_events
-      procedure :: hide_events
-      procedure :: set_scales
-      procedure :: base_memory_size
-      procedure :: save_base
-      procedure :: load_base
+      procedure :: make_room, begin_step, look_at_events, hide_events, set_scales
+      procedure :: base_memory_size, save_base, load_base
    end type integrator_t
 
    abstract interface
@@ -318,6 +313,7 @@ contains
       associate (events => self%events, onset => self%onset)
          allocate (events%g0(m), events%rate0(m), events%g1(m), events%rate1(m), events%g(m), events%rate(m), source=0.0_wp)
          allocate (events%noise(m), events%threshold(m), source=0.0_wp)
+         allocate (events%kept_g(m, kept_places), events%kept_rate(m, kept_places), source=0.0_wp)
          allocate (onset%gap(m), onset%rate(m), onset%end_gap(m), onset%end_rate(m), source=0.0_wp)
          allocate (events%is_hidden(m), onset%is_waiting(m), source=.false.)
          allocate (events%happened(m), onset%passed%n(m), source=0)
@@ -349,21 +345,25 @@ contains
       class(ode_system_t), intent(inout) :: system  !! the system
       real(wp), intent(in) :: t                     !! time [s]
       real(wp), intent(in) :: y(:)                  !! (n) state [any]
-      real(wp), intent(out) :: g(:)                 !! (n_event) event functions less their thresholds [any]
-      real(wp), intent(out) :: rate(:)              !! (n_event) their rates [any]
+      real(wp), intent(out), contiguous :: g(:)     !! (n_event) event functions less their thresholds [any]
+      real(wp), intent(out), contiguous :: rate(:)  !! (n_event) their rates [any]
+
+      integer :: k
 
       call system%events(t, y, g, rate)
-      call self%hide_events(g, rate)
-      g = g - self%events%threshold
+      if (self%controls%onset /= onset_located) call self%hide_events(g, rate)
+      do k = 1, size(g)
+         g(k) = g(k) - self%events%threshold(k)
+      end do
    end subroutine look_at_events
 
-   !> Functions that are not searched for look as if they were far from their event, and stayed there.
+   !> Functions that are not searched for look as if they were far from their event, and stayed there; where onsets are located
+   !> there are none.
    pure subroutine hide_events(self, g, rate)
       class(integrator_t), intent(in) :: self       !! the integrator
       real(wp), intent(inout) :: g(:)               !! (n_event) event functions [any]
       real(wp), intent(inout) :: rate(:)            !! (n_event) their rates [any]
 
-      if (self%controls%onset == onset_located) return
       where (self%events%is_hidden)
          g = -1.0_wp
          rate = 0.0_wp

@@ -257,7 +257,7 @@ contains
       real(wp), intent(in) :: t                     !! time reached [s]
       integer, intent(out) :: status                !! advance_step, advance_event or a failure
 
-      real(wp) :: high, low
+      real(wp) :: high, low, place
       integer :: event
 
       self%t = t
@@ -281,7 +281,7 @@ contains
       end if
       status = advance_step
       if (system%n_event == 0) return
-      call find_first_event(system, self, event, low, high)
+      call find_first_event(system, self, 0.0_wp, event, low, high, place)
       if (event > 0) call go_to_event(self, system, low, high, event, status)
    end subroutine accept
 

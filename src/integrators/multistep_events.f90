@@ -12,13 +12,14 @@ contains
    !> is too short to be repeated stands, and the function is dismissed for the first of the others.
    module procedure go_to_event
       logical :: is_found
+      real(wp) :: place
 
       do while (event > 0)
          call halve(self, system, low, high, event, is_found, status)
          if (status /= 0 .or. is_found) exit
          self%last%is_doubtful = self%events%g(event) > 0.0_wp .and. can_be_repeated(self, event)
          if (self%last%is_doubtful) exit
-         call dismiss_event(system, self, event, low, high)
+         call dismiss_event(system, self, 0.0_wp, event, low, high, place)
       end do
       if (status == 0 .and. is_found) then
          self%step%h = high*self%last%h_whole

@@ -23,6 +23,8 @@ module one_step
    public :: one_step_advance, one_step_load, one_step_memory_size, one_step_restart, one_step_save, one_step_t
 
    integer, parameter :: too_deep = 2             !! of a trial step: a contact that begins is beyond the limit
+   real(wp), parameter :: near_event = 2.0_wp**(-10)  !! what is left of Newton's way to an event on the interpolant: beyond, its
+                                                      !! square is what is missing [1]
 
    !> A one-step method.
    type, abstract, extends(integrator_t) :: one_step_t
@@ -77,12 +79,12 @@ module one_step
 
    interface
       !> Shorten the step so that it ends at an event; one that is none after all is dismissed for the first of the others.
-      module subroutine go_to_event(self, system, low, high, event, status)
+      module subroutine go_to_event(self, system, high, place, event, status)
          implicit none (type, external)
          class(one_step_t), intent(inout) :: self      !! the integrator
          class(ode_system_t), intent(inout) :: system  !! the system
-         real(wp), intent(inout) :: low                !! place before the event, by the interpolant [1]
-         real(wp), intent(inout) :: high               !! place after it, by the interpolant [1]
+         real(wp), intent(inout) :: high               !! place after the event, by the interpolant [1]
+         real(wp), intent(inout) :: place              !! where it is, by the interpolant [1]
          integer, intent(inout) :: event               !! the event function, by the interpolant; then the one that was met
          integer, intent(out) :: status                !! advance_event, advance_step if there is none after all, or a failure
       end subroutine go_to_event
@@ -309,7 +311,7 @@ contains
       class(ode_system_t), intent(inout) :: system  !! the system
       integer, intent(out) :: status                !! advance_step, advance_event or a failure
 
-      real(wp) :: high, low
+      real(wp) :: high, low, place
       integer :: event
 
       self%count%n_steps = self%count%n_steps + 1
@@ -320,8 +322,8 @@ contains
       call foretell_event(self%events, self%step%h, self%pace%h_event, event)
       self%pace%is_parting = .false.
       if (event > 0) self%pace%is_parting = system%contact_change(event) == contact_end
-      call find_first_event(system, self, event, low, high)
-      if (event > 0) call go_to_event(self, system, low, high, event, status)
+      call find_first_event(system, self, near_event, event, low, high, place)
+      if (event > 0) call go_to_event(self, system, high, place, event, status)
       if (self%controls%onset /= onset_located .and. status >= 0) call meet_onsets(system, self, status)
    end subroutine finish_step
 

@@ -15,14 +15,14 @@ contains
 
    !> Shorten the step so that it ends at an event. A function of known noise that does not rise where it was found is at none.
    module procedure go_to_event
-      real(wp) :: h
+      real(wp) :: h, low
       logical :: is_found
 
       do while (event > 0)
-         call close_in(self, system, event, low, high, h, is_found, status)
+         call close_in(self, system, event, place, h, is_found, status)
          if (status == 0 .and. .not. is_found) call halve(self, system, high, h, event, is_found, status)
          if (status /= 0 .or. is_found) exit
-         call dismiss_event(system, self, event, low, high)
+         call dismiss_event(system, self, near_event, event, low, high, place)
       end do
       if (status == 0 .and. is_found) then
          call note_events(self, event, self%step%h)
@@ -51,12 +51,11 @@ contains
    !> Newton's iteration on the length of the step towards an event, its tangent bent as the cubic of Hermite through the start of
    !> the step is: from a place that the interpolant foretold the first correction is the last one, and so small that few stages
    !> lead there. Where another function has clearly been above its threshold for longer, it goes on towards that one.
-   subroutine close_in(self, system, event, low, high, h, is_found, status)
+   subroutine close_in(self, system, event, place, h, is_found, status)
       class(one_step_t), intent(inout) :: self      !! the integrator
       class(ode_system_t), intent(inout) :: system  !! the system
       integer, intent(inout) :: event               !! the event function, by the interpolant; then the first one
-      real(wp), intent(in) :: low                   !! place before it, by the interpolant [1]
-      real(wp), intent(in) :: high                  !! place after it [1]
+      real(wp), intent(in) :: place                 !! where it is, by the interpolant [1]
       real(wp), intent(out) :: h                    !! length of the step to the event [s]
       logical, intent(out) :: is_found              !! whether it was found, and no other one comes clearly earlier
       integer, intent(out) :: status                !! of the evaluations
@@ -66,7 +65,7 @@ contains
 
       full = self%step%h
       resolution = time_resolution(self, full)
-      h = 0.5_wp*(low + high)*full
+      h = place*full
       before = huge(1.0_wp)
       h_before = h
       is_found = .false.

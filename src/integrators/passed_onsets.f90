@@ -10,7 +10,7 @@
 !> between them.
 module passed_onsets
    use event_chance, only: is_long, may_happen
-   use event_location, only: state_at
+   use event_search, only: state_at
    use integrator, only: integrator_t
    use kinds, only: i8, wp
    use ode_system, only: contact_onset, ode_system_t
