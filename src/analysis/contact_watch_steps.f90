@@ -19,7 +19,7 @@ contains
       integer :: i, k
 
       self%n_peak = 0
-      do k = 1, size(system%loose%sets)
+      do k = 1, system%loose%n_set
          associate (set => system%loose%sets(k)%set)
             if (set%n_touching == 0) cycle
             call system%linkage%set_acceleration(method%step%f1)

@@ -139,7 +139,7 @@ contains
          travel = settings%number("travel")
          if (travel*guards%size > 0.0_wp) guards%way = travel*guards%size
          allocate (guards%limit(n_contact_guard, system%loose%n_contact), source=huge(1.0_wp))
-         do k = 1, size(system%loose%sets)
+         do k = 1, system%loose%n_set
             call set_limits(system%loose%sets(k)%set, guards)
          end do
          guards%stops(guard_penetration) = .true.
@@ -228,7 +228,7 @@ contains
 
       if (.not. self%is_set) return
       if (system%loose%has_films) call self%films%look(system, t)
-      do k = 1, size(system%loose%sets)
+      do k = 1, system%loose%n_set
          associate (set => system%loose%sets(k)%set)
             if (set%n_touching == 0) cycle
             associate (first => set%before%contacts + 1)

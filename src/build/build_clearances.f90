@@ -72,6 +72,7 @@ contains
          end associate
       end do
       allocate (system%loose%sets(n), system%linkage%ideal(n_ideal))
+      system%loose%n_set = n
       do k = 1, n
          call move_alloc(slots(k)%set, system%loose%sets(k)%set)
       end do

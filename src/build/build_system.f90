@@ -163,7 +163,8 @@ contains
       call new_loads(n, loading%loads)
       call start_loads(n, loading%weight, loading%loads%force, loading%loads%moment)
       allocate (loading%forces(count([(size(scene%forces(k)%items) > 0, k=1, n_force_kinds)])))
-      loading%loads%is_weight = size(loading%forces) + n_loose == 0  ! and stays so
+      loading%n_set = size(loading%forces)
+      loading%loads%is_weight = loading%n_set + n_loose == 0  ! and stays so
       n = 0
       do k = 1, n_force_kinds
          if (size(scene%forces(k)%items) == 0) cycle

@@ -78,19 +78,7 @@ contains
       place = n_work + n_loss*(contact - 1) + loss
    end function place_of_loss
 
-   !> Rates of the impulses of contacts: their normal forces.
-   pure subroutine impulse_rates(n, integrands, rate)
-      integer, intent(in) :: n                             !! contacts whose impulses are integrated
-      real(wp), intent(in) :: integrands(n_integrand, n)   !! (3, n) what is integrated of them [W and N]
-      real(wp), intent(inout) :: rate(n)                   !! (n) rates, set [N]
-
-      integer :: k
-
-      !GCC$ novector
-      do k = 1, n
-         rate(k) = integrands(normal_impulse, k)
-      end do
-   end subroutine impulse_rates
+   include "impulse_rates.inc"
 
    !> Add a block after those that are there.
    pure subroutine functions_add(self, kind)

@@ -12,6 +12,7 @@ module loading
       real(wp) :: gravity(3) = 0.0_wp                !! (3) acceleration of free fall [m/s^2]
       real(wp), allocatable :: weight(:, :)          !! (3, 0:bodies) force of gravity [N]
       type(force_slot_t), allocatable :: forces(:)   !! force elements, one set per kind
+      integer :: n_set = 0                           !! how many sets
       logical :: counts_turns = .false.              !! whether some of them count turns, see `step_follower`
       ! of the last evaluation
       type(loads_t) :: loads                         !! applied and contact loads

@@ -9,8 +9,7 @@
 !> quadratures: no bristles, no contacts that stick, no joints that rub by multipliers, no correction of stages.
 submodule(mechanism) mechanism_direct
    use, intrinsic :: ieee_arithmetic, only: ieee_is_finite
-   use clearance_set, only: clearance_slot_t, n_integrand
-   use contact_places, only: impulse_rates
+   use clearance_set, only: clearance_slot_t, n_integrand, normal_impulse
    use joint_set, only: joint_slot_t
    use loading, only: loading_t, start_loads
    use mechanism_parts, only: loose_t
@@ -102,6 +101,7 @@ contains
    include "../reduce/planar_known.inc"
    include "../reduce/planar_guided.inc"
    include "sum_loads.inc"
+   include "impulse_rates.inc"
 
    !> Positions and velocities of the guided bodies.
    pure subroutine place_guided(n, n_turning, item, y, n_body, motion)

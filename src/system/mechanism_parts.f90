@@ -12,6 +12,7 @@ module mechanism_parts
    !> Loose joints.
    type :: loose_t
       type(clearance_slot_t), allocatable :: sets(:)   !! loose joints, one set per combination of laws
+      integer :: n_set = 0                             !! how many: bounds of arrays are looked up longer
       integer :: n = 0                                 !! loose joints in all
       integer :: n_contact = 0                         !! contacts of all of them
       logical :: has_films = .false.                   !! lubricant films act in some

@@ -53,7 +53,7 @@ contains
       if (.not. any([(self%loose%sets(k)%set%laws%normal%jumps_at_turn .and. self%loose%sets(k)%set%n_touching > 0, &
                       k=1, size(self%loose%sets))])) return
       call self%turns(t, y, speed, acceleration)
-      do k = 1, size(self%loose%sets)
+      do k = 1, self%loose%n_set
          associate (set => self%loose%sets(k)%set)
             if (.not. set%laws%normal%jumps_at_turn .or. set%n_touching == 0) cycle
             do i = 1, set%n_contact
@@ -80,11 +80,11 @@ contains
       moment = self%time_of_difference(t)
       call self%evaluate(t, y, ydot, status)
       call self%linkage%set_motion(t + moment, y + moment*ydot)
-      do k = 1, size(self%loose%sets)
+      do k = 1, self%loose%n_set
          call self%loose%sets(k)%set%gaps(self%linkage%motion, delta, acceleration)
       end do
       call self%evaluate(t, y, ydot, status)
-      do k = 1, size(self%loose%sets)
+      do k = 1, self%loose%n_set
          call self%loose%sets(k)%set%gaps(self%linkage%motion, delta, rate)
       end do
       acceleration = (acceleration - rate)/moment
@@ -98,7 +98,7 @@ contains
 
       integer :: first, i, k
 
-      do k = 1, size(self%loose%sets)
+      do k = 1, self%loose%n_set
          associate (set => self%loose%sets(k)%set)
             call set%gaps(self%linkage%motion, g, rate)
             if (set%n_touching == 0) cycle
@@ -121,7 +121,7 @@ contains
       real(wp) :: side
       integer :: i, k, number, place
 
-      do k = 1, size(self%loose%sets)
+      do k = 1, self%loose%n_set
          associate (set => self%loose%sets(k)%set)
             do i = 1, set%n_contact
                number = set%before%contacts + i

@@ -78,7 +78,7 @@ contains
          integer :: slot
 
          greatest = -1.0_wp  ! [m/s]
-         do slot = 1, size(self%loose%sets)
+         do slot = 1, self%loose%n_set
             associate (set => self%loose%sets(slot)%set, linkage => self%linkage)
                if (set%n_touching == 0) cycle
                greatest = max(greatest, noise_of(set%n_contact, set%contact, set%n_contact_item, set%n, set%items%body, &
@@ -235,7 +235,7 @@ contains
       self%linkage%scales%late_rate = late/end
       self%friction%grips%h = first*end
       call self%linkage%set_motion(t, y)
-      do k = 1, size(self%loose%sets)
+      do k = 1, self%loose%n_set
          associate (set => self%loose%sets(k)%set)
             call set%gaps(self%linkage%motion, delta, rate)
             do i = 1, set%n_contact
