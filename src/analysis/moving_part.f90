@@ -183,14 +183,18 @@ contains
             call describe_failure(system, method, events_without_end, error)
             return
          end if
-         ended = film_that_ended(system, method)
-         if (ended /= "") then
-            call describe_failure(system, method, film_ended, error, ended)
-            return
+         if (system%loose%has_films) then
+            ended = film_that_ended(system, method)
+            if (ended /= "") then
+               call describe_failure(system, method, film_ended, error, ended)
+               return
+            end if
          end if
          step_hint = 0.0_wp
-         system%traits%contact_begins = any([(system%contact_change(method%events%happened(k)) == contact_onset, &
-                                              k=1, method%events%n_happened)])
+         system%traits%contact_begins = .false.
+         do k = 1, method%events%n_happened
+            if (system%contact_change(method%events%happened(k)) == contact_onset) system%traits%contact_begins = .true.
+         end do
          do k = 1, method%events%n_happened
             ways(:, k) = sliding_way(system, method%events%happened(k))
          end do

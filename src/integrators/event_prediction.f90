@@ -26,14 +26,15 @@ contains
       real(wp), intent(out) :: time               !! to the event [s]
       integer, intent(out) :: event               !! its function, 0: none
 
-      real(wp) :: ahead, bend, root
+      real(wp) :: ahead, bend, per_h, root
       integer :: k
 
+      per_h = 1.0_wp/h
       time = huge(1.0_wp)
       event = 0
       do k = 1, size(events%g1)
          if (events%is_hidden(k) .or. events%g1(k) >= 0.0_wp .or. events%rate1(k) <= 0.0_wp) cycle
-         bend = (6.0_wp*(events%g0(k) - events%g1(k))/h + 2.0_wp*events%rate0(k) + 4.0_wp*events%rate1(k))/h
+         bend = (6.0_wp*(events%g0(k) - events%g1(k))*per_h + 2.0_wp*events%rate0(k) + 4.0_wp*events%rate1(k))*per_h
          root = events%rate1(k)**2 - 2.0_wp*bend*events%g1(k)
          if (root <= 0.0_wp) cycle
          ahead = -2.0_wp*events%g1(k)/(events%rate1(k) + sqrt(root))

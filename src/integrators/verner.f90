@@ -12,7 +12,7 @@ module verner
    use kinds, only: wp
    use ode_system, only: ode_system_t
    use one_step, only: one_step_t
-   use wild_stages, only: evaluate_aside, evaluate_stage
+   use wild_stages, only: evaluate_aside, judge_stage
    implicit none (type, external)
    private
    public :: verner_t
@@ -94,8 +94,11 @@ contains
       real(wp), intent(inout) :: y_end(n_all)       !! (n_all) state at the end of the step, set [any]
       integer, intent(out) :: status                !! of the evaluations
 
-      integer :: i, n
+      integer :: i, m, n
+      logical :: is_blind
 
+      is_blind = .not. system%traits%sees_wild
+      m = system%n_position
       n = system%n - system%n_quadrature
       do concurrent(i=1:n)
          y(i) = y0(i) + h*a21*k1(i)
@@ -105,24 +108,28 @@ contains
       do concurrent(i=1:n)
          y(i) = y0(i) + h*(a31*k1(i) + a32*k2(i))
       end do
-      call evaluate_stage(system, t + c3*h, y, k3, status)
+      call system%evaluate(t + c3*h, y, k3, status)
+      if (is_blind) call judge_stage(n - m, k3(m + 1), status)
       if (status /= 0) return
       do concurrent(i=1:n)
          y(i) = y0(i) + h*(a41*k1(i) + a42*k2(i) + a43*k3(i))
       end do
-      call evaluate_stage(system, t + c4*h, y, k4, status)
+      call system%evaluate(t + c4*h, y, k4, status)
+      if (is_blind) call judge_stage(n - m, k4(m + 1), status)
       if (status /= 0) return
       do concurrent(i=1:n)
          y(i) = y0(i) + h*(a51*k1(i) + a52*k2(i) + a53*k3(i) + a54*k4(i))
       end do
-      call evaluate_stage(system, t + c5*h, y, k5, status)
+      call system%evaluate(t + c5*h, y, k5, status)
+      if (is_blind) call judge_stage(n - m, k5(m + 1), status)
       if (status /= 0) return
       ! stage 7 does not need stage 6; evaluated before it, all stages at the end of the step follow one another, and what
       ! is a function of time alone is found once
       do concurrent(i=1:n)
          y(i) = y0(i) + h*(a71*k1(i) + a72*k2(i) + a73*k3(i) + a74*k4(i) + a75*k5(i))
       end do
-      call evaluate_stage(system, t + c7*h, y, k7, status)
+      call system%evaluate(t + c7*h, y, k7, status)
+      if (is_blind) call judge_stage(n - m, k7(m + 1), status)
       if (status /= 0) return
       do concurrent(i=1:n)
          y(i) = y0(i) + h*(a61*k1(i) + a62*k2(i) + a63*k3(i) + a64*k4(i) + a65*k5(i))
@@ -132,7 +139,8 @@ contains
       do concurrent(i=1:n)
          y(i) = y0(i) + h*(a81*k1(i) + a82*k2(i) + a83*k3(i) + a84*k4(i) + a85*k5(i) + a87*k7(i))
       end do
-      call evaluate_stage(system, t + h, y, k8, status)
+      call system%evaluate(t + h, y, k8, status)
+      if (is_blind) call judge_stage(n - m, k8(m + 1), status)
       if (status /= 0) return
       do concurrent(i=1:n_all)
          y_end(i) = y0(i) + h*(b1*k1(i) + b3*k3(i) + b4*k4(i) + b5*k5(i) + b7*k7(i) + b8*k8(i))
