@@ -46,7 +46,6 @@ contains
       real(wp), intent(out) :: place                !! where the event is, between them [1]
 
       real(wp), allocatable :: g(:), kept_g(:, :), kept_rate(:, :), rate(:), y(:)
-      integer(i8) :: n_inner
 
       ! the room of the integrator, while it itself is asked for states
       call move_alloc(method%scratch, y)
@@ -55,19 +54,11 @@ contains
       call move_alloc(method%events%kept_g, kept_g)
       call move_alloc(method%events%kept_rate, kept_rate)
       event = 0
-      low = 0.0_wp
-      high = 1.0_wp
       place = 1.0_wp
       call look_into_halves(low, high)
-      if (is_long(system, method)) then
-         n_inner = ceiling(method%step%h/n_sample/method%events%look, i8)
-         call look_everywhere(low, high)
-      end if
-      if (event == 0) then
-         call system%settle(method%step%t0 + method%step%h, method%step%y1, g, rate)
-      else
-         call narrow(low, high, place)
-      end if
+      if (is_long(system, method)) call look_everywhere(low, high)
+      if (event > 0) call narrow(low, high, place)
+      if (event == 0) call system%settle(method%step%t0 + method%step%h, method%step%y1, g, rate)
       call move_alloc(y, method%scratch)
       call move_alloc(g, method%events%g)
       call move_alloc(rate, method%events%rate)
@@ -79,8 +70,8 @@ contains
       !> Look into those halves, and halves of them, that leave room for an event. What is known at the left end of a part is kept
       !> in the first column, at its right end and those of the parts that it belongs to in the others.
       subroutine look_into_halves(low, high)
-         real(wp), intent(inout) :: low    !! place before the event, if there is one [1]
-         real(wp), intent(inout) :: high   !! place after it [1]
+         real(wp), intent(out) :: low    !! place before the event, if there is one [1]
+         real(wp), intent(out) :: high   !! place after it [1]
 
          integer :: level
          logical :: bends, has_room
@@ -94,7 +85,7 @@ contains
          call values_at_place(right(0), kept_g(:, 2), kept_rate(:, 2))
          do
             call judge(level, (right(level) - left)*method%step%h, has_room, bends)
-            if (bends .and. level < n_level) then
+            if (bends .and. n_sample*(right(level) - left) > 1.0_wp) then
                level = level + 1
                right(level) = 0.5_wp*(left + right(level - 1))
                call values_at(right(level), kept_g(:, level + 2), kept_rate(:, level + 2))
@@ -222,7 +213,7 @@ contains
          integer(i8) :: i, n
          integer :: k
 
-         n = n_inner*ceiling((b - a)*n_sample)
+         n = ceiling(method%step%h/n_sample/method%events%look, i8)*ceiling((b - a)*n_sample)
          if (n < 2) return
          is_above = g > 0.0_wp
          if (event > 0) is_above(event) = .true.
