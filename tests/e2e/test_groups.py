@@ -25,7 +25,7 @@ def events_of(run):
 @pytest.mark.parametrize("method", ["verner", "dop853", "rock4", "radau", "adams", "bdf", "ida"])
 def test_apart_as_together(gudgeon, method):
     """All events and the motion are the same to what the tolerance allows, the loads' instants and friction's among them."""
-    tolerance = "5e-11" if method == "bdf" else "1e-10"  # whose errors are the largest at the same tolerance
+    tolerance = {"bdf": "5e-11", "adams": "8e-12"}.get(method, "1e-10")  # whose errors are the largest, or scatter most
     text = changed(DECK, "analysis.dynamic", method=method, tolerance=tolerance)
     apart, together = (run_of(gudgeon, text, "--set", f"groups={word}") for word in ("apart", "together"))
     assert (apart.summary["groups"], together.summary["groups"]) == (6, 1)
