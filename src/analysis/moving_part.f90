@@ -194,8 +194,6 @@ contains
          system%traits%contact_begins = .false.
          do k = 1, method%events%n_happened
             if (system%contact_change(method%events%happened(k)) == contact_onset) system%traits%contact_begins = .true.
-         end do
-         do k = 1, method%events%n_happened
             ways(:, k) = sliding_way(system, method%events%happened(k))
          end do
          do k = 1, method%events%n_happened
