@@ -20,7 +20,7 @@ module dop853
    use ode_system, only: ode_system_t
    use one_step, only: one_step_t
    use step_course, only: along, course_even, pace_at, parameter_of
-   use wild_stages, only: evaluate_aside, evaluate_stage
+   use wild_stages, only: evaluate_aside, judge_stage
    implicit none (type, external)
    private
    public :: dop853_t
@@ -150,10 +150,11 @@ contains
       do i = 2, 12
          call add_stages(i, n, system%n, self%step%y0, h, self%k, self%y)
          if (i > n_early) then
-            call evaluate_stage(system, self%step%t0 + places(i, course)*h, self%y, self%k(:, i), status)
+            call system%evaluate(self%step%t0 + places(i, course)*h, self%y, self%k(:, i), status)
          else
             call evaluate_aside(system, self%step%t0 + places(i, course)*h, self%y, self%k(:, i), status)
          end if
+         if (.not. system%traits%sees_wild) call judge_stage(n - system%n_position, self%k(system%n_position + 1:n, i), status)
          if (status /= 0) return
          if (course /= course_even) self%k(:, i) = paces(i, course)*self%k(:, i)
       end do

@@ -104,6 +104,7 @@ contains
          y(i) = y0(i) + h*a21*k1(i)
       end do
       call evaluate_aside(system, t + c2*h, y, k2, status)
+      if (is_blind) call judge_stage(n - m, k2(m + 1), status)
       if (status /= 0) return
       do concurrent(i=1:n)
          y(i) = y0(i) + h*(a31*k1(i) + a32*k2(i))
@@ -135,6 +136,7 @@ contains
          y(i) = y0(i) + h*(a61*k1(i) + a62*k2(i) + a63*k3(i) + a64*k4(i) + a65*k5(i))
       end do
       call evaluate_aside(system, t + h, y, k6, status)
+      if (is_blind) call judge_stage(n - m, k6(m + 1), status)
       if (status /= 0) return
       do concurrent(i=1:n)
          y(i) = y0(i) + h*(a81*k1(i) + a82*k2(i) + a83*k3(i) + a84*k4(i) + a85*k5(i) + a87*k7(i))

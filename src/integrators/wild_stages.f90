@@ -5,29 +5,11 @@ module wild_stages
    use ode_system, only: ode_system_t
    implicit none (type, external)
    private
-   public :: evaluate_aside, evaluate_stage, is_wild, judge_stage, wild
+   public :: evaluate_aside, is_wild, judge_stage, wild
 
    real(wp), parameter :: wild = 1.0e60_wp        !! derivative of a trial step far too long for a stiff force [any]
 
 contains
-
-   !> Derivative at a stage.
-   subroutine evaluate_stage(system, t, y, f, status)
-      class(ode_system_t), intent(inout) :: system  !! the system
-      real(wp), intent(in) :: t                     !! time of the stage [s]
-      real(wp), intent(in) :: y(system%n)           !! (n) its state, whose quadratures are not read [any]
-      real(wp), intent(inout) :: f(system%n)        !! (n) its derivative [any]
-      integer, intent(out) :: status                !! 0: done; 1: wild; else that of the system
-
-      if (system%traits%sees_wild) then
-         call system%evaluate(t, y, f, status)
-         return
-      end if
-      call system%evaluate(t, y, f, status)
-      associate (first => system%n_position + 1, last => system%n - system%n_quadrature)
-         call judge_stage(last - first + 1, f(first:last), status)
-      end associate
-   end subroutine evaluate_stage
 
    !> Derivative at a stage that the end of the step has no part of, without quadratures, on which nothing depends.
    subroutine evaluate_aside(system, t, y, f, status)
@@ -35,13 +17,13 @@ contains
       real(wp), intent(in) :: t                     !! time of the stage [s]
       real(wp), intent(in) :: y(system%n)           !! (n) its state, whose quadratures are not read [any]
       real(wp), intent(inout) :: f(system%n)        !! (n) its derivative [any]
-      integer, intent(out) :: status                !! 0: done; 1: wild; else that of the system
+      integer, intent(out) :: status                !! that of the system
 
       logical :: are_wanted
 
       are_wanted = system%traits%with_quadratures
       system%traits%with_quadratures = .false.
-      call evaluate_stage(system, t, y, f, status)
+      call system%evaluate(t, y, f, status)
       system%traits%with_quadratures = are_wanted
    end subroutine evaluate_aside
 
