@@ -84,14 +84,15 @@ contains
       type(part_t), intent(out) :: part     !! what is drawn
 
       real(wp) :: axes(3, 3), centre(3)
-      integer :: body
+      integer :: body, points
 
       body = item%reference("body")
       centre = [item%number("xi"), item%number("eta"), item%number("zeta")]
       axes = axes_across(item%direction("axis"))
       select case (item%word("shape"))
       case ("polygon")
-         call take_polygon(item%values(place_of(item, "points"))%table(:, 1), merge(3, 2, is_spatial), body, part)
+         points = place_of(item, "points")
+         call take_polygon(item%values(points)%table(:, 1), merge(3, 2, is_spatial), body, part)
       case ("box")
          call box_part(0.5_wp*[item%number("length"), item%number("width"), item%number("height")], centre, &
                        rotation_about(item%direction("axis"), item%number("angle")), body, part)

@@ -1,5 +1,6 @@
 """joint.constant_velocity: two shafts at an angle, against closed forms, by every way of holding the constraints."""
 
+import math
 import subprocess
 
 import numpy as np
@@ -10,7 +11,7 @@ BEND = 35.0  # degrees
 WAYS = [{}, {"stabilise": "partitioning"}, {"stabilise": "baumgarte alpha=5s^-1 beta=5s^-1"}, {"stabilise": "projection"},
         {"coordinates": "full"}, {"method": "ida"}, {"method": "bdf", "tolerance": "1e-11"}, {"solver": "sparse"}, {"solver": "complete"}]
 
-s, c = np.sin(np.radians(BEND)), np.cos(np.radians(BEND))
+s, c = math.sin(math.radians(BEND)), math.cos(math.radians(BEND))
 SHAFTS = f"""deck = 1
 [scene]
 space = spatial

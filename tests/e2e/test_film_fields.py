@@ -4,6 +4,7 @@ import h5py
 import numpy as np
 import pytest
 from film_decks import BEARING, CLEARANCE
+from scipy.integrate import trapezoid
 from support import Run, assert_close, call, changed, scratch, written
 
 RADIUS, LENGTH = 9.8e-3, 40e-3
@@ -24,7 +25,7 @@ def force_of(group):
     """The force on the journal by the trapezium rule over pressures, world frame."""
     theta, y, p = group["theta"][:], group["y"][:], group["pressure"][:]
     angle = theta + group.attrs["bearing_angle"]
-    along = np.trapezoid(p, y, axis=1) if hasattr(np, "trapezoid") else np.trapz(p, y, axis=1)
+    along = trapezoid(p, y, axis=1)
     step = theta[1] - theta[0]
     return -RADIUS * step * np.array([(along[:-1] * np.cos(angle[:-1])).sum(), (along[:-1] * np.sin(angle[:-1])).sum()])
 
