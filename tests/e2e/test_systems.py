@@ -53,6 +53,22 @@ def test_functions_in_selectors_are_found(root, tmp_path):
     assert call(root / "scripts/check_associate").returncode == 0
 
 
+@pytest.mark.parametrize("line", ["call t(b%v(place(b))%x(:, 1))", "y = f(b%v(place(b))%x(1, :))", "call t(x(:, max(1, k - 1)))",
+                                  "call t(x(:, k, findloc(y, 1, 1)))", "associate (y => x(minval(k), :))"])
+def test_functions_in_subscripts_of_sections_are_found(root, tmp_path, line):
+    """gfortran 14 with -fcheck=bounds reads what they need before it is set, where the section is an argument."""
+    for folder in ("scripts", "src", "tests"):
+        (tmp_path / folder).mkdir()
+    shutil.copy(root / "scripts/check_associate", tmp_path / "scripts")
+    source = tmp_path / "src/m.f90"
+    source.write_text(f"module m\ncontains\nsubroutine s(b, x)\n{line}\nend subroutine s\nend module m\n", encoding="utf-8")
+    done = call(tmp_path / "scripts/check_associate")
+    assert done.returncode == 1 and "src/m.f90:4: a section" in done.stdout
+    source.write_text("module m\nreal :: x(0:3, max(1, n))\ncontains\nsubroutine s(b, x)\ncall t(b%v(place(b))%x, x(:, k), max(k, 1))\n"
+                      "end subroutine s\nend module m\n", encoding="utf-8")
+    assert call(tmp_path / "scripts/check_associate").returncode == 0
+
+
 def test_a_folder_of_others_is_no_debian(root, tmp_path):
     if os.geteuid() != 0 or not shutil.which("debootstrap"):
         pytest.skip("needs root and debootstrap")

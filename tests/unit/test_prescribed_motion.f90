@@ -52,7 +52,7 @@ contains
       type(newton_t) :: newton
       type(mechanism_t) :: system
       real(wp) :: a(9, -1:1), q(9, -1:1), t, v(9, -1:1)
-      integer :: k, n, outcome
+      integer :: before, k, n, outcome
 
       call driven("0.7rad + 3rad*sin(2*pi*1Hz*t)^2 + 2rad*t/1s", system, error)
       if (allocated(error)) return
@@ -60,7 +60,8 @@ contains
          do k = -1, 1
             t = 0.05_wp*n + k*h
             q(:, k) = start
-            if (n > 0 .or. k > -1) q(:, k) = q(:, max(k - 1, -1))
+            before = max(k - 1, -1)
+            if (n > 0 .or. k > -1) q(:, k) = q(:, before)
             call solve_positions(system%linkage, t, newton, q(:, k), outcome)
             call check_equal(error, outcome, solved, "outcome of positions")
             call solve_rates(system%linkage, t, newton, q(:, k), v(:, k), a(:, k), outcome)
