@@ -41,6 +41,8 @@ export PYTHONDONTWRITEBYTECODE := 1
 
 parallel = $(if $(filter -j% --jobserver%,$(MAKEFLAGS)),,-j$(JOBS))
 inner = +@$(MAKE) $(parallel) MODE=
+# Tests on all processors where pytest-xdist is there, each file of tests on one of them; PYTEST='-n 0' for one after the other
+workers = $(if $(shell $(PYTHON) -c 'import xdist' 2>/dev/null && echo yes),-p xdist -n $(JOBS) --dist loadfile)
 
 .PHONY: all install uninstall debug run test test-sanitize test-debian check bench bench-peers vtk-test browser-test slurm-test stability certify fuzz figures studies film-table film-errors lint format docs clean help
 .PHONY: objects binary test_program bench_programs fuzz_program film_programs
@@ -61,13 +63,13 @@ test:
 	$(inner)release binary test_program fuzz_program
 	$(inner)debug binary test_program fuzz_program
 	@GUDGEON_BUILD=$(abspath $(BUILD)) PYTEST_DISABLE_PLUGIN_AUTOLOAD=1 \
-	  $(PYTHON) -B -m pytest -c tests/pytest.ini $(PYTEST) tests
+	  $(PYTHON) -B -m pytest -c tests/pytest.ini $(workers) $(PYTEST) tests
 
 # The tests in a build with the sanitizers of addresses, leaks and undefined behaviour, an hour; what they say is in build/sanitize/reports
 test-sanitize:
 	@scripts/setup
 	$(inner)sanitize binary test_program fuzz_program
-	@scripts/test_sanitize $(abspath $(BUILD)) $(PYTEST)
+	@scripts/test_sanitize $(abspath $(BUILD)) $(workers) $(PYTEST)
 
 test-debian:
 	@scripts/test_debian $(SUITE) $(or $(DIR),$(BUILD)/debian/$(SUITE))
