@@ -407,9 +407,10 @@ $(B)/tests/many_decks: $(call object,$(FUZZ_MAIN) $(COVERAGE)) $(OBJECTS) $(B)/o
 	@echo "  LD $@"
 	@$(LINK_PROGRAM)
 
-# What runs once takes longer to optimise than it can gain: tests, the reading of decks, the verbs.
+# What runs once takes longer to optimise than it can gain: tests, the reading of decks, the verbs and the studies that they make.
 ifeq ($(MODE),release)
-$(TEST_OBJECTS) $(call object,$(filter src/scene/% src/cli/%,$(SOURCES))): private FFLAGS += -O1
+$(TEST_OBJECTS) $(call object,$(filter src/scene/% src/cli/% src/precision/% src/compare/% src/adams/% src/pictures/%,$(SOURCES)) \
+  src/analysis/driver_conflict): private FFLAGS += -O1
 endif
 
 # Kernels that are text of a procedure so that they are part of it: the compiler finds sine and cosine too large for that. Their loops
