@@ -8,7 +8,7 @@ module channel_hints
    use text_list, only: text_list_t
    implicit none (type, external)
    private
-   public :: is_same, suggestion
+   public :: is_same, suggest
 
    integer, parameter :: most_listed = 12  !! names listed in a hint
 
@@ -22,15 +22,17 @@ contains
       is_same = part == "*" .or. (part == name .and. len(part) == len(name))
    end function is_same
 
-   !> What a word that names nothing may have meant.
-   function suggestion(parts, catalogue) result(hint)
-      type(text_t), intent(in) :: parts(:)        !! (n) parts of the word
-      type(catalogue_t), intent(in) :: catalogue  !! what can be recorded
-      character(:), allocatable :: hint           !! a question, a list, or both
+   !> What a word that names nothing may have meant. The caller asks whether the words of `meant` name something.
+   subroutine suggest(parts, catalogue, meant, hint)
+      type(text_t), intent(in) :: parts(:)                   !! (n) parts of the word
+      type(catalogue_t), intent(in) :: catalogue             !! what can be recorded
+      type(text_t), allocatable, intent(out) :: meant(:)     !! (any) words that may have been meant, the likeliest first
+      character(:), allocatable, intent(out) :: hint         !! what there is
 
       type(text_t), allocatable :: items(:), quantities(:)
       character(:), allocatable :: item, quantity
 
+      allocate (meant(0))
       items = names_of_items(catalogue)
       item = parts(1)%s
       if (item == "energy" .and. size(catalogue%rooms(room_energy)%names) == 0) then
@@ -54,14 +56,13 @@ contains
       if (.not. (quantity == "*" .or. is_listed(quantity, quantities))) quantity = nearest_word(quantity, quantities)
       hint = "channels of "//item//": "//listed(quantities)
       if (len(quantity) == 0) return
-      if (size(parts) == 2) then
-         hint = "did you mean '"//item//"."//quantity//"'? "//hint
-      else if (quantity == parts(2)%s .and. item == parts(1)%s) then
+      if (size(parts) > 2 .and. quantity == parts(min(2, size(parts)))%s .and. item == parts(1)%s) then
          hint = "'"//item//"."//quantity//"' has no part '"//parts(3)%s//"'; "//hint
       else
-         hint = "did you mean '"//item//"."//quantity//"."//parts(3)%s//"'? "//hint
+         if (size(parts) > 2) call append_text(meant, item//"."//quantity//"."//parts(3)%s)
+         call append_text(meant, item//"."//quantity)
       end if
-   end function suggestion
+   end subroutine suggest
 
    !> Names of all items, each once.
    function names_of_items(catalogue) result(items)

@@ -6,7 +6,7 @@
 module channels
    use catalogue, only: catalogue_t
    use catalogue_rooms, only: n_rooms, room_contacts, room_points
-   use channel_hints, only: is_same, suggestion
+   use channel_hints, only: is_same, suggest
    use channel_names, only: component_letter, item_name, scalar_t
    use name_table, only: name_table_t
    use point_contacts, only: named_channels
@@ -98,12 +98,34 @@ contains
       character(:), allocatable, intent(out) :: message     !! blank if it names something
       character(:), allocatable, intent(out) :: hint        !! what may have been meant, may be blank
 
-      type(text_t), allocatable :: parts(:)
-      integer :: component, first, group, item, last, n, pass
+      type(text_t), allocatable :: meant(:), parts(:)
+      type(scalar_t), allocatable :: named(:)
+      integer :: k
 
       message = ""
       hint = ""
       parts = split_dots(word)
+      call collect_scalars(parts, catalogue, finder, scalars)
+      if (size(scalars) > 0 .or. word == "*") return
+      message = "unknown channel '"//word//"'"
+      call suggest(parts, catalogue, meant, hint)
+      do k = 1, size(meant)
+         call collect_scalars(split_dots(meant(k)%s), catalogue, finder, named)
+         if (size(named) == 0) cycle
+         hint = "did you mean '"//meant(k)%s//"'? "//hint
+         return
+      end do
+   end subroutine find_scalars
+
+   !> The numbers that the parts of a word name.
+   subroutine collect_scalars(parts, catalogue, finder, scalars)
+      type(text_t), intent(in) :: parts(:)                    !! (n) parts of the word
+      type(catalogue_t), intent(in) :: catalogue              !! what can be recorded
+      type(item_finder_t), intent(in) :: finder               !! finds its items
+      type(scalar_t), allocatable, intent(out) :: scalars(:)  !! (any) what they name
+
+      integer :: component, first, group, item, last, n, pass
+
       do pass = 1, 2
          n = 0
          do group = 1, size(catalogue%groups)
@@ -119,10 +141,7 @@ contains
          end do
          if (pass == 1) allocate (scalars(n))
       end do
-      if (n > 0 .or. word == "*") return
-      message = "unknown channel '"//word//"'"
-      hint = suggestion(parts, catalogue)
-   end subroutine find_scalars
+   end subroutine collect_scalars
 
    !> Enter the names of a catalogue's items.
    subroutine start_finder(self, catalogue)

@@ -75,8 +75,8 @@ contains
       call add_number(info, "mass", dim_mass, "mass", lower=0.0_wp, open_lower=.true.)
       call add_number(info, "inertia", dim_inertia, "moment of inertia about the centre of mass", &
                       lower=0.0_wp, open_lower=.true.)
-      call add_number(info, "x", dim_length, "centre of mass at the start, world frame")
-      call add_number(info, "y", dim_length, "centre of mass at the start, world frame")
+      call add_number(info, "x", dim_length, "centre of mass at the start, world frame", default="0 m")
+      call add_number(info, "y", dim_length, "centre of mass at the start, world frame", default="0 m")
       call add_number(info, "angle", dim_angle, "angle at the start, counter-clockwise", default="0 rad")
       call add_number(info, "vx", dim_speed, "velocity of the centre of mass at the start; made consistent, left out: free", &
                       default="0 m/s", is_free=.true.)
@@ -101,8 +101,8 @@ contains
       info%help = "points fixed in a body, from its centre of mass along its axes (ground: the world's)"
       info%source = "Flores et al. (2008), eq. (2.1)"
       call add_reference(info, "body", "bodies", "the body, or ground")
-      call add_number(info, "xi", dim_length, "first coordinate in the body's frame")
-      call add_number(info, "eta", dim_length, "second coordinate in the body's frame")
+      call add_number(info, "xi", dim_length, "first coordinate in the body's frame", default="0 m")
+      call add_number(info, "eta", dim_length, "second coordinate in the body's frame", default="0 m")
    end function points_info
 
    !> The deck table of materials.

@@ -19,6 +19,7 @@ module figure_words
    use motion_words, only: motion_request_t
    use spelling, only: nearest_word
    use text, only: join, piece, starts_with, text_t, to_text
+   use text_buffer, only: buffer_t
    implicit none (type, external)
    private
    public :: append_figure, check_figures, figure_t, new_figure
@@ -105,7 +106,7 @@ contains
    end subroutine check_figures
 
    !> Understand one word.
-   subroutine new_figure(word, catalogue, figure, message, hint, bad_part)
+   recursive subroutine new_figure(word, catalogue, figure, message, hint, bad_part)
       character(*), intent(in) :: word                     !! a word of the deck
       type(catalogue_t), intent(in) :: catalogue           !! what can be recorded
       type(figure_t), intent(out) :: figure                !! the figure
@@ -172,29 +173,30 @@ contains
       character(*), parameter :: letters = &
          "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789_-"
       integer(i8), parameter :: factor = 31_i8, modulus = 99999989_i8
+      type(buffer_t) :: buffer
       integer :: depth, i
       integer(i8) :: mark
       logical :: is_new
 
-      name = ""
       is_new = .false.
       depth = 0
       do i = 1, len(word)
          if (index(letters, word(i:i)) > 0 .or. word(i:i) == "*") then
-            if (is_new .and. len(name) > 0) name = name//"."
+            if (is_new .and. buffer%length() > 0) call buffer%add(".")
             is_new = .false.
             if (word(i:i) == "*") then
-               name = name//"all"
+               call buffer%add("all")
             else
-               name = name//word(i:i)
+               call buffer%add(word(i:i))
             end if
          else
             is_new = is_new .or. word(i:i) /= ")"
             if (word(i:i) == "(") depth = depth + 1
             if (word(i:i) == ")") depth = depth - 1
-            if (word(i:i) == "+" .and. depth > 0) name = name//".and"
+            if (word(i:i) == "+" .and. depth > 0) call buffer%add(".and")
          end if
       end do
+      name = buffer%get()
       if (len(name) <= longest_name) return
       mark = 0
       do i = 1, len(word)
@@ -204,7 +206,7 @@ contains
    end function file_name
 
    !> Channels over time, or over another channel.
-   subroutine new_history(word, catalogue, figure, message, hint, bad)
+   recursive subroutine new_history(word, catalogue, figure, message, hint, bad)
       character(*), intent(in) :: word                       !! a figure of the deck
       type(catalogue_t), intent(in) :: catalogue             !! what can be recorded
       type(figure_t), intent(inout) :: figure                !! the figure
@@ -212,10 +214,7 @@ contains
       character(:), allocatable, intent(inout) :: hint       !! what may have been meant, may be blank
       character(:), allocatable, intent(out) :: bad          !! the wrong part, blank: all of it
 
-      character(:), allocatable :: nearest
-      integer :: k
       type(phrase_t) :: phrase
-      type(text_t), allocatable :: calls(:)
 
       call read_phrase(word, phrase, message, bad)
       if (len(message) > 0) then
@@ -226,30 +225,52 @@ contains
       call bind_curves(phrase, catalogue, figure%scalars, figure%curves, message, hint, bad)
       if (starts_with(message, unknown_channel) .and. bad == word) then
          message = "unknown figure"//piece(message, len(unknown_channel) + 1)
-         allocate (calls(figure_portrait:figure_animation))
-         do k = figure_portrait, figure_animation
-            calls(k)%s = piece(call_words(k), 1, index(call_words(k), "(") - 1)
-         end do
-         if (nearest_word(word(index(word, ".", back=.true.) + 1:), [text_t(orbit_word(2:))]) == orbit_word(2:)) then
-            hint = "did you mean '"//word(:index(word, ".", back=.true.) - 1)//orbit_word//"'? "//hint
-         end if
-         nearest = nearest_word(word(:index(word//"(", "(") - 1), calls)
-         if (len(nearest) > 0 .and. .not. starts_with(hint, "did you mean")) hint = "did you mean '"//nearest//"'? "//hint
+         call take_nearest_call(word, catalogue, hint)
          hint = hint//"; figures are a channel, JOINT.orbit, portrait(X,Y), section(X,Y), spectrum(X), "// &
                 "histogram(JOINT.impact_speed), bifurcation(X), statistics(NUMBER), film(JOINT), mechanism, strip(n=8), "// &
                 "coupler(POINT) and animation(last=...); "//phrase_hint
       end if
    end subroutine new_history
 
+   !> Begin a hint with the figure of another kind that was probably meant, if that would be understood.
+   recursive subroutine take_nearest_call(word, catalogue, hint)
+      character(*), intent(in) :: word                       !! a figure of the deck that is none
+      type(catalogue_t), intent(in) :: catalogue             !! what can be recorded
+      character(:), allocatable, intent(inout) :: hint       !! what may have been meant
+
+      character(*), parameter :: question = "did you mean '"
+      character(:), allocatable :: ignored, message, meant, nearest
+      type(figure_t) :: figure
+      type(text_t) :: calls(figure_portrait:figure_animation)
+      integer :: k
+
+      if (starts_with(hint, question)) return
+      meant = ""
+      k = index(word, ".", back=.true.)
+      if (k > 1 .and. nearest_word(word(k + 1:), [text_t(orbit_word(2:))]) == orbit_word(2:)) then
+         meant = word(:k - 1)//orbit_word
+      else
+         do k = figure_portrait, figure_animation
+            calls(k)%s = piece(call_words(k), 1, index(call_words(k), "(") - 1)
+         end do
+         nearest = nearest_word(word(:index(word//"(", "(") - 1), calls)
+         if (len(nearest) > 0) meant = nearest//word(index(word//"(", "("):)
+      end if
+      if (len(meant) == 0 .or. meant == word) return
+      call new_figure(meant, catalogue, figure, message, ignored)
+      if (len(message) == 0) hint = question//meant//"'? "//hint
+   end subroutine take_nearest_call
+
    !> Path of a journal.
-   subroutine new_orbit(joint, catalogue, figure, message, hint)
+   recursive subroutine new_orbit(joint, catalogue, figure, message, hint)
       character(*), intent(in) :: joint                      !! name of the joint
       type(catalogue_t), intent(in) :: catalogue             !! what can be recorded
       type(figure_t), intent(inout) :: figure                !! the figure
       character(:), allocatable, intent(inout) :: message    !! what is wrong, blank if nothing
       character(:), allocatable, intent(inout) :: hint       !! what may have been meant, may be blank
 
-      character(:), allocatable :: nearest
+      character(:), allocatable :: ignored, nearest, refused
+      type(figure_t) :: meant
       integer :: group, k
       logical :: is_round
 
@@ -281,7 +302,9 @@ contains
          nearest = nearest_word(joint, names)
          hint = "joints with clearance: "//join(names, " ")
          if (size(names) == 0) hint = "this deck has no joints with clearance"
-         if (len(nearest) > 0) hint = "did you mean '"//nearest//orbit_word//"'? "//hint
+         if (len(nearest) == 0 .or. nearest == joint) return
+         call new_figure(nearest//orbit_word, catalogue, meant, refused, ignored)
+         if (len(refused) == 0) hint = "did you mean '"//nearest//orbit_word//"'? "//hint
       end associate
    end subroutine new_orbit
 

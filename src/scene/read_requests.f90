@@ -212,8 +212,9 @@ contains
       type(sight_t), intent(inout) :: sight               !! its place is set
       type(diagnostics_t), intent(inout) :: diagnostics   !! mistakes found
 
-      character(:), allocatable :: help, item, message, quantity
+      character(:), allocatable :: help, ignored, item, message, near, quantity
       type(location_t) :: at
+      type(sight_t) :: other
       integer :: body, motion, point
 
       call read_sight_word(sight%word, item, quantity, sight%component, sight%quantity)
@@ -221,7 +222,14 @@ contains
       call find_item(scene, item, body, motion, point, help)
       if (body + motion + point == 0) then
          message = "nothing that a load can see has the name '"//item//"'"
-         if (help /= "") help = "did you mean '"//help//"."//quantity//"'?"
+         if (help /= "") then
+            near = help//sight%word(len(item) + 1:)
+            call find_item(scene, help, body, motion, point, ignored)
+            other = sight
+            call check_sight(scene, near, body > 0, motion > 0, other, ignored, help)
+            help = ""
+            if (ignored == "") help = "did you mean '"//near//"'?"
+         end if
       else
          if (body > 0) then
             sight%place = place_t(body=body)
