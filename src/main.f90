@@ -8,7 +8,7 @@ program gudgeon
    use options, only: options_t, read_options
    use posix, only: write_error
    use processes, only: begin_process, end_process
-   use text, only: printable, starts_with
+   use text, only: starts_with
    use verb_explain, only: check_deck, explain_deck
    use verb_compare, only: compare_runs
    use verb_import, only: import_model
@@ -63,7 +63,7 @@ program gudgeon
       if (all(error%code /= [exit_different, exit_stopped]) .and. .not. starts_with(error%message, "error: ")) then
          error%message = "error: "//error%message
       end if
-      call write_error(printable(error%message)//new_line("a"))
+      call write_error(error%message//new_line("a"))
       call end_process(error%code)
    end if
    call end_process(exit_ok)

@@ -25,7 +25,7 @@ module sweep_runs
    use swept, only: sweep_t
    use sweep_journal, only: run_record_t
    use sweep_work, only: runs_folder, sweep_work_t, write_results
-   use text, only: append_text, exact_text, printable, replace, text_t, to_text
+   use text, only: append_text, exact_text, replace, text_t, to_text
    use text_file, only: fail_file
    use verb_run, only: run_loaded
    implicit none (type, external)
@@ -236,7 +236,7 @@ contains
       code = exit_ok
       if (allocated(error)) then
          code = error%code
-         call write_error(printable("error: "//error%message)//new_line("a")//"  = alone: "//command_of(ready%options)// &
+         call write_error("error: "//error%message//new_line("a")//"  = alone: "//command_of(ready%options)// &
                           new_line("a"))
       end if
       call cpu_time(now)

@@ -328,6 +328,8 @@ contains
       do i = 1, len(string)
          code = iachar(string(i:i))
          if ((code < 32 .and. code /= 9 .and. code /= 10) .or. code == 127) harmless(i:i) = "?"
+         if (i == 1 .or. code < 128 .or. code >= 160) cycle
+         if (iachar(string(i - 1:i - 1)) == 194) harmless(i - 1:i) = "??"  ! U+0080 to U+009F, in UTF-8
       end do
    end function printable
 

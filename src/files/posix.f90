@@ -11,12 +11,12 @@ module posix
    use posix_interfaces, only: c_reserve, c_setenv, c_sync, c_utc_time
    use posix_interfaces, only: c_write_at, c_write_open
    use system_file, only: system_message
-   use text, only: text_t
+   use text, only: printable, text_t
    implicit none (type, external)
    private
    public :: close_file, from_c, host_name, is_alive, is_busy, is_directory, is_link, is_missing, is_pipe_gone
    public :: is_terminal, list_directory, lock_file, make_directory, n_processors, own_path, path_exists, process_number
-   public :: cut_file, free_space
+   public :: cut_file, draw_error, free_space
    public :: random_name, real_path, release_space, remove_file, remove_within, rename_path, reserve_space, set_default_variable
    public :: sync_path, system_message, utc_time, write_at, write_error, write_output
 
@@ -182,24 +182,32 @@ contains
       code = c_write_at(path//c_null_char, text, len(text, i8), offset)
    end function write_at
 
-   !> Write text to the standard output, unlike Fortran's with an error if that is full.
+   !> Write text to the standard output, unlike Fortran's with an error if that is full. Control characters, as those of a title in a
+   !> deck, are made visible: all that a terminal is given goes through here or `write_error`.
    integer function write_output(text) result(code)
       character(*), intent(in) :: text  !! what to write
 
       integer(c_int), parameter :: standard_output = 1
 
-      code = c_write_open(standard_output, text, len(text, i8))
+      code = c_write_open(standard_output, printable(text), len(text, i8))
    end function write_output
 
-   !> Write text to the standard error; if nobody reads it or it is full, there is nobody to tell.
+   !> Write text to the standard error, control characters made visible; if nobody reads it or it is full, there is nobody to tell.
    subroutine write_error(text)
       character(*), intent(in) :: text  !! what to write
+
+      call draw_error(printable(text))
+   end subroutine write_error
+
+   !> Write what the program itself draws on the standard error, as it is: a bar that goes back to the beginning of its line.
+   subroutine draw_error(text)
+      character(*), intent(in) :: text  !! what to write, nothing of a deck or a file in it
 
       integer(c_int), parameter :: standard_error = 2
       integer(c_int) :: ignored
 
       ignored = c_write_open(standard_error, text, len(text, i8))
-   end subroutine write_error
+   end subroutine draw_error
 
    !> Reserve space behind the end of a file.
    integer function reserve_space(path, n) result(code)

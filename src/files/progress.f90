@@ -3,7 +3,7 @@
 !> Nothing is shown in the first second, so that short runs stay silent.
 module progress
    use kinds, only: i8, wp
-   use posix, only: is_terminal, write_error
+   use posix, only: draw_error, is_terminal, write_error
    use text, only: to_text
    implicit none (type, external)
    private
@@ -61,7 +61,7 @@ contains
       if (elapsed < silent) return
       if (self%has_bar) then
          if (self%is_drawn .and. elapsed - self%shown_at < bar_interval) return
-         call write_error(achar(13)//bar(fraction, elapsed))
+         call draw_error(achar(13)//bar(fraction, elapsed))
          self%is_drawn = .true.
       else
          if (elapsed - self%shown_at < log_interval) return
@@ -77,7 +77,7 @@ contains
       class(progress_t), intent(inout) :: self  !! the display
 
       if (self%is_drawn) then
-         call write_error(achar(13)//repeat(" ", bar_width + 32)//achar(13))
+         call draw_error(achar(13)//repeat(" ", bar_width + 32)//achar(13))
       end if
       self%is_on = .false.
       self%is_drawn = .false.

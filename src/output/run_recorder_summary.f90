@@ -6,7 +6,6 @@ submodule(run_recorder) run_recorder_summary
    use report_page, only: report_name, report_text
    use standard_output, only: print_text
    use summary_writer, only: summary_json, summary_lines
-   use text, only: printable
    use text_file, only: replace_file
    implicit none (type, external)
 
@@ -34,7 +33,7 @@ contains
          if (self%plan%show == show_summary .and. summary%status /= status_failed) return
          if (.not. (self%plan%with%summary .and. self%plan%with%warnings)) return
          do k = 1, size(outcome%warnings)
-            call write_error("warning: "//printable(outcome%warnings(k)%s)//new_line("a"))
+            call write_error("warning: "//outcome%warnings(k)%s//new_line("a"))
          end do
       end associate
    end procedure write_summary
