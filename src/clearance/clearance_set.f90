@@ -337,7 +337,8 @@ contains
 
       item = self%item_of(k)
       associate (inverse_mass => self%items%pairs(item)%inverse_mass)
-         speed = sqrt(2.0_wp*inverse_mass*self%laws%normal%potential(max(delta, 0.0_wp), self%laws%parameters(:, k)))
+         ! a law of expressions may attract: no speed has the energy of that
+         speed = sqrt(2.0_wp*inverse_mass*max(0.0_wp, self%laws%normal%potential(max(delta, 0.0_wp), self%laws%parameters(:, k))))
          time = self%laws%normal%contact_time(self%laws%parameters(:, k), max(speed, self%contact(k)%impact_speed), inverse_mass)
       end associate
       if (time > 0.0_wp) self%contact(k)%swing = pi/time

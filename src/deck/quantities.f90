@@ -147,7 +147,9 @@ contains
          i = deck%symbols%find(word)
          if (i > 0 .and. i <= deck%symbols%n_parameter) help = "write {"//word//"} for the parameter"
       end if
-      if (word(1:1) == "{" .and. word(len(word):) == "}") help = "an expression stands without quotes: "//word
+      if (index(word, "{") == 1 .and. index(word, "}", back=.true.) == len(word)) then
+         help = "an expression stands without quotes: "//word
+      end if
       if (len(help) == 0 .and. scan(word, "*/+^()") > 0) help = "an expression stands in braces"
       call mistakes%add(location, "'"//word//"' is not a number "//place, "a number is wanted here", help)
    end subroutine report_not_a_number

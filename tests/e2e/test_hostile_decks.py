@@ -103,3 +103,25 @@ def test_absurd_sizes_end_at_once(gudgeon, case):
     verb, text, code, told = ABSURD[case]
     done = end_of(gudgeon, verb, text)
     assert done.returncode == code and told in done.stderr, done.stderr[:2000]
+
+
+def test_an_empty_word_for_a_number(gudgeon_debug):
+    """Quotes without anything between them where a number is wanted: the mistake, in the build with all checks too."""
+    for old, new in (("0.30", '""'), ("207", '""'), ("1.0e-4", '"{"'), ("0.5 mm", '""')):
+        assert old in SHORT
+        done = end_of(gudgeon_debug, "check", SHORT.replace(old, new, 1))
+        assert done.returncode == 3 and b"is not a number" in done.stderr, done.stderr
+
+
+ESCAPES = "\x1b[31mred\x1b[0m\x1b]0;owned\x07\x7f\u009b1m"
+
+
+@pytest.mark.parametrize("verb, options", (("explain", ()), ("check", ()), ("run", ()), ("run", ("--json",))))
+def test_nothing_of_a_deck_commands_the_terminal(gudgeon, verb, options):
+    """Control characters of a title are made visible in all that is printed."""
+    text = SHORT.replace('title', '# title', 1).replace("[scene]", f'[scene]\ntitle = "{ESCAPES}"', 1)
+    done = end_of(gudgeon, verb, text, *options)
+    assert done.returncode == 0, done.stderr
+    said = done.stdout + done.stderr
+    assert not [byte for byte in said if byte < 32 and byte not in (9, 10)] and b"\x7f" not in said and b"\xc2\x9b" not in said
+    assert b"red" in said or verb == "check"
