@@ -37,7 +37,7 @@ module stop_condition
    !> Conditions, any of which ends the run; without any it goes on to its end.
    type :: stop_t
       integer :: n = 0                           !! number of conditions
-      type(condition_t), allocatable :: list(:)  !! (n) the conditions
+      type(condition_t), allocatable :: list(:)  !! (n or more) the conditions
       real(wp), allocatable :: before(:)         !! (n) how far beyond the limit at the start of the step [any]
       real(wp) :: turning = 0.0_wp               !! greatest angular speed of a body there [rad/s]
       real(wp) :: t = 0.0_wp                     !! when the run ended [s]
@@ -65,11 +65,14 @@ contains
 
       type(condition_t), allocatable :: longer(:)
 
-      allocate (longer(self%n + 1))
-      if (self%n > 0) longer(:self%n) = self%list
-      longer(self%n + 1) = condition_t(words, group, component, item, is_above, limit)
-      call move_alloc(longer, self%list)
-      self%n = size(self%list)
+      if (.not. allocated(self%list)) allocate (self%list(4))
+      if (self%n == size(self%list)) then
+         allocate (longer(2*self%n))
+         longer(:self%n) = self%list
+         call move_alloc(longer, self%list)
+      end if
+      self%n = self%n + 1
+      self%list(self%n) = condition_t(words, group, component, item, is_above, limit)
    end subroutine stop_add
 
    !> Whether a condition reads the value of a quantity of an item.
@@ -79,7 +82,7 @@ contains
       integer, intent(in) :: item             !! number of the item in the group's room
 
       wants = .false.
-      if (self%n > 0) wants = any(self%list%group == group .and. self%list%item == item)
+      if (self%n > 0) wants = any(self%list(:self%n)%group == group .and. self%list(:self%n)%item == item)
    end function stop_wants
 
    !> After a step; before the first one, a condition that is met already ends the run there. If none is met the system is left

@@ -11,9 +11,11 @@
 !> Limits: one file of at most 64 MB.
 module column_file
    use kinds, only: not_a_number, wp
+   use name_table, only: name_table_t
    use numbers, only: number_length, read_number
    use source_text, only: line_of, n_line_of, source_t
-   use text, only: append_text, lower, replace, text_t, to_text
+   use text, only: lower, replace, text_t, to_text
+   use text_list, only: text_list_t
    implicit none (type, external)
    private
    public :: column_table_t, find_column_of, read_columns, unit_in_name
@@ -23,6 +25,8 @@ module column_file
       type(text_t), allocatable :: names(:)     !! (columns) as written; none: the file does not name them
       real(wp), allocatable :: x(:, :)          !! (columns, rows) the numbers [any]
       integer :: line = 0                       !! where its first row stands
+      type(name_table_t) :: by_name             !! number of the first column of a name
+      type(name_table_t) :: by_bare_name        !! the same, without its unit and in small letters
    end type column_table_t
 
 contains
@@ -86,8 +90,15 @@ contains
       !> Put the rows so far on the list.
       subroutine close_table()
          type(column_table_t) :: new
+         integer :: c, previous
 
          new%names = names
+         call new%by_name%start(size(names))
+         call new%by_bare_name%start(size(names))
+         do c = 1, size(names)
+            call new%by_name%enter(names(c)%s, c, previous)
+            call new%by_bare_name%enter(lower(bare_name(names(c)%s)), c, previous)
+         end do
          new%x = rows(:, :n)
          new%line = first_line
          tables = [tables, new]
@@ -102,23 +113,27 @@ contains
       type(text_t), allocatable, intent(out) :: words(:)       !! (n) its words
       integer, intent(out) :: n_left_out                       !! words that are missing at its end
 
+      type(text_list_t) :: found
       character(:), allocatable :: signs, word
       character :: quote
-      integer :: first, i
+      integer :: first, i, n
       logical :: by_comma
 
-      allocate (words(0))
       n_left_out = 0
       signs = ",;"//achar(9)
       if (scan(line, ";"//achar(9)) > 0) signs = ";"//achar(9)   ! a comma is a decimal point
       by_comma = scan(line, signs) > 0
       first = verify(line, " "//achar(9))
-      if (first == 0) return
+      if (first == 0) then
+         allocate (words(0))
+         return
+      end if
       if (scan(line(first:first), "#!%") > 0) then      ! names may stand in a comment
          first = first + 1
          by_comma = scan(line(first:), signs) > 0
       end if
-      word = ""
+      allocate (character(len(line)) :: word)
+      n = 0
       quote = " "
       do i = first, len(line) + 1
          if (i <= len(line)) then
@@ -126,7 +141,7 @@ contains
                if (line(i:i) == quote) then
                   quote = " "
                else
-                  word = word//line(i:i)
+                  call add(line(i:i))
                end if
                cycle
             else if (scan(line(i:i), """'") > 0) then
@@ -135,20 +150,32 @@ contains
             else if (scan(line(i:i), "#!") > 0) then
                exit
             else if (scan(line(i:i), signs) == 0 .and. (by_comma .or. line(i:i) /= " ")) then
-               if (line(i:i) /= achar(13)) word = word//line(i:i)
+               if (line(i:i) /= achar(13)) call add(line(i:i))
                cycle
             end if
          end if
-         if (by_comma .or. len_trim(word) > 0) call append_text(words, trim(adjustl(word)))
-         word = ""
+         if (by_comma .or. len_trim(word(:n)) > 0) call found%add(trim(adjustl(word(:n))))
+         n = 0
       end do
-      if (len_trim(word) > 0) call append_text(words, trim(adjustl(word)))
-      do while (size(words) > 0)      ! a comma at the end of a line
-         if (words(size(words))%s /= "") exit
-         words = words(:size(words) - 1)
+      if (len_trim(word(:n)) > 0) call found%add(trim(adjustl(word(:n))))
+      words = found%get()
+      do i = size(words), 1, -1      ! a comma at the end of a line
+         if (words(i)%s /= "") exit
          n_left_out = n_left_out + 1
       end do
+      if (n_left_out > 0) words = words(:size(words) - n_left_out)
       if (.not. by_comma) call join_units(words)
+
+   contains
+
+      !> Add a character to the word.
+      subroutine add(c)
+         character, intent(in) :: c   !! the character
+
+         n = n + 1
+         word(n:n) = c
+      end subroutine add
+
    end subroutine split_line
 
    !> Units that stand apart from their names by a blank go with them: `time (s)`.
@@ -156,17 +183,19 @@ contains
       type(text_t), allocatable, intent(inout) :: words(:)     !! (n) words of a line
 
       type(text_t), allocatable :: joined(:)
-      integer :: k
+      integer :: k, n
 
-      allocate (joined(0))
+      n = 0
+      allocate (joined(size(words)))
       do k = 1, size(words)
-         if (size(joined) > 0 .and. scan(words(k)%s(1:1), "[(") > 0 .and. number_length(words(k)%s) == 0) then
-            joined(size(joined))%s = joined(size(joined))%s//" "//words(k)%s
+         if (n > 0 .and. scan(words(k)%s(1:1), "[(") > 0 .and. number_length(words(k)%s) == 0) then
+            joined(n)%s = joined(n)%s//" "//words(k)%s
          else
-            joined = [joined, words(k)]
+            n = n + 1
+            call move_alloc(words(k)%s, joined(n)%s)
          end if
       end do
-      words = joined
+      words = joined(:n)
    end subroutine join_units
 
    !> The numbers of a line, if it has nothing but at least two of them.
@@ -199,13 +228,9 @@ contains
 
       integer :: status
 
-      do k = 1, size(table%names)
-         if (table%names(k)%s == word) return
-      end do
-      do k = 1, size(table%names)
-         if (lower(bare_name(table%names(k)%s)) == lower(word)) return
-      end do
-      k = 0
+      k = table%by_name%find(word)
+      if (k == 0) k = table%by_bare_name%find(lower(word))
+      if (k > 0) return
       if (len(word) == 0 .or. len(word) > 6 .or. verify(word, "0123456789") > 0) return
       read (word, *, iostat=status) k
       if (status /= 0 .or. k > size(table%x, 1)) k = 0

@@ -7,13 +7,14 @@ module column_history
    use column_file, only: column_table_t, find_column_of, unit_in_name
    use errors, only: error_t, exit_usage, set_error
    use kinds, only: not_a_number, wp
-   use series, only: history_t, impact_t, series_t
+   use name_table, only: name_table_t
+   use series, only: append_series, enter_names, history_t, impact_t, series_t
    use spelling, only: nearest_word
    use text, only: append_text, piece, starts_with, text_t, to_text
    use units, only: parse_unit, to_si, unit_t
    implicit none (type, external)
    private
-   public :: history_of_columns, number_of
+   public :: history_of_columns
 
 contains
 
@@ -31,10 +32,13 @@ contains
       character(:), allocatable :: base
       type(spec_t) :: spec
       real(wp), allocatable :: kinds(:)
-      integer :: k
+      type(name_table_t) :: known, more
+      integer :: k, n
 
       history%path = path
+      n = 0
       allocate (history%list(0), history%impacts(0))
+      call enter_names(like%list, known)
       spec = time
       if (size(spec%columns) == 0) call append_text(spec%columns, "1")
       call take_column(table, spec, spec%columns(1)%s, "s", history%time, error)
@@ -53,10 +57,13 @@ contains
          if (allocated(error)) return
       end do
       do k = 1, size(specs)
-         call take_spec(table, specs(k), like, history, error)
+         call take_spec(table, specs(k), like, known, history, more, n, error)
          if (allocated(error)) return
       end do
-      if (size(specs) > 0) return
+      if (size(specs) > 0) then
+         call cut()
+         return
+      end if
       base = path(index(path, "/", back=.true.) + 1:)
       base = piece(base, 1, index(base//".", ".") - 1)
       do k = 1, size(like%list)
@@ -68,12 +75,40 @@ contains
          if (find_column_of(table, spec%channel) == 0 .and. starts_with(spec%channel, base//".")) then
             spec%columns(1)%s = spec%channel(len(base) + 2:)
          end if
-         if (find_column_of(table, spec%columns(1)%s) > 0) call take_spec(table, spec, like, history, error)
+         if (find_column_of(table, spec%columns(1)%s) > 0) call take_spec(table, spec, like, known, history, more, n, error)
          if (allocated(error)) return
       end do
+      call cut()
       if (size(history%list) == 0) call set_error(error, exit_usage, "no column of "//path//" has the name of a channel"// &
          new_line("a")//"  = say which column is which:  --channel ""slider.position.x=2 unit=mm""")
+
+   contains
+
+      !> Give back the room that the list does not need.
+      subroutine cut()
+         type(series_t), allocatable :: list(:)
+         logical :: is_used(size(history%list))
+
+         allocate (list(0))
+         is_used = .false.
+         is_used(:n) = .true.
+         call append_series(list, history%list, is_used)
+         call move_alloc(list, history%list)
+      end subroutine cut
+
    end subroutine history_of_columns
+
+   !> Twice as much room for series.
+   subroutine make_room(list)
+      type(series_t), allocatable, intent(inout) :: list(:)   !! grown
+
+      type(series_t), allocatable :: grown(:), larger(:)
+
+      allocate (grown(0), larger(size(list) + 16))
+      call append_series(grown, list, spread(.true., 1, size(list)))
+      call append_series(grown, larger, spread(.true., 1, size(larger)))
+      call move_alloc(grown, list)
+   end subroutine make_room
 
    !> A column in SI.
    subroutine take_column(table, spec, word, si, x, error)
@@ -137,11 +172,14 @@ contains
    end function alike
 
    !> The columns of one channel, or of a vector.
-   subroutine take_spec(table, spec, like, history, error)
+   subroutine take_spec(table, spec, like, known, history, more, n_more, error)
       type(column_table_t), intent(in) :: table            !! the columns
       type(spec_t), intent(in) :: spec                     !! what is asked for
       type(history_t), intent(in) :: like                  !! the run that has the channels
-      type(history_t), intent(inout) :: history            !! grown
+      type(name_table_t), intent(in) :: known              !! its channels
+      type(history_t), intent(inout) :: history            !! grown; its list has room
+      type(name_table_t), intent(inout) :: more            !! its channels
+      integer, intent(inout) :: n_more                     !! how many
       type(error_t), allocatable, intent(out) :: error     !! no such column or channel
 
       character(1), parameter :: axes(3) = ["x", "y", "z"]
@@ -163,7 +201,7 @@ contains
       do c = 1, n
          new(c)%name = spec%channel
          if (is_vector) new(c)%name = spec%channel//"."//axes(c)
-         i = number_of(like, new(c)%name)
+         i = known%find(new(c)%name)
          if (i == 0) then
             call set_error(error, exit_usage, "the run has no channel '"//new(c)%name//"'"//nearest_of(like, new(c)%name))
             return
@@ -175,12 +213,12 @@ contains
       end do
       if (is_vector) x = matmul(x, transpose(spec%turn))
       do c = 1, n
-         do k = 1, size(history%list)
-            if (history%list(k)%name == new(c)%name) exit
-         end do
-         if (k <= size(history%list)) cycle      ! the first that names it
+         call more%enter(new(c)%name, n_more + 1, k)
+         if (k > 0) cycle      ! the first that names it
+         n_more = n_more + 1
          new(c)%x = x(:, c)
-         history%list = [history%list, new(c)]
+         if (n_more > size(history%list)) call make_room(history%list)
+         history%list(n_more) = new(c)
          if (index(new(c)%name, ".normal_force") > 0) call add_impacts(new(c), history)
       end do
    end subroutine take_spec
@@ -205,17 +243,6 @@ contains
          history%impacts = [history%impacts, new]
       end do
    end subroutine add_impacts
-
-   !> Number of a channel in a history; 0: it is not there.
-   pure integer function number_of(history, name) result(k)
-      type(history_t), intent(in) :: history   !! the history
-      character(*), intent(in) :: name         !! of the channel
-
-      do k = 1, size(history%list)
-         if (history%list(k)%name == name) return
-      end do
-      k = 0
-   end function number_of
 
    !> The channel that was probably meant.
    function nearest_of(history, name) result(words)

@@ -11,14 +11,15 @@
 !> Limits: impacts are paired in their order, joint by joint.
 module comparison
    use channel_spec, only: spec_t
-   use column_history, only: number_of
    use differences_of_series, only: compare_values, difference_t, find_peak
    use errors, only: error_t, exit_usage, set_error
    use, intrinsic :: ieee_arithmetic, only: ieee_is_finite
    use kinds, only: wp
-   use series, only: history_t, impact_t, series_t
+   use name_table, only: name_table_t
+   use series, only: enter_names, history_t, impact_t, series_t
    use series_at_instants, only: smooth_at, state_at, unwind
-   use text, only: append_text, starts_with, text_t, to_text
+   use text, only: starts_with, text_t, to_text
+   use text_list, only: text_list_t
    implicit none (type, external)
    private
    public :: compare_histories, comparison_t, pair_t
@@ -62,8 +63,10 @@ contains
 
       real(wp), allocatable :: own(:)
       logical, allocatable :: is_inside(:)
-      type(difference_t) :: new
-      integer :: i, k, s
+      type(difference_t), allocatable :: list(:)
+      type(name_table_t) :: in_a, in_b
+      type(text_list_t) :: missing
+      integer :: i, k, n, s
 
       found%by_statistics = by_statistics
       allocate (found%list(0), found%missing(0))
@@ -81,27 +84,31 @@ contains
          return
       end if
       allocate (found%a(size(found%t), size(b%list)), found%b(size(found%t), size(b%list)), found%d(size(found%t), size(b%list)))
+      call enter_names(a%list, in_a)
+      call enter_names(b%list, in_b)
+      allocate (list(size(b%list)))
+      n = 0
       do k = 1, size(b%list)
-         i = number_of(a, b%list(k)%name)
+         i = in_a%find(b%list(k)%name)
          s = spec_of(specs, b%list(k)%name)
          if (size(specs) > 0 .and. s == 0) cycle
          if (i == 0) then
-            call append_text(found%missing, b%list(k)%name//" is in "//b%path//" only")
+            call missing%add(b%list(k)%name//" is in "//b%path//" only")
             cycle
          end if
-         associate (n => size(found%list) + 1)
-            found%b(:, n) = pack(b%list(k)%x, is_inside)
-            call compare_channel(a, a%list(i), turn_of(specs, s, a%list(i)), found%t, found%a(:, n), found%b(:, n), found%d(:, n), &
-                                 new)
-         end associate
-         call judge(new, allowance(specs, s, absolute, .true.), allowance(specs, s, relative, .false.), by_statistics, &
+         n = n + 1
+         found%b(:, n) = pack(b%list(k)%x, is_inside)
+         call compare_channel(a, a%list(i), turn_of(specs, s, a%list(i)), found%t, found%a(:, n), found%b(:, n), found%d(:, n), &
+                              list(n))
+         call judge(list(n), allowance(specs, s, absolute, .true.), allowance(specs, s, relative, .false.), by_statistics, &
                     size(b%list))
-         found%list = [found%list, new]
       end do
+      found%list = list(:n)
       do i = 1, size(a%list)
-         if (number_of(b, a%list(i)%name) > 0 .or. size(specs) > 0) cycle
-         call append_text(found%missing, a%list(i)%name//" is in "//a%path//" only")
+         if (in_b%find(a%list(i)%name) > 0 .or. size(specs) > 0) cycle
+         call missing%add(a%list(i)%name//" is in "//a%path//" only")
       end do
+      found%missing = missing%get()
       found%n_different = count(found%list%is_different)
       if (size(found%list) == 0) call set_error(error, exit_usage, "both have no channel in common")
       call pair_impacts(a, b, found)
@@ -214,26 +221,36 @@ contains
       type(history_t), intent(in) :: b             !! the second
       type(comparison_t), intent(inout) :: found   !! with the pairs
 
-      type(pair_t) :: new
+      type(name_table_t) :: joints
+      type(pair_t), allocatable :: pairs(:)
+      integer, allocatable :: n_of_a(:), of_b(:, :)
       integer :: i, j, k, n
 
-      allocate (found%pairs(0))
-      do i = 1, size(a%impacts)
-         n = count([(a%impacts(k)%item == a%impacts(i)%item, k=1, i)])
-         if (n > first_impacts) cycle
-         k = 0
-         do j = 1, size(b%impacts)
-            if (b%impacts(j)%item /= a%impacts(i)%item) cycle
-            k = k + 1
-            if (k == n) exit
-         end do
-         if (k < n .or. j > size(b%impacts)) cycle
-         new%item = a%impacts(i)%item
-         new%number = n
-         new%a = a%impacts(i)
-         new%b = b%impacts(j)
-         found%pairs = [found%pairs, new]
+      allocate (n_of_a(size(b%impacts)), of_b(0:first_impacts, size(b%impacts)), source=0)
+      call joints%start(size(b%impacts))
+      n = 0
+      do j = 1, size(b%impacts)
+         call joints%enter(b%impacts(j)%item, n + 1, k)
+         if (k == 0) n = n + 1
+         if (k == 0) k = n
+         if (of_b(0, k) == first_impacts) cycle
+         of_b(0, k) = of_b(0, k) + 1
+         of_b(of_b(0, k), k) = j
       end do
+      allocate (pairs(min(size(a%impacts), first_impacts*n)))
+      n = 0
+      do i = 1, size(a%impacts)
+         k = joints%find(a%impacts(i)%item)
+         if (k == 0) cycle
+         n_of_a(k) = n_of_a(k) + 1
+         if (n_of_a(k) > of_b(0, k)) cycle
+         n = n + 1
+         pairs(n)%item = a%impacts(i)%item
+         pairs(n)%number = n_of_a(k)
+         pairs(n)%a = a%impacts(i)
+         pairs(n)%b = b%impacts(of_b(n_of_a(k), k))
+      end do
+      found%pairs = pairs(:n)
    end subroutine pair_impacts
 
 end module comparison

@@ -1,9 +1,10 @@
 !> Time histories of numbers by name, and impacts, whoever computed them.
 module series
    use kinds, only: wp
+   use name_table, only: name_table_t
    implicit none (type, external)
    private
-   public :: history_t, impact_t, series_t
+   public :: append_series, enter_names, history_t, impact_t, series_t
 
    !> One number over the time.
    type :: series_t
@@ -30,5 +31,54 @@ module series
       type(series_t), allocatable :: list(:)        !! (m) the numbers
       type(impact_t), allocatable :: impacts(:)     !! (k) by time
    end type history_t
+
+contains
+
+   !> The numbers of series by their names; of equal names the first.
+   subroutine enter_names(list, table)
+      type(series_t), intent(in) :: list(:)        !! (n) the series
+      type(name_table_t), intent(out) :: table     !! finds them
+
+      integer :: k, previous
+
+      call table%start(size(list))
+      do k = 1, size(list)
+         call table%enter(list(k)%name, k, previous)
+      end do
+   end subroutine enter_names
+
+   !> Append series to a list; neither is copied, but for what stands beside the values.
+   subroutine append_series(list, more, is_kept)
+      type(series_t), allocatable, intent(inout) :: list(:)   !! grown
+      type(series_t), intent(inout) :: more(:)                !! (n) emptied
+      logical, intent(in) :: is_kept(:)                       !! (n) which of them
+
+      type(series_t), allocatable :: grown(:)
+      integer :: k, n
+
+      n = size(list)
+      allocate (grown(n + count(is_kept)))
+      do k = 1, n
+         call move_series(list(k), grown(k))
+      end do
+      do k = 1, size(more)
+         if (.not. is_kept(k)) cycle
+         n = n + 1
+         call move_series(more(k), grown(n))
+      end do
+      call move_alloc(grown, list)
+   end subroutine append_series
+
+   !> Move a series.
+   subroutine move_series(from, to)
+      type(series_t), intent(inout) :: from     !! emptied
+      type(series_t), intent(inout) :: to       !! filled
+
+      real(wp), allocatable :: x(:)
+
+      call move_alloc(from%x, x)
+      to = from
+      call move_alloc(x, to%x)
+   end subroutine move_series
 
 end module series

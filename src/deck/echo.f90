@@ -185,6 +185,7 @@ contains
       type(value_t), intent(in) :: value    !! its value
       character(:), allocatable :: s        !! as the deck reads it
 
+      type(buffer_t) :: many
       integer :: i
 
       select case (column%cell)
@@ -192,11 +193,11 @@ contains
          s = exact_text(value%number)
          if (column%is_any) s = s//glued_unit(value%dimensions(1))
       case (cell_list)
-         s = ""
          do i = 1, size(value%table, 1)
-            s = s//exact_text(value%table(i, 1))//" "
+            call many%add(exact_text(value%table(i, 1))//" ")
          end do
-         s = quoted(trim(s//glued_unit(value%dimensions(1))))
+         call many%add(glued_unit(value%dimensions(1)))
+         s = quoted(trim(many%get()))
       case (cell_expression)
          s = exact_text(value%number)
          if (.not. value%expression%is_constant) s = "{"//value%expression%source//"}"
@@ -214,25 +215,26 @@ contains
          s = "off"
          if (value%flag) s = "on"
       case (cell_condition)
-         s = ""
          do i = 1, size(value%conditions)
             associate (condition => value%conditions(i))
-               if (i > 1) s = s//" or "
-               s = s//quoted(condition%channel)//merge(" > ", " < ", condition%is_above)//exact_text(condition%limit)// &
-                   glued_unit(condition%dimension)
+               if (i > 1) call many%add(" or ")
+               call many%add(quoted(condition%channel)//merge(" > ", " < ", condition%is_above)//exact_text(condition%limit)// &
+                             glued_unit(condition%dimension))
             end associate
          end do
+         s = many%get()
       case (cell_words)
-         s = ""
          do i = 1, size(value%words)
-            if (i > 1) s = s//" "
-            s = s//quoted(value%words(i)%s)
+            if (i > 1) call many%add(" ")
+            call many%add(quoted(value%words(i)%s))
          end do
+         s = many%get()
       case default
-         s = quoted(value%text)
+         call many%add(quoted(value%text))
          do i = 1, size(value%options)
-            s = s//" "//value%options(i)%name//"="//quoted(value%options(i)%text)
+            call many%add(" "//value%options(i)%name//"="//quoted(value%options(i)%text))
          end do
+         s = many%get()
       end select
    end function value_text
 

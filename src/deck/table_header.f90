@@ -36,6 +36,7 @@ contains
 
       type(location_t) :: at
       integer :: i, k, n_broken
+      logical, allocatable :: is_taken(:)
       logical :: is_there
 
       do k = 1, size(list)
@@ -47,15 +48,20 @@ contains
       end do
       allocate (headers(size(list)))
       n_broken = 0
+      i = 0
+      if (allocated(info%columns)) i = size(info%columns)
+      allocate (is_taken(min(is_broken, is_name_column):i), source=.false.)
       do k = 1, size(list)
          call read_column(deck, info, list(k), headers(k), mistakes)
          if (headers(k)%column == is_broken) n_broken = n_broken + 1
-         do i = 1, k - 1
-            if (headers(i)%column /= headers(k)%column .or. headers(k)%column == is_broken) cycle
+         if (headers(k)%column == is_broken) cycle
+         if (is_taken(headers(k)%column)) then
             call mistakes%add(list(k)%location, "column '"//plain_name(text_of(deck, list(k)))//"' stands twice in table " &
                             & //info%name)
             headers(k)%column = is_broken
-         end do
+            cycle
+         end if
+         is_taken(headers(k)%column) = .true.
       end do
       if (n_broken == size(list)) then
          deallocate (headers)

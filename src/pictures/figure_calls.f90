@@ -5,6 +5,7 @@ submodule(figure_words) figure_calls
    use film_words, only: film_hint, take_film
    use motion_words, only: motion_hint, take_motion
    use text, only: append_text
+   use text_list, only: text_list_t
    implicit none (type, external)
 
 contains
@@ -58,16 +59,17 @@ contains
       character(*), intent(in) :: text           !! as `a,b)`
       type(text_t), allocatable :: list(:)       !! (n) arguments
 
+      type(text_list_t) :: found
       integer :: first, length
 
-      allocate (list(0))
       first = 1
       do while (first <= len(text))
          length = scan(text(first:), ",)") - 1
          if (length < 1) exit
-         call append_text(list, text(first:first + length - 1))
+         call found%add(text(first:first + length - 1))
          first = first + length + 1
       end do
+      list = found%get()
    end function arguments_of
 
    !> Add a channel that is one number to a figure.

@@ -8,6 +8,7 @@ module figure_phrase
    use kinds, only: wp
    use numbers, only: number_length, read_number
    use text, only: append_text, piece, starts_with, text_t
+   use text_list, only: text_list_t
    use units, only: parse_unit, unit_t
    implicit none (type, external)
    private
@@ -124,24 +125,23 @@ contains
       character(*), intent(in) :: text         !! the figure
       type(text_t), allocatable :: cells(:)    !! (n) cells
 
-      character(:), allocatable :: cell
-      integer :: depth, i
+      type(text_list_t) :: list
+      integer :: depth, first, i
 
-      allocate (cells(0))
-      cell = ""
+      first = 1
       depth = 0
       do i = 1, len(text)
          if (depth == 0 .and. (text(i:i) == " " .or. separates(i))) then
-            if (len(cell) > 0) call append_text(cells, cell)
-            cell = ""
-            if (text(i:i) /= " ") call append_text(cells, text(i:i))
+            if (i > first) call list%add(text(first:i - 1))
+            first = i + 1
+            if (text(i:i) /= " ") call list%add(text(i:i))
             cycle
          end if
          if (text(i:i) == "(") depth = depth + 1
-         if (text(i:i) == ")" .and. len(cell) > 0) depth = max(0, depth - 1)
-         cell = cell//text(i:i)
+         if (text(i:i) == ")" .and. i > first) depth = max(0, depth - 1)
       end do
-      if (len(cell) > 0) call append_text(cells, cell)
+      if (first <= len(text)) call list%add(text(first:))
+      cells = list%get()
 
    contains
 
@@ -151,10 +151,11 @@ contains
 
          separates = index(separators, text(place:place)) > 0
          if (.not. separates .or. text(place:place) /= "+") return
-         if (len(cell) == 0) then
+         if (place == first) then
             if (place < len(text)) separates = index("0123456789.", text(place + 1:place + 1)) == 0
          else
-            separates = .not. (number_length(cell//"0") > len(cell) .and. scan(cell(len(cell):), "eEdD") > 0)
+            separates = scan(text(place - 1:place - 1), "eEdD") == 0
+            if (.not. separates) separates = number_length(text(first:place - 1)//"0") <= place - first
          end if
       end function separates
 
@@ -178,6 +179,8 @@ contains
       character(:), allocatable, intent(inout) :: message    !! what is wrong, blank if nothing
       character(:), allocatable, intent(inout) :: bad        !! the wrong cell
 
+      type(text_list_t) :: words
+
       call empty(clause)
       do
          if (at > size(cells)) then
@@ -189,12 +192,13 @@ contains
             bad = cells(at)%s
             return
          end if
-         call append_text(clause%words, cells(at)%s)
+         call words%add(cells(at)%s)
          at = at + 1
          call read_axes(cells, at, clause, message, bad)
-         if (len(message) > 0 .or. .not. is(cells, at, "+")) return
+         if (len(message) > 0 .or. .not. is(cells, at, "+")) exit
          at = at + 1
       end do
+      clause%words = words%get()
    end subroutine read_clause
 
    !> Units and ends of axes.

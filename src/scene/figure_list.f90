@@ -8,6 +8,7 @@ module figure_list
    use numbers, only: number_length
    use spelling, only: nearest_word
    use text, only: starts_with, text_t
+   use text_buffer, only: buffer_t
    use text_list, only: text_list_t
    use units, only: parse_unit, unit_t
    implicit none (type, external)
@@ -27,7 +28,7 @@ contains
 
       type(location_t) :: places(size(value%words))
       type(text_list_t) :: figures
-      character(:), allocatable :: whole
+      type(buffer_t) :: whole
       integer :: first, i, k, last
 
       k = 1
@@ -38,7 +39,8 @@ contains
                               "write a channel first, as in slider.velocity.x against motor.coordinate")
             return
          end if
-         whole = without_blanks(value%words(k)%s)
+         whole = buffer_t()
+         call whole%add(without_blanks(value%words(k)%s))
          do
             k = k + 1
             if (k > size(value%words)) exit
@@ -53,11 +55,11 @@ contains
                return
             end if
             do i = k, last
-               whole = whole//" "//value%words(i)%s
+               call whole%add(" "//value%words(i)%s)
             end do
             k = last
          end do
-         call figures%add(whole)
+         call figures%add(whole%get())
          places(figures%n) = place(first)
          if (k - 1 > first) places(figures%n)%last = max(places(figures%n)%last, last_column(first, k - 1))
       end do
@@ -145,17 +147,20 @@ contains
       character(*), intent(in) :: word        !! as read
       character(:), allocatable :: s          !! as figures are called
 
-      integer :: depth, i
+      integer :: depth, i, n
 
       s = word
       if (starts_with(word, panels_word) .or. index(word, "(") == 0) return
-      s = ""
+      n = 0
       depth = 0
       do i = 1, len(word)
          if (word(i:i) == "(") depth = depth + 1
          if (word(i:i) == ")") depth = depth - 1
-         if (word(i:i) /= " " .or. depth == 0) s = s//word(i:i)
+         if (word(i:i) == " " .and. depth > 0) cycle
+         n = n + 1
+         s(n:n) = word(i:i)
       end do
+      s = s(:n)
    end function without_blanks
 
 end module figure_list

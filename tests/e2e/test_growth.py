@@ -76,6 +76,9 @@ GROWING = {
     "a range of a sweep": ("check", 20000, lambda n: scene("c = 1 mm", tables=f"[sweep]\nc = 1 .. 2 mm in {n}")),
     "parameters of a sweep": ("check", 5000, lambda n: scene(
         lines(n, "c{k} = 1 mm"), tables="[sweep]\ncombine = paired\n" + lines(n, "c{k} = 1 2 mm"))),
+    "samples of a function": ("run", 20000, lambda n: scene(
+        tables="[function.samples]\nname at value\nf \"" + words(n, "{k}") + "\" \"" + words(n, "{k}") + "\"")),
+    "conditions that end a run": ("run", 1500, lambda n: scene(tables="[guards]\nstop = " + " or ".join(f"rod.angle > {k} rad" for k in range(9, n)))),
     "points": ("run", 5000, lambda n: scene(points=lines(n, "p{k} rod {k} 0"))),
     "bodies": ("run", 1500, lambda n: scene(bodies=balls(n))),
     "forces": ("explain", 3000, lambda n: scene(points=lines(n, "p{k} rod {k} 0"),
@@ -87,17 +90,24 @@ GROWING = {
 }
 
 
-def cpu_of(gudgeon, verb, text):
-    """Processor time of a command [s]."""
+def cpu_of(gudgeon, verb, text, expect=0, said=""):
+    """Processor time of a command with a deck [s]."""
     directory = scratch()
     command = [str(gudgeon), verb, str(written(directory, text))]
     if verb == "run":
         command += ["--out", str(directory / "out"), "--quiet"]
+    used = cpu_of_command(command, directory, (expect,))
+    assert said in (directory / "said").read_text()
+    return used
+
+
+def cpu_of_command(command, directory, expect):
+    """Processor time of a command [s]."""
     with open(directory / "said", "w", encoding="utf-8") as said:
         child = subprocess.Popen(command, stdout=said, stderr=said)
         _, status, used = os.wait4(child.pid, 0)
     child.returncode = os.waitstatus_to_exitcode(status)
-    assert child.returncode == 0, (directory / "said").read_text()[-2000:]
+    assert child.returncode in expect, (directory / "said").read_text()[-2000:]
     return used.ru_utime + used.ru_stime
 
 
@@ -112,6 +122,47 @@ def test_time_grows_with_the_size(gudgeon, name):
         if measured[-1] <= RATIO:
             break
     assert min(measured) <= RATIO, f"{name}: {measured} times from {n} to {4*n}"
+
+
+# a command of n that ends with a mistake: verb, n, deck, what is said
+REFUSED = {
+    "channels of a figure": (10000, lambda n: scene(output="figures = " + "rod.angle+"*n + "rod.angle"), "names too many channels"),
+    "a word within a figure": (60000, lambda n: scene(output=f"figures = strip(n={'1'*n})"), "n=11"),
+    "columns that stand twice": (10000, lambda n: scene().replace("name mass[kg]", "name " + "angle "*n + "mass[kg]"), "stands twice"),
+}
+
+
+@pytest.mark.parametrize("name", REFUSED)
+def test_mistakes_are_found_in_time(gudgeon, name):
+    """The same of decks with a mistake."""
+    n, deck, said = REFUSED[name]
+    measured = []
+    for _ in range(ROUNDS):
+        empty, one, four = (cpu_of(gudgeon, "check", deck(size), 3, said) for size in (20, n, 4*n))
+        measured.append((four - empty)/max(one - empty, 1e-2))
+        if measured[-1] <= RATIO:
+            break
+    assert min(measured) <= RATIO, f"{name}: {measured} times from {n} to {4*n}"
+
+
+def table(n, rows=4):
+    """Columns of numbers with names and units."""
+    head = ",".join(["time [s]"] + [f"b{k}.position.x [m]" for k in range(1, n + 1)])
+    return "\n".join([head] + [",".join(f"{row*5e-3 + 0.1*k:g}" for k in range(n + 1)) for row in range(rows)]) + "\n"
+
+
+def test_time_of_a_comparison_grows_with_its_columns(gudgeon):
+    """A run against columns with the names of its channels: those are looked up, not searched for one by one."""
+    used = []
+    for n in (2, 1500, 6000):
+        directory = scratch()
+        deck = written(directory, scene(bodies=balls(n), output="channels = *.position.x"))
+        call(gudgeon, "run", deck, "--out", directory / "run", "--quiet", "--write", "hdf5")
+        written(directory, table(n), "columns.csv")
+        used.append(min(cpu_of_command([str(gudgeon), "compare", str(directory / "run" / "run.h5"), str(directory / "columns.csv"), "--out",
+                                        str(directory / "compared"), "--quiet"], directory, (1,)) for _ in range(2)))
+    empty, one, four = used
+    assert (four - empty)/max(one - empty, 1e-2) <= RATIO, used
 
 
 def test_files_that_include_one_another_are_read_once(gudgeon):
