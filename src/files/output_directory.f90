@@ -2,11 +2,12 @@
 !>
 !> A directory is ours if the marker in it says so (`output_marker`). The marker is locked with flock(2) as long as the run lasts;
 !> the lock moves with the directory, and that of a process that died is free. An older run in the directory is renamed to
-!> `DIRECTORY.1`, and the files of the one that was there before are removed: those that its marker names, and nothing else.
+!> `DIRECTORY.1`, and the files of the one that was there before are removed: those that its marker names and knows as the ones that
+!> the run made, and nothing else.
 !> What is in use, not ours or a link is neither renamed nor removed.
 module output_directory
    use errors, only: error_t, exit_file, set_error
-   use output_marker, only: begin_marker, end_marker, go_on_with_marker, marker_name, marker_t, read_marker
+   use output_marker, only: begin_marker, end_marker, marker_name, marker_t, read_marker
    use output_tree, only: inspect, remove_run, tree_t
    use posix, only: close_file, host_name, is_alive, is_busy, is_directory, is_link, is_missing, list_directory, lock_file
    use posix, only: make_directory, path_exists, real_path, remove_file, rename_path
@@ -26,7 +27,7 @@ module output_directory
       character(:), allocatable :: path                     !! the directory as named, without a slash at its end
       type(text_t), allocatable :: warnings(:)              !! (n) what was kept, and why
       character(:), allocatable, private :: place           !! the directory behind links
-      type(text_t), allocatable, private :: older(:)        !! (m) files of an older run that goes on
+      type(marker_t), allocatable, private :: older         !! that of an older run that goes on
       integer, private :: descriptor = -1                   !! of the locked marker, -1: not open
    contains
       procedure :: open => open_directory
@@ -51,7 +52,6 @@ contains
       if (present(goes_on)) keeps = goes_on
       call self%close()
       if (allocated(self%older)) deallocate (self%older)
-      allocate (self%older(0))
       if (allocated(self%warnings)) deallocate (self%warnings)
       allocate (self%warnings(0))
       self%path = without_slash(path)
@@ -76,7 +76,11 @@ contains
          call set_error(error, exit_file, "others change "//self%path//" all the time; "//elsewhere)
          return
       end if
-      attempt = begin_marker(self%path, self%older)
+      if (allocated(self%older)) then
+         attempt = begin_marker(self%path, self%older)
+      else
+         attempt = begin_marker(self%path)
+      end if
       if (attempt == 0) return
       call fail_file(error, "cannot write", self%path//"/"//marker_name, attempt, "Make room there, or "//elsewhere//".")
       attempt = remove_file(self%path//"/"//marker_name)
@@ -104,7 +108,7 @@ contains
       if (.not. marker%is_ours) then
          call set_error(error, exit_file, self%path//" is not the output of gudgeon: it has no marker "//marker_name)
       else
-         code = go_on_with_marker(self%path, marker)
+         code = begin_marker(self%path, marker)
          if (code /= 0) call fail_file(error, "cannot write", self%path//"/"//marker_name, code, "")
       end if
       if (.not. allocated(error)) return
@@ -201,7 +205,7 @@ contains
                         " is left alone; "//elsewhere)
       else if (keeps) then
          self%descriptor = file
-         self%older = marker%files
+         self%older = marker
          return
       else if (size(names) == 1) then
          code = remove_file(self%place//"/"//marker_name)

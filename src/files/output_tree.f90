@@ -3,7 +3,7 @@
 !> Runs of a sweep are output directories within that of the sweep, with markers of their own. Links are never followed.
 module output_tree
    use name_table, only: name_table_t
-   use output_marker, only: marker_name, marker_t, read_marker
+   use output_marker, only: is_as_made, marker_name, marker_t, read_marker
    use posix, only: close_file, is_busy, list_directory, lock_file, remove_within
    use text, only: starts_with, text_t
    implicit none (type, external)
@@ -12,7 +12,7 @@ module output_tree
 
    !> What was found.
    type :: tree_t
-      character(:), allocatable :: foreign   !! path of a file that no marker names; unallocated: none
+      character(:), allocatable :: foreign   !! path of a file that no run made, by the markers; unallocated: none
       character(:), allocatable :: in_use    !! path of a directory within that a run is writing to; unallocated: none
    end type tree_t
 
@@ -35,8 +35,13 @@ contains
       type(tree_t), intent(inout) :: tree      !! what was found
 
       type(name_table_t) :: table
+      integer :: k
 
       call table%list(marker%files)
+      do k = 1, size(marker%files)
+         if (leads_out(marker%files(k)%s)) cycle
+         if (.not. is_as_made(top//"/"//prefix, marker, k)) call note(tree%foreign, prefix//marker%files(k)%s)
+      end do
       call look_at(top, prefix, "", table, tree)
    end subroutine look_into
 
@@ -116,6 +121,7 @@ contains
       do k = size(marker%files), 1, -1
          associate (name => marker%files(k)%s)
             if (leads_out(name)) cycle
+            if (.not. is_as_made(top//"/"//prefix, marker, k)) cycle
             if (index(name, "/", back=.true.) == len(name)) call clear(top, prefix//name)
             ignored = remove_within(top, prefix//name)
          end associate

@@ -2,7 +2,7 @@
 module text_file
    use errors, only: error_t, exit_file, set_error
    use kinds, only: i8
-   use output_marker, only: enter_file
+   use output_marker, only: enter_file, note_files
    use posix, only: cut_file, remove_file, rename_path, sync_path, system_message, write_at
    implicit none (type, external)
    private
@@ -107,6 +107,7 @@ contains
       code = sync_path(path//".part")
       if (code == 0) code = enter_file(path)
       if (code == 0) code = rename_path(path//".part", path)
+      if (code == 0) call note_files(path)
       if (code == 0) code = sync_path(path(1:max(1, index(path, "/", back=.true.) - 1)))
       if (code /= 0) call fail_file(error, "cannot put "//path//".part in place of", path, code, "")
    end subroutine put_in_place

@@ -1,9 +1,10 @@
 !> The file of a checkpoint, `checkpoint.h5` in the directory of the run: what the run remembers, and whose it is.
 !>
 !> It is written whole beside its place and then renamed, after all that the run has written is on the disk: there is the one before
-!> or this one, and the run's files hold at least what it tells of. Deck, included files, settings and program stand in it; a run of
+!> or this one, and the run's files hold at least what it tells of. Its checksum is looked at before it is read. Deck, included files, settings and program stand in it; a run of
 !> another deck or program is told what differs.
 module checkpoint_file
+   use checksum, only: seal_none, seal_right, seal_state
    use errors, only: error_t, exit_file, exit_usage, set_error
    use hdf5, only: h5fclose_f, hid_t
    use hdf5_calls, only: open_file
@@ -109,12 +110,19 @@ contains
       type(saved_run_t), intent(out) :: saved             !! what was remembered
       type(error_t), allocatable, intent(out) :: error    !! there is none, or it is that of another run; what differs
 
-      character(:), allocatable :: path
+      character(:), allocatable :: path, words
       type(text_t), allocatable :: there(:)
       integer(hid_t) :: file
       integer :: closed, status
 
       path = plan%directory//"/"//checkpoint_name
+      status = seal_state(path)
+      if (status /= seal_right) then  ! the library may crash on a damaged file, or read other numbers
+         words = " is damaged: its content is not that of its checksum"
+         if (status == seal_none) words = " is damaged: it does not end with its checksum"
+         call set_error(error, exit_file, path//words//new_line("a")//"  = run the deck anew, without --resume")
+         return
+      end if
       status = 0
       call open_file(path, file, status)
       if (status >= 0 .and. .not. has_dataset(file, "parts", "row")) status = -1

@@ -12,15 +12,18 @@ module hdf5_layout
    use hdf5_calls, only: new_dataset, new_group
    use hdf5_datasets, only: describe, text_dataset
    use hdf5_scales, only: add_scale, close_scales, scales_t, take_scales
-   use kinds, only: wp
+   use kinds, only: i8, wp
    use output_plan, only: output_plan_t
    use recorder, only: row_kinds, status_complete, status_failed, status_running, status_stopped
    use text, only: append_text, piece, text_t
    implicit none (type, external)
    private
-   public :: dataset_t, make_quantities, make_root, make_row_kind, make_time, write_status
+   public :: dataset_t, make_quantities, make_root, make_row_kind, make_time, rows_of_block, write_status
 
    integer, parameter :: format_version(2) = [2, 1]  !! major, minor: a reader must know the major number
+   integer, parameter :: most_rows = 512, fewest_rows = 8      !! of a block
+   integer(i8), parameter :: rows_of_few = 128_i8              !! of a block of a short motion
+   integer(i8), parameter :: bytes_of_block = 2097152_i8       !! of the widest dataset, from which the rows follow
    integer, parameter :: longest_status = max(len(status_running), len(status_complete), len(status_stopped), len(status_failed))
 
    !> One quantity in the file, and its rows that are not yet there.
@@ -65,6 +68,7 @@ contains
       call text_attribute(file, "title", plan%title, status)
       call write_status(file, status_running, status)
       call text_attribute(file, "status_message", "", status)
+      call text_attribute(file, "checksum", "in the last line of a file that is complete or stopped", status)
       text(1)%s = plan%origin%deck_text
       call text_dataset(file, "deck", text, .true., "the deck, verbatim", status)
       do k = 1, min(size(plan%origin%include_names), size(plan%origin%include_texts))
@@ -94,6 +98,23 @@ contains
       if (len(path) == 0) path = "/unnamed"
       path = piece(path, 2)
    end function link_path
+
+   !> How many rows make a block: the more, the less they cost, but the file of a short motion has no room for many that never come.
+   pure integer function rows_of_block(catalogue, n_instant)
+      type(catalogue_t), intent(in) :: catalogue  !! what can be recorded
+      integer(i8), intent(in) :: n_instant        !! output instants that are to come
+
+      integer(i8) :: widest
+      integer :: group
+
+      widest = 1
+      do group = 1, size(catalogue%groups)
+         associate (this => catalogue%groups(group))
+            widest = max(widest, 8_i8*this%channel%components*size(catalogue%rooms(this%room)%names))
+         end associate
+      end do
+      rows_of_block = int(max(int(fewest_rows, i8), min(int(most_rows, i8), max(rows_of_few, n_instant), bytes_of_block/widest)))
+   end function rows_of_block
 
    !> The time, the first dimension of all that grows.
    subroutine make_time(file, block, id, status)

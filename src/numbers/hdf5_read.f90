@@ -101,11 +101,14 @@ contains
       if (status >= 0 .and. n > 0) call h5dread_f(dataset, type_id, memory, status)
       if (status < 0) return
       do k = 1, n
-         list(k)%s = ""
-         if (.not. c_associated(pointers(k))) cycle
+         if (.not. c_associated(pointers(k))) then
+            list(k)%s = ""
+            cycle
+         end if
          call c_f_pointer(pointers(k), characters, [c_strlen(pointers(k))])
+         allocate (character(size(characters)) :: list(k)%s)
          do i = 1, size(characters)
-            list(k)%s = list(k)%s//characters(i)
+            list(k)%s(i:i) = characters(i)
          end do
       end do
       call h5dget_space_f(dataset, space, closed)

@@ -10,6 +10,7 @@ module hdf5_writer
    use catalogue, only: catalogue_t
    use channels, only: selection_t
    use errors, only: error_t, exit_file, set_error
+   use checksum, only: seal_file, survives
    use event_list, only: event_list_t
    use extremes, only: extremes_t, joint_extremes_t
    use film_fields, only: film_field_t
@@ -22,17 +23,18 @@ module hdf5_writer
    use hdf5_events, only: event_table_t
    use hdf5_extremes, only: bytes_of_extremes, write_extremes
    use hdf5_fields, only: bytes_of_fields, write_fields
-   use hdf5_layout, only: dataset_t, make_quantities, make_root, make_row_kind, make_time, write_status
+   use hdf5_layout, only: dataset_t, make_quantities, make_root, make_row_kind, make_time, rows_of_block, write_status
+   use hdf5_probe, only: file_can_be_read, row_sums_t
    use hdf5_rows, only: write_rows, write_states
    use hdf5_statistics, only: write_statistics
    use hdf5_summary, only: write_summary
    use films_group, only: write_films
    use horizon_group, only: write_horizon
    use kinds, only: i8, wp
-   use output_marker, only: enter_file
+   use output_marker, only: enter_file, note_files
    use output_plan, only: output_plan_t
    use provenance, only: make_provenance
-   use posix, only: release_space, remove_file, rename_path, reserve_space, sync_path, system_message
+   use posix, only: path_exists, release_space, remove_file, rename_path, reserve_space, sync_path, system_message
    use recorder, only: status_failed, summary_t
    use statistics, only: number_t, statistics_t
    use tape, only: tape_t
@@ -41,9 +43,6 @@ module hdf5_writer
    private
    public :: hdf5_writer_t
 
-   integer, parameter :: most_rows = 512, fewest_rows = 8      !! of a block
-   integer(i8), parameter :: rows_of_few = 128_i8              !! of a block of a short motion
-   integer(i8), parameter :: bytes_of_block = 2097152_i8       !! of the widest dataset, from which the rows follow
    integer(i8), parameter :: metadata_of_dataset = 8192_i8     !! bytes that the index of a dataset may grow by
    integer(i8), parameter :: metadata_of_file = 131072_i8      !! bytes for all else
    real(wp), parameter :: longest_wait = 10.0_wp               !! time after which rows are written anyway [s]
@@ -65,6 +64,7 @@ module hdf5_writer
       type(accuracy_t) :: accuracy                     !! what is known of the errors
       logical :: with_histories = .true.               !! whether rows are kept
       logical :: is_broken = .false.                   !! a write failed: nothing more is written
+      type(row_sums_t) :: sums                         !! of the rows that a checkpoint tells of
    contains
       procedure, public :: start => start_file
       procedure, public :: sample => sample_file
@@ -117,27 +117,11 @@ contains
       call make_provenance(self%file, plan, status)
       call write_horizon(self%file, plan%horizon, status)
       if (status >= 0) call flush_file(self, status)
+      call note_files()
       if (status >= 0) return
       closed = remove_file(self%path)
       call fail(self, "cannot make", "no space, or no right to write there", error)
    end subroutine start_file
-
-   !> How many rows make a block: the more, the less they cost, but the file of a short motion has no room for many that never come.
-   pure integer function rows_of_block(catalogue, n_instant)
-      type(catalogue_t), intent(in) :: catalogue  !! what can be recorded
-      integer(i8), intent(in) :: n_instant        !! output instants that are to come
-
-      integer(i8) :: widest
-      integer :: group
-
-      widest = 1
-      do group = 1, size(catalogue%groups)
-         associate (this => catalogue%groups(group))
-            widest = max(widest, 8_i8*this%channel%components*size(catalogue%rooms(this%room)%names))
-         end associate
-      end do
-      rows_of_block = int(max(int(fewest_rows, i8), min(int(most_rows, i8), max(rows_of_few, n_instant), bytes_of_block/widest)))
-   end function rows_of_block
 
    !> Keep a row; write the block and the new events if it is full.
    subroutine sample_file(self, t, kind, catalogue, events, error)
@@ -190,10 +174,14 @@ contains
 
    !> Write where the file stands: all rows and events must be in it.
    subroutine save_file(self, tape)
-      class(hdf5_writer_t), intent(in) :: self  !! the file, flushed
-      type(tape_t), intent(inout) :: tape       !! receives it
+      class(hdf5_writer_t), intent(inout) :: self  !! the file, flushed
+      type(tape_t), intent(inout) :: tape          !! receives it
 
-      call tape%put([self%written, self%events%written])
+      integer :: status
+
+      status = 0
+      call self%sums%extend([self%kinds%id, self%datasets%id, self%time], self%written, status)
+      call tape%put([self%written, self%events%written, transfer(self%sums%sums, [0])])
       call tape%put(self%last_time)
    end subroutine save_file
 
@@ -206,12 +194,15 @@ contains
       character(:), allocatable :: path
       integer(hid_t) :: earlier
       integer(i8) :: bytes
-      integer :: closed, k, status
+      integer :: closed, k, status, sums(2*(size(self%datasets) + 2))
 
       status = 0
       path = self%path(:len(self%path) - len(".part"))
       call tape%get(self%written)
       call tape%get(self%events%written)
+      do k = 1, size(sums)
+         call tape%get(sums(k))
+      end do
       call tape%get(self%last_time)
       bytes = 9_i8*self%written
       do k = 1, size(self%datasets)
@@ -219,6 +210,7 @@ contains
       end do
       call reserve(self, bytes + int(self%events%record, i8)*self%events%written, error)
       if (allocated(error)) return
+      if (.not. survives(file_can_be_read, path)) status = -1
       call open_file(path, earlier, status)
       call copy_rows(earlier, self%kinds%id, self%written, status)
       do k = 1, size(self%datasets)
@@ -227,14 +219,18 @@ contains
       call copy_rows(earlier, self%events%id, self%events%written, status)
       call copy_rows(earlier, self%time, self%written, status)
       if (earlier >= 0) call h5fclose_f(earlier, closed)
+      call self%sums%extend([self%kinds%id, self%datasets%id, self%time], self%written, status)
+      if (status >= 0) status = merge(0, -1, all(transfer(self%sums%sums, sums) == sums))
       if (status < 0) then
          self%is_broken = .true.
          call set_error(error, exit_file, "cannot go on with "//path//": it does not have the "//to_text(self%written)// &
-                        " rows of the checkpoint; run the deck anew")
+                        " rows of the checkpoint as they were written; run the deck anew")
          return
       end if
       call flush_file(self, status)
+      if (status >= 0) status = -enter_file(path)
       if (status >= 0) status = -rename_path(self%path, path)
+      call note_files(path)
       if (status < 0) then
          call fail(self, "cannot make", "no space, or no right to write there", error)
          return
@@ -317,7 +313,8 @@ contains
       saved = "nothing was saved"
       reason = why
       if (is_memory_short()) reason = "there is no more memory (ulimit -v)"
-      if (self%written > 0) saved = "saved and readable: "//to_text(self%written)// &
+      if (.not. path_exists(self%path)) saved = "the file is gone: it was removed while the run went on"
+      if (path_exists(self%path) .and. self%written > 0) saved = "saved and readable: "//to_text(self%written)// &
                                     " rows up to t = "//to_text(self%last_time)//" s"
       call set_error(error, exit_file, action//" "//self%path//": "//reason//"; "//saved// &
                      ". Make room, or write elsewhere with --out DIRECTORY.")
@@ -365,6 +362,7 @@ contains
       end if
       call close_all(self, status)
       call release_space(self%path)
+      if (status >= 0 .and. .not. self%is_broken) status = -seal_file(self%path)
       if (sync_path(self%path) /= 0) status = -1
       if (status < 0 .and. .not. allocated(error)) then
          call fail(self, "cannot finish", "the disk may be full", error)

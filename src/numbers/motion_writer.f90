@@ -8,6 +8,7 @@ module motion_writer
    use catalogue, only: catalogue_t
    use catalogue_rooms, only: room_bodies, room_contacts
    use channel_names, only: item_name, label_in_name
+   use checksum, only: survives
    use drawing, only: drawing_t
    use errors, only: error_t, exit_file, set_error
    use hdf5, only: h5dclose_f, h5fclose_f, h5fflush_f, h5f_scope_local_f, hid_t
@@ -17,11 +18,12 @@ module motion_writer
    use hdf5_datasets, only: text_dataset
    use hdf5_layout, only: write_status
    use hdf5_rows, only: write_rows
+   use hdf5_probe, only: file_can_be_read, row_sums_t
    use kinds, only: i8, wp
    use motion_layout, only: growing_t, make_cells, make_steps, most_growing, point_layout_t, set_steps
-   use output_marker, only: enter_file
+   use output_marker, only: enter_file, note_files
    use output_plan, only: output_plan_t
-   use posix, only: release_space, remove_file, rename_path, reserve_space, sync_path, system_message
+   use posix, only: path_exists, release_space, remove_file, rename_path, reserve_space, sync_path, system_message
    use recorder, only: status_failed, status_running
    use scene_poses, only: at_contact, contact_force, contact_penetration, contact_state, contact_value, pose_reader_t, velocity_at
    use tape, only: tape_t
@@ -48,6 +50,7 @@ module motion_writer
       integer :: waiting = 0                            !! steps in memory
       integer :: written = 0                            !! steps in the file
       integer(i8) :: flushed_at = 0                     !! clock at the last flush
+      type(row_sums_t) :: sums(most_growing)            !! of the rows that a checkpoint tells of
       real(wp), allocatable :: r(:, :)                  !! (3, 0:bodies) centres of mass [m]
       real(wp), allocatable :: a(:, :, :)               !! (3, 3, 0:bodies) orientations [1]
       real(wp), allocatable :: v(:, :)                  !! (3, 0:bodies) velocities [m/s]
@@ -95,6 +98,7 @@ contains
       allocate (self%r(3, 0:self%reader%n_body), self%v(3, 0:self%reader%n_body), self%w(3, 0:self%reader%n_body))
       allocate (self%a(3, 3, 0:self%reader%n_body))
       if (status >= 0) call flush_file(self, status)
+      call note_files()
       if (status >= 0) return
       closed = remove_file(self%path)
       call fail(self, "cannot make", "no space, or no right to write there", error)
@@ -183,10 +187,17 @@ contains
 
    !> Write where the file stands: all steps must be in it.
    subroutine save_file(self, tape)
-      class(motion_writer_t), intent(in) :: self  !! the file, flushed
-      type(tape_t), intent(inout) :: tape         !! receives it
+      class(motion_writer_t), intent(inout) :: self  !! the file, flushed
+      type(tape_t), intent(inout) :: tape            !! receives it
 
+      integer :: k, status
+
+      status = 0
       call tape%put(self%written)
+      do k = 1, most_growing
+         call self%sums(k)%extend([self%list(k)%id], self%written*self%list(k)%n_row, status)
+         call tape%put(transfer(self%sums(k)%sums, [0]))
+      end do
    end subroutine save_file
 
    !> Take over the steps that the file of an earlier run had when it was saved, and its place.
@@ -197,24 +208,32 @@ contains
 
       character(:), allocatable :: path
       integer(hid_t) :: earlier
-      integer :: closed, k, status
+      integer :: closed, i, k, status, sum(2)
 
       status = 0
       path = self%path(:len(self%path) - len(".part"))
       call tape%get(self%written)
+      if (.not. survives(file_can_be_read, path)) status = -1
       call open_file(path, earlier, status)
       do k = 1, most_growing
+         do i = 1, 2
+            call tape%get(sum(i))
+         end do
          call copy_rows(earlier, self%list(k)%id, self%written*self%list(k)%n_row, status)
+         call self%sums(k)%extend([self%list(k)%id], self%written*self%list(k)%n_row, status)
+         if (status >= 0) status = merge(0, -1, all(transfer(self%sums(k)%sums, sum) == sum))
       end do
       if (earlier >= 0) call h5fclose_f(earlier, closed)
       if (status < 0) then
          call set_error(error, exit_file, "cannot go on with "//path//": it does not have the "//to_text(self%written)// &
-                        " steps of the checkpoint; run the deck anew")
+                        " steps of the checkpoint as they were written; run the deck anew")
          return
       end if
       call set_steps(self%file, self%written, status)
       call flush_file(self, status)
+      if (status >= 0) status = -enter_file(path)
       if (status >= 0) status = -rename_path(self%path, path)
+      call note_files(path)
       if (status < 0) then
          call fail(self, "cannot make", "no space, or no right to write there", error)
          return
@@ -277,16 +296,18 @@ contains
       character(*), intent(in) :: why                    !! why, as far as known
       type(error_t), allocatable, intent(out) :: error   !! the error
 
-      character(:), allocatable :: reason
+      character(:), allocatable :: reason, saved
       integer :: status
 
       status = 0
       reason = why
+      saved = "saved and readable: "//to_text(self%written)//" steps"
+      if (.not. path_exists(self%path)) saved = "the file is gone: it was removed while the run went on"
       if (is_memory_short()) reason = "there is no more memory (ulimit -v)"
       if (self%file >= 0) call write_status(self%file, status_failed, status)
       if (self%file >= 0) call close_all(self, status)
-      call set_error(error, exit_file, action//" "//self%path//": "//reason//"; saved and readable: "//to_text(self%written)// &
-                     " steps. Make room, write elsewhere with --out DIRECTORY, or leave the file out (motion = off).")
+      call set_error(error, exit_file, action//" "//self%path//": "//reason//"; "//saved// &
+                     ". Make room, write elsewhere with --out DIRECTORY, or leave the file out (motion = off).")
    end subroutine fail
 
    !> Write what waits and how the run went, and close the file.

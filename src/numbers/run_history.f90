@@ -2,8 +2,9 @@
 !>
 !> Limits: as many rows as /time has, so that a run that goes on, or was killed, can be read.
 module run_history
+   use checksum, only: seal_none, seal_state, seal_wrong, survives
    use errors, only: error_t, exit_file, set_error
-   use hdf5, only: h5aclose_f, h5aget_space_f, h5aopen_f, h5aread_f, h5dclose_f, h5dget_space_f, h5dopen_f, h5dread_f
+   use hdf5, only: h5aclose_f, h5aexists_f, h5aget_space_f, h5aopen_f, h5aread_f, h5dclose_f, h5dget_space_f, h5dopen_f, h5dread_f
    use hdf5, only: h5dvlen_reclaim_f, h5fclose_f, h5fopen_f, h5p_default_f
    use hdf5, only: h5gclose_f, h5gget_info_f, h5gopen_f, h5lexists_f, h5lget_name_by_idx_f, h5sclose_f
    use hdf5, only: h5sget_simple_extent_dims_f, h5sget_simple_extent_ndims_f, h5tclose_f, h5tcreate_f, h5tinsert_f
@@ -14,7 +15,8 @@ module run_history
    use, intrinsic :: ieee_arithmetic, only: ieee_is_nan
    use, intrinsic :: iso_c_binding, only: c_associated, c_char, c_f_pointer, c_loc, c_null_char, c_ptr
    use kinds, only: pi, wp
-   use series, only: history_t, impact_t, series_t
+   use recorder, only: status_complete, status_stopped
+   use series, only: append_series, history_t, impact_t, series_t
    use text, only: append_text, starts_with, text_t
    implicit none (type, external)
    private
@@ -28,16 +30,82 @@ module run_history
 
 contains
 
-   !> Read a run.
+   !> Read a run. One that is complete or stopped carries its checksum, which is looked at first; any other is read in a copy of this
+   !> process before, which the library may end if the file is damaged.
    subroutine read_run(path, history, error)
       character(*), intent(in) :: path                    !! of the file
       type(history_t), intent(out) :: history             !! what it holds
+      type(error_t), allocatable, intent(out) :: error    !! it is no run, is damaged, or cannot be read
+
+      integer :: state
+      logical :: has_lost_it
+
+      state = seal_state(path)
+      if (state == seal_none) then
+         if (.not. survives(can_be_taken, path)) state = seal_wrong
+      end if
+      if (state == seal_wrong) then
+         call set_error(error, exit_file, "cannot read '"//path//"': it is damaged, was changed after it was written, or is no "// &
+                        "file of gudgeon; make the run again")
+         return
+      end if
+      call take_run(path, history, has_lost_it, error)
+      if (.not. has_lost_it .or. state /= seal_none .or. allocated(error)) return
+      call set_error(error, exit_file, "cannot read '"//path//"': it does not end with its checksum, it was cut off or changed "// &
+                     "after it was written; make the run again")
+   end subroutine read_run
+
+   !> Whether a run can be read, or refused with words.
+   logical function can_be_taken(path)
+      character(*), intent(in) :: path                    !! of the file
+
+      type(error_t), allocatable :: error
+      type(history_t) :: history
+      logical :: ignored
+
+      call take_run(path, history, ignored, error)
+      can_be_taken = .true.
+   end function can_be_taken
+
+   !> Whether a file says that it has come to its end with a checksum.
+   logical function should_have_checksum(file)
+      integer(hid_t), intent(in) :: file                  !! the file
+
+      character(kind=c_char), target :: bytes(longest_word)
+      character(longest_word) :: word
+      type(c_ptr) :: memory
+      integer(hid_t) :: attribute, type_id
+      integer :: closed, k, status
+
+      call h5aexists_f(file, "checksum", should_have_checksum, status)
+      if (status < 0 .or. .not. should_have_checksum) return
+      should_have_checksum = .false.
+      call h5aopen_f(file, "status", attribute, status)
+      if (status < 0) return
+      call word_type(longest_word, type_id, status)
+      bytes = c_null_char
+      memory = c_loc(bytes)
+      if (status >= 0) call h5aread_f(attribute, type_id, memory, status)
+      call h5aclose_f(attribute, closed)
+      do k = 1, longest_word
+         word(k:k) = bytes(k)
+      end do
+      k = index(word//c_null_char, c_null_char)
+      should_have_checksum = status >= 0 .and. (word(:k - 1) == status_complete .or. word(:k - 1) == status_stopped)
+   end function should_have_checksum
+
+   !> Read a run as it is.
+   subroutine take_run(path, history, has_lost_it, error)
+      character(*), intent(in) :: path                    !! of the file
+      type(history_t), intent(out) :: history             !! what it holds
+      logical, intent(out) :: has_lost_it                 !! it should have a checksum
       type(error_t), allocatable, intent(out) :: error    !! it is no run, or cannot be read
 
       integer(hid_t) :: file
       integer :: closed, k, status
       real(wp), allocatable :: kinds(:)
 
+      has_lost_it = .false.
       status = 0
       call open_library(status)
       if (status >= 0) call h5fopen_f(path, h5f_acc_rdonly_f, file, status)
@@ -46,6 +114,7 @@ contains
          return
       end if
       history%path = path
+      has_lost_it = should_have_checksum(file)
       allocate (history%list(0), history%impacts(0))
       if (.not. has_top(file, "time")) then
          call set_error(error, exit_file, "'"//path//"' is not the run.h5 of a run with time histories: it has no /time")
@@ -60,7 +129,7 @@ contains
          if (status < 0) call set_error(error, exit_file, "cannot read '"//path//"': the file is damaged, or of another format")
       end if
       call h5fclose_f(file, closed)
-   end subroutine read_run
+   end subroutine take_run
 
    !> Whether the file has something of some name at its top.
    logical function has_top(file, name)
@@ -169,8 +238,8 @@ contains
       integer, intent(inout) :: status              !! negative: failed
 
       character(2), parameter :: axes(4) = ["x ", "y ", "z ", "  "], parameters(4) = ["e0", "e1", "e2", "e3"]
-      type(series_t) :: new
       type(series_t), allocatable :: more(:)
+      logical, allocatable :: is_kept(:)
       real(wp), allocatable :: all(:)
       character(:), allocatable :: unit
       integer :: c, i, n, n_component, row
@@ -182,7 +251,7 @@ contains
       call unit_of(file, path, unit, status)
       if (status < 0) return
       n = size(history%time)
-      allocate (more(n_component*size(items)))
+      allocate (more(n_component*size(items)), is_kept(n_component*size(items)))
       i = 0
       do row = 1, size(items)
          do c = 1, n_component
@@ -196,10 +265,9 @@ contains
          end do
       end do
       do i = 1, size(more)
-         if (all_missing(more(i)%x) .and. .not. starts_with(path, "requests/")) cycle
-         new = more(i)
-         history%list = [history%list, new]
+         is_kept(i) = .not. all_missing(more(i)%x) .or. starts_with(path, "requests/")
       end do
+      call append_series(history%list, more, is_kept)
    end subroutine read_quantity
 
    !> Whether none of the values is a number.
@@ -256,10 +324,11 @@ contains
       integer, parameter :: real_bytes = storage_size(1.0_wp)/8, record = 3*(real_bytes + longest_word)
       character(kind=c_char), allocatable, target :: bytes(:)
       type(impact_t) :: new
+      type(impact_t), allocatable :: impacts(:)
       type(c_ptr) :: memory
       integer(hid_t) :: dataset, type_id, word
       integer, allocatable :: shape(:)
-      integer :: closed, i, k
+      integer :: closed, i, k, n
 
       if (status < 0) return
       call shape_of(file, "events", shape, status)
@@ -282,17 +351,21 @@ contains
       call h5tclose_f(type_id, closed)
       call h5tclose_f(word, closed)
       if (status < 0) return
+      n = 0
+      allocate (impacts(shape(1)))
       do i = 1, shape(1)
          associate (part => bytes((i - 1)*record + 1:i*record))
             if (word_of(part, 1) /= "contact") cycle
+            n = n + 1
             new%item = word_of(part, 2)
             if (word_of(part, 3) /= "") new%item = new%item//"."//word_of(part, 3)
             new%time = transfer(part(1:real_bytes), new%time)
             new%speed = transfer(part(real_bytes + 1:2*real_bytes), new%speed)
             new%force = transfer(part(2*real_bytes + 1:3*real_bytes), new%force)
-            history%impacts = [history%impacts, new]
+            impacts(n) = new
          end associate
       end do
+      history%impacts = impacts(:n)
    end subroutine read_impacts
 
    !> A word of a record.

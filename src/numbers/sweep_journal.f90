@@ -2,10 +2,13 @@
 !>
 !> It is the memory of a sweep that was killed: a later one of the same model takes from here what is done. And it is what the
 !> parts of a sweep leave behind for `gudgeon merge`. It begins with a line that says what it is, then come blocks: four
-!> characters, the number of bytes, the bytes, the four characters again. A block that was cut off does not count.
+!> characters, the number of bytes, their checksum, the bytes, the four characters again. A block that was cut off or damaged does
+!> not count, and neither does what comes after it: those runs are made again.
 module sweep_journal
+   use checksum, only: add_rows
    use errors, only: error_t
    use file_store, only: kept_file_t
+   use, intrinsic :: iso_fortran_env, only: int8
    use kinds, only: i8
    use member_result, only: member_result_t
    use packed, only: packer_t, unpacker_t
@@ -17,7 +20,7 @@ module sweep_journal
    public :: differences, journal_name, journal_t, origin_of_sweep_t, run_record_t
 
    character(*), parameter :: journal_name = "sweep.runs"                 !! file in the directory
-   character(*), parameter :: first_line = "gudgeon runs of a sweep, format 1"//new_line("a")
+   character(*), parameter :: first_line = "gudgeon runs of a sweep, format 2"//new_line("a")
    character(*), parameter :: tag_head = "head"     !! block: what the sweep is of
    character(*), parameter :: tag_run = "run "      !! block: a run
    character(*), parameter :: tag_end = "end "      !! block: the results were written
@@ -116,15 +119,17 @@ contains
       character(:), allocatable, intent(out) :: tag       !! what it is
       type(unpacker_t), intent(out) :: block              !! what it holds
 
-      integer(i8) :: length
+      integer(i8) :: length, sum
       integer :: first
 
       is_there = .false.
-      first = at + tag_length + 8
+      first = at + tag_length + 16
       if (first > len(bytes)) return
       tag = bytes(at + 1:at + tag_length)
-      length = transfer(bytes(at + tag_length + 1:first), length)
+      length = transfer(bytes(at + tag_length + 1:first - 8), length)
+      sum = transfer(bytes(first - 7:first), sum)
       if (length < 0 .or. first + length + tag_length > len(bytes)) return
+      if (sum_of(tag, bytes(first + 1:first + int(length))) /= sum) return
       at = first + int(length)
       if (bytes(at + 1:at + tag_length) /= tag) return
       block%bytes = bytes(first + 1:at)
@@ -168,13 +173,22 @@ contains
    end subroutine end_journal
 
    !> A block.
-   pure function block_of(tag, bytes) result(block)
+   function block_of(tag, bytes) result(block)
       character(*), intent(in) :: tag         !! what it is
       character(*), intent(in) :: bytes       !! what it holds
       character(:), allocatable :: block      !! all of it
 
-      block = tag//transfer(len(bytes, i8), "12345678")//bytes//tag
+      block = tag//transfer(len(bytes, i8), "12345678")//transfer(sum_of(tag, bytes), "12345678")//bytes//tag
    end function block_of
+
+   !> The checksum of a block.
+   integer(i8) function sum_of(tag, bytes) result(sum)
+      character(*), intent(in) :: tag         !! what it is
+      character(*), intent(in) :: bytes       !! what it holds
+
+      sum = len(bytes, i8)
+      call add_rows(sum, transfer(tag//bytes, [0_int8]), len(tag) + len(bytes))
+   end function sum_of
 
    !> What a run gave, as bytes.
    pure function packed_run(run) result(bytes)

@@ -11,7 +11,7 @@ module text_writer
    use errors, only: error_t, set_error
    use event_list, only: event_list_t, n_event_numbers, n_event_words, number_names, number_units, word_names
    use kinds, only: i8, wp
-   use output_marker, only: enter_file
+   use output_marker, only: enter_file, note_files
    use output_plan, only: output_plan_t
    use posix, only: make_directory
    use tape, only: tape_t
@@ -198,6 +198,7 @@ contains
       call heading%line("# one row per located event, by time; a contact is one row, its time the onset")
       self%heading = heading%get()
       if (.not. plan%life%goes_on) call self%events%append(self%heading, error)
+      call note_files()
    end subroutine start_events
 
    !> Keep a row of every table; write them if the block is full.
@@ -289,6 +290,7 @@ contains
       self%written_events = events%n
       self%waiting = 0
       self%last_time = t
+      call note_files()
       call system_clock(self%flushed_at)
    end subroutine write_block
 

@@ -1,5 +1,6 @@
-!> HDF5 files that are written whole, under another name first, so that there is never half of one.
+!> HDF5 files that are written whole, under another name first, so that there is never half of one. They carry their checksum.
 module whole_file
+   use checksum, only: seal_file
    use errors, only: error_t, exit_file, set_error
    use hdf5, only: h5fclose_f, h5fcreate_f, h5pclose_f
    use hdf5, only: h5f_acc_trunc_f, h5p_default_f, h5p_file_create_f, hid_t
@@ -60,6 +61,7 @@ contains
          call h5fclose_f(file, closed)
          status = min(status, closed)
       end if
+      if (status >= 0) status = -seal_file(path//".part")
       if (status >= 0) then
          call put_in_place(path, error)
       else

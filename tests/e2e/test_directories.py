@@ -241,6 +241,29 @@ def test_the_marker_names_what_was_made(gudgeon, place):
     assert sorted(p.name for p in place.iterdir()) == ["out", "out.1", "scene.deck", "swept", "swept.1"]
 
 
+@pytest.mark.parametrize("ended", (True, False))
+def test_a_forged_marker_removes_nothing(gudgeon, place, ended):
+    """A marker that names a file beside it, which no run made: with what is in it the directory is kept under another number."""
+    run(gudgeon, place)
+    marker = place / "out" / MARKER
+    text = marker.read_text()
+    marker.write_text(text.replace("\nended", "\nthesis.txt" + ("\n= 1 4 thesis.txt" if ended else "") + "\nended"*ended))
+    (place / "out" / "thesis.txt").write_text("mine")
+    for _ in range(3):
+        run(gudgeon, place)
+    assert (place / "out.2" / "thesis.txt").read_text() == "mine"
+
+
+def test_a_file_in_the_place_of_another_is_not_removed(gudgeon, place):
+    """A summary that someone wrote anew, or that has grown since, is not the one that the run made."""
+    for number, change in ((2, lambda path: (path.unlink(), path.write_text("mine"))), (3, lambda path: path.open("a").write("mine"))):
+        run(gudgeon, place)
+        change(place / "out" / "summary.txt")
+        run(gudgeon, place)
+        run(gudgeon, place)
+        assert (place / f"out.{number}" / "summary.txt").read_text().endswith("mine")
+
+
 def test_failed_runs_of_a_sweep_go_with_it(gudgeon, place):
     """Directories of failed runs are the sweep's; notes among them are not."""
 

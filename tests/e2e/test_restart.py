@@ -50,9 +50,9 @@ def test_ways_without_rows(gudgeon_debug, tmp_path):
 LONG = (("analysis.dynamic", "end", "100 s"), ("analysis.dynamic", "checkpoint", "1 ms"))
 
 
-def begun(gudgeon, deck, out):
+def begun(gudgeon, deck, out, *options):
     """A run in the background that has saved something."""
-    process = subprocess.Popen([gudgeon, "run", deck, "--out", out, "--quiet"], stderr=subprocess.PIPE, text=True, preexec_fn=answer_signals)
+    process = subprocess.Popen([gudgeon, "run", deck, "--out", out, "--quiet", *options], stderr=subprocess.PIPE, text=True, preexec_fn=answer_signals)
     for _ in range(1000):
         if (out / "checkpoint.h5").exists():
             return process
