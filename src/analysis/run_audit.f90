@@ -11,7 +11,8 @@ module run_audit
    private
    public :: audit, limits_t, warn_of_errors
 
-   real(wp), parameter :: careful_energy = 1.0e-3_wp     !! residual of the largest energy that is worth a warning [1]
+   real(wp), parameter :: careful_ledger = 1.0e-4_wp     !! residual of the largest energy that is worth a warning [1]
+   real(wp), parameter :: careful_energy = 1.0e-3_wp     !! energy that contacts made, of the largest, that is worth a warning [1]
    real(wp), parameter :: noise = 1.0e3_wp               !! round-off of the ledger, in spacings of what it adds up [1]
    real(wp), parameter :: careful_violation = 1.0e-4_wp  !! violation, of the size of the bodies or a radian, that is [1]
 
@@ -38,11 +39,11 @@ contains
 
       if (system%ledger%is_kept) then  ! else the residual is a NaN, which must not be compared
          associate (quality => summary%quality)
-            if (quality%energy_residual_max > careful_energy*quality%energy_max .and. &
+            if (quality%energy_residual_max > careful_ledger*quality%energy_max .and. &
                 .not. is_round_off(quality%energy_residual_max, added)) then
                call append_text(summary%warnings, "the energy ledger does not close: its residual reached "// &
                                 real_text(quality%energy_residual_max/quality%energy_max, 3)// &
-                                " of the largest energy; try a smaller tolerance")
+                                " of the largest energy (limit "//real_text(careful_ledger, 1)//"); try a smaller tolerance")
             end if
          end associate
          if (lost < -careful_energy*summary%quality%energy_max) then

@@ -100,7 +100,7 @@ contains
       if (work%n_made > 0) then
          call lines%line(to_text(work%n_made)//" runs made now; processor time "//real_text(cpu_of_all(), 4)//" s, of that "// &
                          real_text(work%cpu_made, 4)//" s of motions and their output")
-      else
+      else if (work%n_missing() == 0) then
          call lines%line("no runs were missing")
       end if
       shown = 0

@@ -91,6 +91,12 @@ contains
          return
       end if
       path = options%operands(1)%s
+      if (len_trim(path) == 0 .or. path == ".deck" .or. scan(path, new_line("a")) > 0 .or. &
+          index("/"//path//"/", "/../") > 0 .or. index(path, "/") == 1 .or. index(path, "/", back=.true.) == len(path)) then
+         call set_error(error, exit_usage, "'"//path//"' is no name for a deck: it needs a name of a file in this folder or in "// &
+                        "one below it, as in: gudgeon new my")
+         return
+      end if
       if (len(path) < 5) then
          path = path//".deck"
       else if (path(len(path) - 4:) /= ".deck") then

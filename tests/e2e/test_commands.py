@@ -104,6 +104,16 @@ def test_explain_names_ideal_joints_that_rub(gudgeon):
     assert "ideal joints that rub" not in call(gudgeon, "explain", DECK).stdout
 
 
+@pytest.mark.parametrize("name", ["", " ", ".deck", "..", "../mine", "/tmp/mine", "a/../../mine", "a/", "a/.."])
+def test_new_needs_a_name_in_this_folder(gudgeon, name):
+    """An empty name and paths that lead out of the folder are refused, and nothing is written."""
+    directory = scratch()
+    (directory / "inner" / "a").mkdir(parents=True)
+    done = call(gudgeon, "new", name, cwd=directory / "inner", expect=USAGE)
+    assert f"'{name}' is no name for a deck" in done.stderr
+    assert not list(directory.rglob("*.deck"))
+
+
 def test_new_writes_a_template_that_checks(gudgeon):
     """new NAME writes a deck that check accepts and run runs; it does not overwrite."""
     directory = scratch()

@@ -2,7 +2,7 @@
 
 import numpy as np
 import pytest
-from support import DECK, Run, assert_close, call, changed, finished, plain_deck, scratch, written
+from support import DECK, ROOT, Run, assert_close, call, changed, finished, plain_deck, scratch, written
 
 ASSEMBLY = 4
 
@@ -180,6 +180,16 @@ def test_ledger_that_does_not_close(gudgeon):
     assert_close(told, run.summary["energy_residual_max"] / run.summary["energy_max"], relative=6e-3)
     assert told > 1e-3
     assert not any("ledger" in words for words in finished(gudgeon, "--tolerance", "1e-8").summary["warnings"])
+
+
+def test_a_ledger_that_nearly_closes(gudgeon):
+    """A residual of some 1e-4 of the largest energy is told, with the limit that it exceeds."""
+    text = (ROOT / "inputs" / "big_end.deck").read_text()
+    run = run_text(gudgeon, changed(text, "output", figures=None), "--tolerance", "1e-6")
+    residual = run.summary["energy_residual_max"]/run.summary["energy_max"]
+    told = [words for words in run.summary["warnings"] if "ledger does not close" in words]
+    assert (len(told) == 1) == (residual > 1e-4)
+    assert not told or "limit 0.0001" in told[0]
 
 
 def test_impacts_too_fast_for_the_law(gudgeon):
