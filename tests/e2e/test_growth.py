@@ -77,8 +77,8 @@ GROWING = {
     "parameters of a sweep": ("check", 5000, lambda n: scene(
         lines(n, "c{k} = 1 mm"), tables="[sweep]\ncombine = paired\n" + lines(n, "c{k} = 1 2 mm"))),
     "samples of a function": ("run", 20000, lambda n: scene(
-        tables="[function.samples]\nname at value\nf \"" + words(n, "{k}") + "\" \"" + words(n, "{k}") + "\"")),
-    "conditions that end a run": ("run", 1500, lambda n: scene(tables="[guards]\nstop = " + " or ".join(f"rod.angle > {k} rad" for k in range(9, n)))),
+        tables="[function.samples]\nname at value\nf \"" + words(n + 2, "{k}") + "\" \"" + words(n + 2, "{k}") + "\"")),
+    "conditions that end a run": ("run", 1500, lambda n: scene(tables="[guards]\nstop = " + " or ".join(f"rod.angle > {k} rad" for k in range(9, n + 9)))),
     "points": ("run", 5000, lambda n: scene(points=lines(n, "p{k} rod {k} 0"))),
     "bodies": ("run", 1500, lambda n: scene(bodies=balls(n))),
     "forces": ("explain", 3000, lambda n: scene(points=lines(n, "p{k} rod {k} 0"),
@@ -157,7 +157,7 @@ def test_time_of_a_comparison_grows_with_its_columns(gudgeon):
     for n in (2, 1500, 6000):
         directory = scratch()
         deck = written(directory, scene(bodies=balls(n), output="channels = *.position.x"))
-        call(gudgeon, "run", deck, "--out", directory / "run", "--quiet", "--write", "hdf5")
+        call(gudgeon, "run", deck, "--out", directory / "run", "--quiet")
         written(directory, table(n), "columns.csv")
         used.append(min(cpu_of_command([str(gudgeon), "compare", str(directory / "run" / "run.h5"), str(directory / "columns.csv"), "--out",
                                         str(directory / "compared"), "--quiet"], directory, (1,)) for _ in range(2)))
