@@ -112,8 +112,8 @@ contains
       if (c_identity(path//c_null_char, identity) /= 0) identity = 0
    end function identity_of
 
-   !> Whether something can be done with a file, by doing it in a copy of this process: a library that a damaged file makes crash, or
-   !> keeps busy for ever, ends that only.
+   !> Whether something can be done with a file, by doing it in a copy of this process: a library that a damaged file makes crash,
+   !> or keeps busy for ever, ends that only.
    logical function survives(attempt, path)
       procedure(attempt_t) :: attempt      !! what is done
       character(*), intent(in) :: path     !! the file

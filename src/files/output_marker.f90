@@ -2,8 +2,8 @@
 !>
 !> It is text: a line that says what it is, `key = value` lines, then one path a line, that of a directory with a slash at its
 !> end, and `ended` as the last. A file is entered before it is made, so that the marker of a run that was killed has all of
-!> them; once it is made a line `= NUMBER BYTES PATH` says which file it is: its number in the file system, and its bytes, which count
-!> once the run has ended. What is there under the name and is another file was not made by the run. A process writes to one
+!> them; once it is made a line `= NUMBER BYTES PATH` says which file it is: its number in the file system, and its bytes, which
+!> count once the run has ended. What is there under the name and is another file was not made by the run. A process writes to one
 !> directory; what is made elsewhere is not entered.
 module output_marker
    use checksum, only: identity_of

@@ -182,8 +182,8 @@ contains
       code = c_write_at(path//c_null_char, text, len(text, i8), offset)
    end function write_at
 
-   !> Write text to the standard output, unlike Fortran's with an error if that is full. Control characters, as those of a title in a
-   !> deck, are made visible: all that a terminal is given goes through here or `write_error`.
+   !> Write text to the standard output, unlike Fortran's with an error if that is full. Control characters, as those of a title in
+   !> a deck, are made visible: all that a terminal is given goes through here or `write_error`.
    integer function write_output(text) result(code)
       character(*), intent(in) :: text  !! what to write
 

@@ -1,8 +1,8 @@
 !> The file of a checkpoint, `checkpoint.h5` in the directory of the run: what the run remembers, and whose it is.
 !>
 !> It is written whole beside its place and then renamed, after all that the run has written is on the disk: there is the one before
-!> or this one, and the run's files hold at least what it tells of. Its checksum is looked at before it is read. Deck, included files, settings and program stand in it; a run of
-!> another deck or program is told what differs.
+!> or this one, and the run's files hold at least what it tells of. Its checksum is looked at before it is
+!> read. Deck, included files, settings and program stand in it; a run of another deck or program is told what differs.
 module checkpoint_file
    use checksum, only: seal_none, seal_right, seal_state
    use errors, only: error_t, exit_file, exit_usage, set_error

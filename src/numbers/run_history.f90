@@ -30,8 +30,8 @@ module run_history
 
 contains
 
-   !> Read a run. One that is complete or stopped carries its checksum, which is looked at first; any other is read in a copy of this
-   !> process before, which the library may end if the file is damaged.
+   !> Read a run. One that is complete or stopped carries its checksum, which is looked at first; any other is read in a copy of
+   !> this process before, which the library may end if the file is damaged.
    subroutine read_run(path, history, error)
       character(*), intent(in) :: path                    !! of the file
       type(history_t), intent(out) :: history             !! what it holds
