@@ -124,10 +124,8 @@ contains
       if (scan(line, ";"//achar(9)) > 0) signs = ";"//achar(9)   ! a comma is a decimal point
       by_comma = scan(line, signs) > 0
       first = verify(line, " "//achar(9))
-      if (first == 0) then
-         allocate (words(0))
-         return
-      end if
+      words = found%get()
+      if (first == 0) return
       if (scan(line(first:first), "#!%") > 0) then      ! names may stand in a comment
          first = first + 1
          by_comma = scan(line(first:), signs) > 0
@@ -159,14 +157,19 @@ contains
       end do
       if (len_trim(word(:n)) > 0) call found%add(trim(adjustl(word(:n))))
       words = found%get()
-      do i = size(words), 1, -1      ! a comma at the end of a line
-         if (words(i)%s /= "") exit
-         n_left_out = n_left_out + 1
-      end do
-      if (n_left_out > 0) words = words(:size(words) - n_left_out)
+      call leave_out_blank()
       if (.not. by_comma) call join_units(words)
 
    contains
+
+      !> Leave out words that are blank at the end, as behind a comma there.
+      subroutine leave_out_blank()
+         do i = size(words), 1, -1
+            if (words(i)%s /= "") exit
+            n_left_out = n_left_out + 1
+         end do
+         if (n_left_out > 0) words = words(:size(words) - n_left_out)
+      end subroutine leave_out_blank
 
       !> Add a character to the word.
       subroutine add(c)

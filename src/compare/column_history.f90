@@ -60,29 +60,31 @@ contains
          call take_spec(table, specs(k), like, known, history, more, n, error)
          if (allocated(error)) return
       end do
-      if (size(specs) > 0) then
-         call cut()
-         return
-      end if
-      base = path(index(path, "/", back=.true.) + 1:)
-      base = piece(base, 1, index(base//".", ".") - 1)
-      do k = 1, size(like%list)
-         spec = spec_t()
-         spec%channel = like%list(k)%name
-         spec%unit = ""
-         allocate (spec%columns(0))
-         call append_text(spec%columns, spec%channel)
-         if (find_column_of(table, spec%channel) == 0 .and. starts_with(spec%channel, base//".")) then
-            spec%columns(1)%s = spec%channel(len(base) + 2:)
-         end if
-         if (find_column_of(table, spec%columns(1)%s) > 0) call take_spec(table, spec, like, known, history, more, n, error)
-         if (allocated(error)) return
-      end do
+      if (size(specs) == 0) call take_names()
+      if (allocated(error)) return
       call cut()
       if (size(history%list) == 0) call set_error(error, exit_usage, "no column of "//path//" has the name of a channel"// &
          new_line("a")//"  = say which column is which:  --channel ""slider.position.x=2 unit=mm""")
 
    contains
+
+      !> Take the columns whose names are channels.
+      subroutine take_names()
+         base = path(index(path, "/", back=.true.) + 1:)
+         base = piece(base, 1, index(base//".", ".") - 1)
+         do k = 1, size(like%list)
+            spec = spec_t()
+            spec%channel = like%list(k)%name
+            spec%unit = ""
+            allocate (spec%columns(0))
+            call append_text(spec%columns, spec%channel)
+            if (find_column_of(table, spec%channel) == 0 .and. starts_with(spec%channel, base//".")) then
+               spec%columns(1)%s = spec%channel(len(base) + 2:)
+            end if
+            if (find_column_of(table, spec%columns(1)%s) > 0) call take_spec(table, spec, like, known, history, more, n, error)
+            if (allocated(error)) return
+         end do
+      end subroutine take_names
 
       !> Give back the room that the list does not need.
       subroutine cut()
