@@ -24,7 +24,7 @@ contains
       logical, intent(out) :: is_done                        !! success
 
       type(diagnostics_t) :: mistakes
-      type(symbols_t) :: before
+      type(symbols_t) :: before, none
       integer :: k
 
       allocate (is_touched(deck%n_section), source=.false.)
@@ -34,7 +34,7 @@ contains
          call new_source(deck%sources(k + 1), "--set "//overrides(k)%s, overrides(k)%s)
       end do
       before = deck%symbols
-      deck%symbols = symbols_t()
+      deck%symbols = none
       call read_parameters(deck, mistakes)
       is_done = mistakes%count() == 0 .and. deck%symbols%n_parameter == before%n_parameter
       if (.not. is_done) return
