@@ -99,9 +99,15 @@ contains
       real(wp), intent(in) :: impact_speed            !! penetration rate at the onset [m/s]
       real(wp), intent(in) :: loss                    !! what the ledger has lost in the contact by now [J]
 
-      self%contact(k) = contact_memory_t(is_touching=.true., onset=t, impact_speed=impact_speed, loss_at_onset=loss)
-      self%contact(k)%went%force_at = t
-      self%contact(k)%went%penetration_at = t
+      type(contact_memory_t) :: begun
+
+      begun%is_touching = .true.
+      begun%onset = t
+      begun%impact_speed = impact_speed
+      begun%loss_at_onset = loss
+      begun%went%force_at = t
+      begun%went%penetration_at = t
+      self%contact(k) = begun
       self%n_touching = self%n_touching + 1
       self%evaluated_at = 0
       call self%grip%forget(k)
