@@ -24,7 +24,7 @@ module kinematic
    use row_corrections, only: evaluate_rows
    use saved_run, only: wish_stop
    use text, only: append_text, real_text
-   use step_follower, only: follow_motion, must_follow
+   use step_follower, only: find_off_branch, follow_motion, must_follow
    use time_plan, only: instant, last_instant, time_plan_t
    implicit none (type, external)
    private
@@ -149,6 +149,7 @@ contains
       type(error_t), allocatable, intent(out) :: error    !! there is no way on
 
       type(state_t) :: next
+      character(:), allocatable :: words
       real(wp) :: h
       integer :: outcome
 
@@ -167,6 +168,11 @@ contains
          if (outcome == solved) then
             state = next
             if (must_follow(system)) call follow_motion(system)
+            call find_off_branch(system, words)
+            if (allocated(words)) then
+               call set_error(error, exit_integration, words//" at t = "//real_text(state%t, 9)//" s")
+               return
+            end if
             summary%count%steps = summary%count%steps + 1_i8
             summary%time_end = state%t
             h = min(2.0_wp*h, t - state%t)

@@ -15,10 +15,10 @@ module moving_part
    use mechanism_energy, only: energy_of, energy_t
    use ode_system, only: contact_onset
    use recorder, only: event_t, recorder_t
-   use run_failure, only: constraints_lost, describe_failure, events_without_end, film_ended
+   use run_failure, only: constraints_lost, describe_failure, events_without_end, film_ended, off_branch
    use run_tally, only: run_tally_t
    use slip_watch, only: decide_next, find_reversal, note_jumps, sliding_way, unsettle
-   use step_follower, only: follow_motion, must_follow
+   use step_follower, only: find_off_branch, follow_motion, has_branches, must_follow
    use velocity_jumps, only: velocity_jumps_t
    implicit none (type, external)
    private
@@ -49,6 +49,7 @@ module moving_part
       type(instants_t) :: instants                         !! when its functions of time are not smooth
       type(velocity_jumps_t) :: jumps                      !! drivers whose velocity jumps there
       logical :: must_follow = .false.                     !! something goes on from step to step, see `step_follower`
+      logical :: has_branches = .false.                    !! joints can come to a branch that nobody means, see there
       integer :: status = 0                                !! how its last step ended; an event, until it is handled
       integer :: n_idle = 0                                !! events since the last time that time passed
       real(wp) :: t_event = 0.0_wp                         !! time of the last event [s]
@@ -73,6 +74,7 @@ contains
       part%instants = instants
       part%guards = guards
       part%must_follow = must_follow(system)
+      part%has_branches = has_branches(system)
       call new_contact_watch(system, part%watch)
    end subroutine new_part
 
@@ -147,13 +149,22 @@ contains
    subroutine see_step(part, tally, error)
       type(moving_part_t), intent(inout) :: part          !! the part
       type(run_tally_t), intent(inout) :: tally           !! of the run
-      type(error_t), allocatable, intent(out) :: error    !! the constraints are lost
+      type(error_t), allocatable, intent(out) :: error    !! the constraints are lost, or a branch
+
+      character(:), allocatable :: words
 
       associate (system => part%system, method => part%method)
          call look_at_step(part, tally)
          if (part%is_lost) then
             call describe_failure(system, method, constraints_lost, error)
             return
+         end if
+         if (part%has_branches) then
+            call find_off_branch(system, words)
+            if (allocated(words)) then
+               call describe_failure(system, method, off_branch, error, words)
+               return
+            end if
          end if
          if (system%loose%n > 0) call part%watch%after_step(system, method)
          if (system%ledger%is_kept) call look_at_energy(part, tally)

@@ -12,7 +12,8 @@ module run_failure
    use text, only: real_text, to_text
    implicit none (type, external)
    private
-   public :: constraints_lost, describe_failure, events_without_end, film_ended, guard_reached, stopped_words, time_used_up
+   public :: constraints_lost, describe_failure, events_without_end, film_ended, guard_reached, off_branch, &
+      stopped_words, time_used_up
 
    ! failures beside those of `advance`
    integer, parameter :: constraints_lost = -100    !! a violation beyond all measure
@@ -20,6 +21,7 @@ module run_failure
    integer, parameter :: guard_reached = -102       !! what no mechanism does, as the guards say
    integer, parameter :: time_used_up = -103        !! the processor time allowed
    integer, parameter :: film_ended = -104          !! a film that nothing helps to hold surfaces apart
+   integer, parameter :: off_branch = -105               !! a joint on another branch, or where its rows say nothing
 
 contains
 
@@ -57,7 +59,7 @@ contains
          message = "the constraints are lost: a joint is open by a tenth of the size of the bodies, or an angle is off by a radian"
       case (events_without_end)
          message = "one event follows another at '"//last_event(system, method)//"' and no time passes"
-      case (guard_reached, film_ended)
+      case (guard_reached, film_ended, off_branch)
          message = reason
       case (advance_no_memory)
          message = "there is no memory for the matrices of the method, of "//to_text(system%n)//" states"
@@ -93,7 +95,7 @@ contains
 
       cause = ""
       select case (status)
-      case (advance_failed_evaluation, constraints_lost, events_without_end, guard_reached)
+      case (advance_failed_evaluation, constraints_lost, events_without_end, guard_reached, off_branch)
          cause = too_long(system, method)
       end select
       if (cause == "") then
@@ -231,6 +233,8 @@ contains
          words = "try a smaller tolerance; where friction sticks and slips, method = radau, or a law that does not stick"
       case (guard_reached)
          words = "look for loads, drivers or clearances that no mechanism has, or set the guard otherwise in section [guards]"
+      case (off_branch)
+         words = "try a smaller tolerance or step; where the deck means to go there, choose a joint that can"
       case (film_ended)
          words = "take level = hybrid, which goes on with dry contact, or a lubricant of more viscosity"
       case (advance_failed_evaluation)

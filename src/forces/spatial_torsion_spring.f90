@@ -5,7 +5,7 @@
 !> Turns are counted: theta is taken next to the one that the last step ended with (`follow`), less than half a turn away.
 !>
 !> An angle about axes that part is that of their shadows: it changes although nothing turns about them, and at a right angle it has
-!> no value. The least angle between the axes is kept, and `doubt` tells of it.
+!> no value, which ends a run. The greatest angle between the axes is kept, and `doubt` tells of it.
 !>
 !> Signs: the moment on body i about the axis is positive if it takes theta back towards smaller values.
 !> Source: Nikravesh (1988), section 4.3; Flores et al. (2008), section 2.3. Limits: a step is shorter than half a turn.
@@ -23,7 +23,7 @@ module spatial_torsion_spring
    use text, only: real_text
    implicit none (type, external)
    private
-   public :: spatial_torsion_spring_t
+   public :: spatial_torsion_spring_t, words_of_lost_angle
 
    ! channels
    integer, parameter :: of_moment = 1        !! moment
@@ -151,6 +151,16 @@ contains
       doubt = "has axes that came to be "//real_text(acos(max(self%cosine(k), -1.0_wp))*180.0_wp/pi, 3)// &
               " deg apart: its angle is meant for axes that a joint holds parallel"
    end function torsion_doubt
+
+   !> That the axes have come to be a right angle or more apart: what follows its name in a message.
+   function words_of_lost_angle(self, k) result(words)
+      class(spatial_torsion_spring_t), intent(in) :: self  !! the set
+      integer, intent(in) :: k                             !! item
+      character(:), allocatable :: words                   !! what is wrong
+
+      words = "has lost its angle: its axes are "//real_text(acos(max(self%cosine(k), -1.0_wp))*180.0_wp/pi, 4)// &
+              " deg apart, less than 90 deg is needed: let a joint hold them parallel"
+   end function words_of_lost_angle
 
    !> Angle of an item, turns counted.
    pure function angle_of(self, k, motion) result(angle)

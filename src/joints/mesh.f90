@@ -5,7 +5,7 @@ module mesh
    use text, only: real_text
    implicit none (type, external)
    private
-   public :: axes_misfit, distance_misfit, line_misfit, two_rings
+   public :: axes_misfit, close_enough, distance_misfit, line_misfit, two_rings
 
    real(wp), parameter :: close_enough = 1.0e-3_wp  !! difference that is none, of the largest radius [1]
    character(*), parameter :: two_rings = "has two negative radii: one gear of a pair at most is a ring gear"

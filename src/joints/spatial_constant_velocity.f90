@@ -1,14 +1,18 @@
 !> Constant-velocity joint: two points coincide, and two shafts turn by the same angle about their axes, however they are bent.
 !>
-!> Phi = [ P_i - P_j,  x_i . y_j - y_i . x_j ]                              (4 rows)
+!> Phi = [ P_i - P_j,  2 e_3 ]                                              (4 rows)
 !>
 !> z_i and z_j are along the shafts, in the same sense. Where the deck puts the bodies the frame of j is that of i, turned from
-!> z_i to z_j about their common perpendicular. The last row keeps it so: with Euler parameters of j against i it is -4 e_0 e_3, so
+!> z_i to z_j about their common perpendicular. The last row keeps it so: e_3 is the fourth Euler parameter of j against i, so
 !> that j is turned against i about an axis across z alone, which is the homokinetic condition: the plane that halves the angle of
 !> the shafts is a plane of symmetry. If one shaft turns by an angle about its axis, the other turns by the same.
 !>
+!> The row has full rank wherever it holds, and no other branch: shafts may bend through half a turn and on. The product
+!> x_i . y_j - y_i . x_j = -4 e_0 e_3 would have a second branch, e_0 = 0, which meets the first there.
+!>
 !> Signs, frames: `spatial_joint`. Source: P. E. Nikravesh, Computer-Aided Analysis of Mechanical Systems (1988), sections 6.1 and
-!> 7.2, for the parts of the rows. Limits: axes less than half a turn from one another; the joint's own bodies are left out.
+!> 7.2, for Euler parameters and the parts of the rows. Limits: less than half a turn between the axes where the deck puts the
+!> bodies, since beyond nobody knows which turn is meant; the joint's own bodies are left out.
 module spatial_constant_velocity
    use coordinates, only: coordinates_t
    use item, only: item_t
@@ -16,7 +20,7 @@ module spatial_constant_velocity
    use kind_info, only: add_channel, kind_info_t, leaves_angles
    use kinds, only: wp
    use motion, only: motion_t
-   use rotations, only: turned_onto
+   use rotations, only: euler_parameters_of, turned_onto
    use rows, only: rows_t
    use spatial_joint, only: add_axis_columns, add_joint_columns, add_spatial_channels, at_point, set_joint_frames, &
       spatial_joint_t, spatial_report_own, untwisted
@@ -61,6 +65,7 @@ contains
       real(wp), intent(in) :: angle(0:)      !! (0:bodies) not used [rad]
 
       call self%take_axes(items, [at_point, untwisted])
+      allocate (self%axes%turn(4, 2, self%n), source=0.0_wp)
    end subroutine constant_velocity_prepare
 
    !> Frames: that of j is that of i, turned from z_i to z_j, where the deck puts the bodies.
@@ -77,29 +82,26 @@ contains
                     frame_j => self%axes%frame_j(:, :, k))
             world = turned_onto(matmul(rot(:, :, i), frame_i), axis_of(motion, j, frame_j(:, 3)))
             frame_j = matmul(transpose(rot(:, :, j)), world)
+            self%axes%turn(:, 1, k) = euler_parameters_of(frame_i)
+            self%axes%turn(:, 2, k) = euler_parameters_of(frame_j)
          end associate
       end do
    end subroutine constant_velocity_set_start
 
-   !> The row is closed too where j is half a turn from where it should be, or the shafts are bent back upon one another.
+   !> Shafts that point at one another at the start: about which axis they are bent is not known.
    function constant_velocity_closing_fault(self, k, motion) result(fault)
       class(spatial_constant_velocity_t), intent(in) :: self  !! the set
       integer, intent(in) :: k                                !! item
       type(motion_t), intent(in) :: motion                    !! positions
       character(:), allocatable :: fault                      !! what is wrong; blank: nothing
 
-      real(wp), parameter :: least = 1.0e-6_wp  ! (1 + cosine of the angle of the shafts) times cosine of the twist [1]
-      real(wp) :: i(3, 2), j(3, 2)
-      integer :: c
+      real(wp), parameter :: least = 1.0e-6_wp  ! 1 + cosine of the angle of the shafts [1]
 
-      do c = 1, 2
-         i(:, c) = axis_of(motion, self%body(1, k), self%axes%frame_i(:, c, k))
-         j(:, c) = axis_of(motion, self%body(2, k), self%axes%frame_j(:, c, k))
-      end do
       fault = ""
-      if (sum(i*j) > least) return
-      fault = "is closed the wrong way round: its shafts are bent by half a turn, or twisted by one"//new_line("a")// &
-              "  = turn one of its bodies, or reverse axis_i or axis_j, in the deck"
+      if (1.0_wp + dot_product(axis_of(motion, self%body(1, k), self%axes%frame_i(:, 3, k)), &
+                               axis_of(motion, self%body(2, k), self%axes%frame_j(:, 3, k))) > least) return
+      fault = "is closed the wrong way round: its shafts are bent by half a turn, so that the plane of the bend is not known"// &
+              new_line("a")//"  = turn one of its bodies, or reverse axis_i or axis_j, in the deck"
    end function constant_velocity_closing_fault
 
    !> A channel of its own: the angle of the shafts here, the others as of any joint with axes.

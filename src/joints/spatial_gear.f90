@@ -10,7 +10,9 @@
 !> Signs: parallel axes may point the same way or not. Axes that meet both point away from where they meet, or both towards it;
 !> else one radius is negative, as that of a ring gear is.
 !> Source: P. E. Nikravesh, Computer-Aided Analysis of Mechanical Systems (1988), section 4.2.4, with the direction to the other
-!> gear in place of a carrier. Limits: other joints hold the gears; less than half a turn in a step; on axes that meet the row makes
+!> gear in place of a carrier. Limits: other joints hold the gears near to where they mesh at the start: where axes that meet
+!> become parallel, or the centres on parallel axes coincide, the angles have no value; a run ends before (`gear_is_lost`);
+!> less than half a turn in a step; on axes that meet the row makes
 !> couples on both bodies, so that what the bearings carry for the force at the teeth is not among their reactions; no pressure
 !> angle, no play.
 module spatial_gear
@@ -18,22 +20,26 @@ module spatial_gear
    use item, only: item_t
    use kind_info, only: add_number, dim_length, kind_info_t
    use kinds, only: wp
-   use mesh, only: axes_misfit, distance_misfit, two_rings
+   use mesh, only: axes_misfit, close_enough, distance_misfit, two_rings
    use motion, only: cross, motion_t, point_position
    use rows, only: rows_t
-   use spatial_joint, only: add_axis_columns, add_joint_columns, add_spatial_channels, element_t, set_joint_frames
+   use spatial_joint, only: add_axis_columns, add_joint_columns, add_spatial_channels, degrees_between, element_t, &
+      set_joint_frames
    use spatial_rows, only: angle_of, axis_of, dot_of_axes, dot_with_span, put_row, scalar_t, seen_from_other, wrapped
+   use text, only: real_text
    implicit none (type, external)
    private
-   public :: spatial_gear_t
+   public :: gear_is_lost, spatial_gear_t, words_of_lost_gear
 
    real(wp), parameter :: parallel = 1.0e-6_wp  !! sine of an angle of axes that is none [1]
+   real(wp), parameter :: least = 0.25_wp       !! least part of what is between the gears at the start that they still mesh at [1]
 
    !> All pairs of gears of a spatial scene.
    type, extends(counted_joint_t) :: spatial_gear_t
       real(wp), allocatable, private :: radius(:, :)       !! (2, n) of i and j; of axes that point opposite ways one is turned [m]
       logical, allocatable, private :: is_parallel(:)      !! (n) whether the axes are parallel
       real(wp), allocatable, private :: start(:)           !! (n) R_i phi_i + R_j phi_j where the deck puts the bodies [m]
+      real(wp), allocatable, private :: between(:, :)      !! (2, n) sine of the angle of the axes, distance across z_i there [1, m]
    contains
       procedure, nopass :: info => gear_info
       procedure :: prepare => gear_prepare
@@ -74,6 +80,7 @@ contains
 
       call self%take_axes(items, [element_t ::])
       allocate (self%radius(2, self%n), self%angle(2, self%n), self%start(self%n), source=0.0_wp)
+      allocate (self%between(2, self%n), source=0.0_wp)
       allocate (self%is_parallel(self%n), source=.false.)
       do k = 1, self%n
          self%radius(:, k) = [items(k)%number("radius_i"), items(k)%number("radius_j")]
@@ -93,7 +100,8 @@ contains
       do k = 1, self%n
          z_i = axis_of(motion, self%body(1, k), self%axes%frame_i(:, 3, k))
          z_j = axis_of(motion, self%body(2, k), self%axes%frame_j(:, 3, k))
-         self%is_parallel(k) = norm2(cross(z_i, z_j)) < parallel
+         self%between(:, k) = between_gears(self, k, motion)
+         self%is_parallel(k) = self%between(1, k) < parallel
          if (self%is_parallel(k) .and. dot_product(z_i, z_j) < 0.0_wp) self%radius(2, k) = -self%radius(2, k)
          self%angle(:, k) = 0.0_wp
          call self%find_angles(k, motion, phi)
@@ -167,7 +175,61 @@ contains
                       axis_of(motion, self%body(2, k), self%axes%frame_j(:, 3, k))) < 0.0_wp) radius(2) = -radius(2)
    end function own_radii
 
-   !> One of two gears at most is a ring gear.
+   !> What is between two gears: sine of the angle of their axes, and distance of the centres across z_i.
+   pure function between_gears(self, k, motion) result(between)
+      class(spatial_gear_t), intent(in) :: self  !! the set
+      integer, intent(in) :: k                   !! item
+      type(motion_t), intent(in) :: motion       !! positions
+      real(wp) :: between(2)                     !! (2) both [1, m]
+
+      real(wp) :: z_i(3)
+
+      z_i = axis_of(motion, self%body(1, k), self%axes%frame_i(:, 3, k))
+      between(1) = norm2(cross(z_i, axis_of(motion, self%body(2, k), self%axes%frame_j(:, 3, k))))
+      between(2) = norm2(cross(z_i, point_position(motion, self%body(2, k), self%s_j(:, k)) &
+                               - point_position(motion, self%body(1, k), self%s_i(:, k))))
+   end function between_gears
+
+   !> Whether the gears have come so far from where they mesh at the start that their angles are about to have no value.
+   pure logical function gear_is_lost(self, k, motion) result(is_off)
+      class(spatial_gear_t), intent(in) :: self  !! the set
+      integer, intent(in) :: k                   !! item
+      type(motion_t), intent(in) :: motion       !! positions
+
+      real(wp) :: between(2)
+
+      between = between_gears(self, k, motion)
+      if (self%is_parallel(k)) then
+         is_off = between(2) < least*self%between(2, k) .or. between(1) > 1.0_wp - least
+      else
+         is_off = between(1) < least*self%between(1, k)
+      end if
+   end function gear_is_lost
+
+   !> Where they have come to.
+   function words_of_lost_gear(self, k, motion) result(words)
+      class(spatial_gear_t), intent(in) :: self  !! the set
+      integer, intent(in) :: k                   !! item
+      type(motion_t), intent(in) :: motion       !! positions
+      character(:), allocatable :: words         !! what is wrong
+
+      real(wp) :: between(2)
+
+      between = between_gears(self, k, motion)
+      words = "has lost its mesh: the axes of its gears are "// &
+              real_text(degrees_between(axis_of(motion, self%body(1, k), self%axes%frame_i(:, 3, k)), &
+                                        axis_of(motion, self%body(2, k), self%axes%frame_j(:, 3, k))), 4)//" deg apart"
+      if (self%is_parallel(k)) then
+         words = words//" and their centres "//real_text(between(2), 4)//" m (at the start parallel and "// &
+                 real_text(self%between(2, k), 4)//" m)"
+      else
+         words = words//" (the sine of that angle was "//real_text(self%between(1, k), 4)//" at the start, and is now "// &
+                 real_text(between(1), 4)//"; a quarter is the least)"
+      end if
+      words = words//": let other joints hold the gears where they mesh"
+   end function words_of_lost_gear
+
+   !> One of two gears at most is a ring gear, and on parallel axes they have a line of centres.
    function gear_closing_fault(self, k, motion) result(fault)
       class(spatial_gear_t), intent(in) :: self  !! the set
       integer, intent(in) :: k                   !! item
@@ -176,6 +238,9 @@ contains
 
       fault = ""
       if (all(own_radii(self, k, motion) < 0.0_wp)) fault = two_rings
+      if (.not. self%is_parallel(k) .or. self%between(2, k) > close_enough*maxval(abs(self%radius(:, k)))) return
+      fault = "has gears on one axis, "//real_text(self%between(2, k), 4)//" m apart, so that there is no line of centres"// &
+              new_line("a")//"  = put the centres apart by the sum of the radii, or couple the bodies by another joint"
    end function gear_closing_fault
 
    !> Parallel axes are as far apart as the radii make it, others meet.

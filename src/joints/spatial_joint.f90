@@ -7,7 +7,7 @@
 !>     at_point        P_i - P_j                       three rows
 !>     across a, b     a_i . b_j = 0                   the axes, by number, stay at right angles
 !>     beside a        a_i . d = 0                     no displacement along an axis of i
-!>     untwisted       x_i . y_j - y_i . x_j = 0       j is turned against i about an axis across z alone
+!>     untwisted       2 e_3 = 0                       j is turned against i about an axis across z alone
 !>
 !> Rows of `across` and `untwisted` are angles. Signs: the force on body i of a point is -lambda.
 !> Source: Flores et al. (2008), eqs. (6.13) to (6.15), with the two independent rows of the parallel axes.
@@ -18,15 +18,16 @@ module spatial_joint
    use joint_frames, only: add_zero_columns, find_frames, from_start
    use joint_set, only: joint_set_t, of_force, of_moment, of_own, of_violation, of_violation_rate
    use kind_info, only: add_channel, add_direction, add_reference, in_space, kind_info_t
-   use kinds, only: wp
+   use kinds, only: pi, wp
    use motion, only: motion_t
    use rows, only: rows_t
+   use text, only: real_text
    use spatial_rows, only: angle_between, axis_of, dot_with_span, put_across_rows, put_row, put_vector_rows, &
       scalar_t, twist_of_frames
    implicit none (type, external)
    private
    public :: across, add_axis_columns, add_joint_columns, add_reaction_channels, add_spatial_channels, at_point, beside
-   public :: element_t, set_joint_frames
+   public :: degrees_between, element_t, is_turned_over, set_joint_frames, words_of_turned_over
    public :: add_slide_channels, add_turn_channels, press_ends, spatial_joint_t, spatial_report_own, untwisted
 
    integer, parameter :: is_point = 1    !! an element: two points coincide
@@ -63,11 +64,13 @@ module spatial_joint
       logical, allocatable :: from_start(:)        !! (n) angles are zero where the deck puts the bodies
       real(wp), allocatable :: frame_i(:, :, :)    !! (3, 3, n) axes x, y, z as columns, frame of body i [1]
       real(wp), allocatable :: frame_j(:, :, :)    !! (3, 3, n) axes x, y, z as columns, frame of body j [1]
+      real(wp), allocatable :: turn(:, :, :)       !! (4, 2, n) Euler parameters of both, where a twist is a row [1]
    end type joint_axes_t
 
    !> All items of one kind of joint of space.
    type, extends(joint_set_t), abstract :: spatial_joint_t
       type(joint_axes_t) :: axes   !! elementary constraints, and the axes that they are of
+      logical :: holds_parallel = .false. !! rows keep axes z parallel, and hold where these are opposed too
    contains
       procedure :: take_axes => spatial_take_axes
       procedure :: set_start => set_joint_frames
@@ -146,6 +149,8 @@ contains
 
       self%axes%elements = elements
       self%sides_apart = all(elements%what == is_point)
+      self%holds_parallel = any([(elements(k)%what == is_across .and. elements(k)%of_i == 1 .and. elements(k)%of_j == 3, &
+                                  k=1, size(elements))])
       row = 0
       do k = 1, size(elements)
          row = row + merge(3, 1, elements(k)%what == is_point)
@@ -218,7 +223,7 @@ contains
                row = row + 1
             case (is_untwisted)
                do k = 1, self%n
-                  x = twist_of_frames(motion, self%body(:, k), axes%frame_i(:, :, k), axes%frame_j(:, :, k))
+                  x = twist_of_frames(motion, self%body(:, k), axes%turn(:, 1, k), axes%turn(:, 2, k))
                   call put_row(rows, row + 1 + (k - 1)*self%n_row_item, motion, self%body(:, k), x, 0.0_wp, 0.0_wp, 0.0_wp)
                end do
                row = row + 1
@@ -247,21 +252,34 @@ contains
       end if
    end function spatial_closing_fault
 
+   !> Where an item has come to whose axes are opposed: what follows its name in a message.
+   function words_of_turned_over(self, k, motion) result(words)
+      class(spatial_joint_t), intent(in) :: self  !! the set
+      integer, intent(in) :: k                    !! item
+      type(motion_t), intent(in) :: motion        !! positions
+      character(:), allocatable :: words          !! what is wrong
+
+      words = "went over to its other branch: its axes, which it keeps parallel, are "// &
+              real_text(degrees_between(axis_of(motion, self%body(1, k), self%axes%frame_i(:, 3, k)), &
+                                        axis_of(motion, self%body(2, k), self%axes%frame_j(:, 3, k))), 4)//" deg apart"
+   end function words_of_turned_over
+
+   !> Angle of two axes.
+   pure real(wp) function degrees_between(a, b) result(angle)
+      real(wp), intent(in) :: a(3)   !! (3) an axis [1]
+      real(wp), intent(in) :: b(3)   !! (3) another one [1]
+
+      angle = 2.0_wp*atan2(norm2(a - b), norm2(a + b))*180.0_wp/pi
+   end function degrees_between
+
    !> Whether the axes z of an item, parallel by its rows, are opposed: a branch that nobody means.
    pure logical function is_turned_over(self, k, motion) result(is_over)
       class(spatial_joint_t), intent(in) :: self  !! the set
       integer, intent(in) :: k                    !! item
       type(motion_t), intent(in) :: motion        !! positions
 
-      logical :: are_parallel
-      integer :: e
-
-      associate (elements => self%axes%elements)
-         are_parallel = any([(elements(e)%what == is_across .and. elements(e)%of_i == 1 .and. elements(e)%of_j == 3, &
-                              e=1, size(elements))])
-      end associate
       is_over = .false.
-      if (are_parallel) is_over = dot_product(axis_of(motion, self%body(1, k), self%axes%frame_i(:, 3, k)), &
+      if (self%holds_parallel) is_over = dot_product(axis_of(motion, self%body(1, k), self%axes%frame_i(:, 3, k)), &
                                               axis_of(motion, self%body(2, k), self%axes%frame_j(:, 3, k))) < 0.0_wp
       if (is_over .or. .not. self%axes%holds_turn) return
       is_over = dot_product(axis_of(motion, self%body(1, k), self%axes%frame_i(:, 1, k)), &

@@ -10,7 +10,8 @@
 !>
 !> Signs: the force on the body of i, at P_j - R n where they touch, is s lambda. Source: P. E. Nikravesh, Computer-Aided Analysis
 !> of Mechanical Systems (1988), section 4.2.4, in space. Limits: other joints hold the pinion at its distance |R| from the line,
-!> and its axis at right angles to it; less than half a turn in a step; the force is along the line: no pressure angle, no play.
+!> and its axis as the deck puts it: theta has no value where it is turned by a right angle, which ends a run; less than half a
+!> turn in a step; the force is along the line: no pressure angle, no play.
 module spatial_rack
    use counted_joint, only: counted_joint_t, most_angles
    use item, only: item_t
@@ -19,12 +20,13 @@ module spatial_rack
    use mesh, only: line_misfit
    use motion, only: cross, motion_t, point_position
    use rows, only: rows_t
-   use spatial_joint, only: add_joint_columns, add_reaction_channels, element_t
+   use spatial_joint, only: add_joint_columns, add_reaction_channels, degrees_between, element_t
+   use text, only: real_text
    use spatial_rows, only: angle_between, axis_of, dot_with_span, put_row, scalar_t, wrapped
    use rotations, only: axes_across
    implicit none (type, external)
    private
-   public :: spatial_rack_t
+   public :: rack_is_lost, spatial_rack_t, words_of_lost_rack
 
    real(wp), parameter :: square = 1.0e-6_wp  !! cosine of an angle that is a right one [1]
 
@@ -180,5 +182,28 @@ contains
       d = point_position(motion, self%body(2, k), self%s_j(:, k)) - point_position(motion, self%body(1, k), self%s_i(:, k))
       doubt = line_misfit(self%radius(k), dot_product(n, d))
    end function rack_closing_doubt
+
+   !> Whether the pinion's axis is a right angle or more from where the deck puts it against the rack.
+   pure logical function rack_is_lost(self, k, motion) result(is_off)
+      class(spatial_rack_t), intent(in) :: self  !! the set
+      integer, intent(in) :: k                   !! item
+      type(motion_t), intent(in) :: motion       !! positions
+
+      is_off = dot_product(axis_of(motion, self%body(1, k), self%axes%frame_i(:, 3, k)), &
+                           axis_of(motion, self%body(2, k), self%axes%frame_j(:, 3, k))) <= 0.0_wp
+   end function rack_is_lost
+
+   !> How far it is turned then.
+   function words_of_lost_rack(self, k, motion) result(words)
+      class(spatial_rack_t), intent(in) :: self  !! the set
+      integer, intent(in) :: k                   !! item
+      type(motion_t), intent(in) :: motion       !! positions
+      character(:), allocatable :: words         !! what is wrong
+
+      words = "has lost the angle of its pinion, whose axis is "// &
+              real_text(degrees_between(axis_of(motion, self%body(1, k), self%axes%frame_i(:, 3, k)), &
+                                        axis_of(motion, self%body(2, k), self%axes%frame_j(:, 3, k))), 4)// &
+              " deg from where it meshed at the start (less than 90 deg): let other joints hold it there"
+   end function words_of_lost_rack
 
 end module spatial_rack

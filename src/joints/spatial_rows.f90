@@ -10,7 +10,7 @@
 !>     a . d     F_j = -F_i = a,  N_i = a x (d + s_i),  N_j = s_j x a
 !>     |d|       F_j = -F_i = u,  N_i = -s_i x u,  N_j = s_j x u,  u = d/|d|
 !>     angle     of x_j against x_i about z_i: atan2(y_i . x_j, x_i . x_j)
-!>     twist     x_i . y_j - y_i . x_j
+!>     twist     2 e_3, N_j = -N_i = e_2 x_i - e_1 y_i + e_0 z_i, with Euler parameters e of j against i
 !>     point     P_i - P_j along each axis of the world
 !>
 !> `bend` is the second derivative that the velocities alone make, so that gamma is -bend.
@@ -19,6 +19,7 @@
 module spatial_rows
    use kinds, only: pi, wp
    use motion, only: motion_t
+   use rotations, only: product_of, rotation_of_parameters
    use rows, only: rows_t
    implicit none (type, external)
    private
@@ -153,23 +154,27 @@ contains
                    dot_of_axes(motion, body, frame_i(:, 2), frame_j(:, 1)))
    end function angle_between
 
-   !> x_i . y_j - y_i . x_j: that of two frames which are turned against one another about axes across z alone is zero.
-   pure function twist_of_frames(motion, body, frame_i, frame_j) result(x)
+   !> Twist of two frames: twice the fourth Euler parameter e_3 of j against i, zero where j is turned against i about an axis
+   !> across z alone. With n = e_2 x_i - e_1 y_i + e_0 z_i, which is as long as sqrt(1 - e_3^2), the rate is n . (w_j - w_i).
+   pure function twist_of_frames(motion, body, q_i, q_j) result(x)
       type(motion_t), intent(in) :: motion   !! positions and velocities
       integer, intent(in) :: body(2)         !! (2) bodies i and j
-      real(wp), intent(in) :: frame_i(3, 3)  !! (3, 3) axes x, y, z of the joint in i as columns, its frame [1]
-      real(wp), intent(in) :: frame_j(3, 3)  !! (3, 3) those in j [1]
-      type(scalar_t) :: x                    !! -(1 + cosine of the angle of the axes z) times the sine of the twist [1]
+      real(wp), intent(in) :: q_i(4)         !! (4) Euler parameters of the frame of the joint in i, frame of body i [1]
+      real(wp), intent(in) :: q_j(4)         !! (4) those in j [1]
+      type(scalar_t) :: x                    !! the twist, an angle where it is small [rad]
 
-      type(scalar_t) :: back
+      real(wp) :: e(4), n(3), p(4), w(3)
 
-      x = dot_of_axes(motion, body, frame_i(:, 1), frame_j(:, 2))
-      back = dot_of_axes(motion, body, frame_i(:, 2), frame_j(:, 1))
-      x%value = x%value - back%value
-      x%rate = x%rate - back%rate
-      x%bend = x%bend - back%bend
-      x%turn_i = x%turn_i - back%turn_i
-      x%turn_j = x%turn_j - back%turn_j
+      p = product_of(motion%spatial%p(:, body(1)), q_i)
+      e = product_of([p(1), -p(2:4)], product_of(motion%spatial%p(:, body(2)), q_j))
+      e = e/norm2(e)
+      n = axis_of(motion, body(1), matmul(rotation_of_parameters(q_i), [e(3), -e(2), e(1)]))
+      w = motion%omega(:, body(2)) - motion%omega(:, body(1))
+      x%value = 2.0_wp*e(4)
+      x%rate = dot_product(n, w)
+      x%bend = -dot_product(across(motion%omega(:, body(1)), motion%omega(:, body(2))), n) - 0.5_wp*dot_product(w, w)*e(4)
+      x%turn_i = -n
+      x%turn_j = n
    end function twist_of_frames
 
    !> Angle of a direction in the plane of two axes, -pi to pi, from its products with them.
