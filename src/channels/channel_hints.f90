@@ -53,6 +53,10 @@ contains
       end if
       quantity = parts(size(parts))%s
       if (size(parts) > 2) quantity = parts(2)%s
+      if (quantity == "film_pressure" .and. is_listed("film_force", quantities) .and. .not. is_listed(quantity, quantities)) then
+         hint = "the film of '"//item//"' gives forces and no pressures; film.grid, squeeze, the short and the long films have some"
+         return
+      end if
       if (.not. (quantity == "*" .or. is_listed(quantity, quantities))) quantity = nearest_word(quantity, quantities)
       hint = "channels of "//item//": "//listed(quantities)
       if (len(quantity) == 0) return

@@ -2,7 +2,7 @@
 module film_places
    use film_law, only: film_bearing_t, film_motion_t, greatest_eccentricity
    use item, only: find_place, item_t
-   use kinds, only: wp
+   use kinds, only: not_a_number, wp
    use lubricant, only: oil_t
    implicit none (type, external)
    private
@@ -33,7 +33,7 @@ module film_places
       real(wp) :: moment(3) = 0.0_wp      !! in space: (3) moment on it about its point, world frame [N.m]
       real(wp) :: shear(3) = 0.0_wp       !! in space: (3) moment of shear on a ball, where it acts, world frame [N.m]
       logical :: has_flow = .false.       !! that is enough to carry heat away
-      real(wp) :: rise = 0.0_wp           !! of the temperature, if the side flow, at least next to none, takes all heat along [K]
+      real(wp) :: rise = 0.0_wp           !! of the temperature, if the side flow takes all heat along; NaN: too little flows [K]
    end type film_state_t
 
 contains
@@ -93,7 +93,11 @@ contains
 
       least = least_flow*bearing%length*bearing%radius*bearing%clearance*speeds
       state%has_flow = state%side_flow > least
-      if (max(state%side_flow, least) > 0.0_wp) state%rise = state%power/(heat*max(state%side_flow, least))
+      if (state%has_flow) then
+         state%rise = state%power/(heat*state%side_flow)
+      else if (state%power > 0.0_wp) then
+         state%rise = not_a_number()
+      end if
    end subroutine finish_state
 
 end module film_places

@@ -65,8 +65,8 @@ contains
                        of_film_torque)
       call add_channel(info, "film_thickness", "m", "none", 1, "least thickness of the film, clearance less eccentricity", &
                        of_film_thickness)
-      call add_channel(info, "film_pressure", "Pa", "none", 1, "greatest pressure of the film at mid-length, at whole degrees", &
-                       of_film_pressure)
+      call add_channel(info, "film_pressure", "Pa", "none", 1, "greatest pressure of the film at mid-length, at whole degrees; " &
+                       //"of films that have pressures: grid, squeeze, the short and the long ones", of_film_pressure)
       call add_channel(info, "eccentricity_ratio", "1", "none", 1, "eccentricity over clearance", of_eccentricity_ratio)
       call add_channel(info, "drag_journal", "N.m", "world", 1, "moment of the shear on the journal, whether it acts or not", &
                        of_drag_journal)
@@ -74,8 +74,8 @@ contains
                        of_drag_bearing)
       call add_channel(info, "film_power", "W", "none", 1, "power that the film turns into heat", of_film_power)
       call add_channel(info, "side_flow", "m^3/s", "none", 1, "lubricant that leaves at both ends of the bearing", of_side_flow)
-      call add_channel(info, "temperature_rise", "K", "none", 1, "of the lubricant, if the side flow takes all heat along; one " &
-                       //"below L R c (|w_i| + |w_j|)/1000 counts as that", of_temperature_rise)
+      call add_channel(info, "temperature_rise", "K", "none", 1, "of the lubricant, if the side flow takes all heat along; no " &
+                       //"number where that is below L R c (|w_i| + |w_j|)/1000", of_temperature_rise)
    end subroutine add_film_channels
 
    !> Channels of a film in space.
@@ -99,15 +99,15 @@ contains
                        of_eccentricity_ratio)
       call add_channel(info, "film_power", "W", "none", 1, "power that the film turns into heat", of_film_power)
       if (is_sphere) return
-      call add_channel(info, "film_pressure", "Pa", "none", 1, "greatest pressure of the film at mid-length, at whole degrees", &
-                       of_film_pressure)
+      call add_channel(info, "film_pressure", "Pa", "none", 1, "greatest pressure of the film at mid-length, at whole degrees; " &
+                       //"of films that have pressures: grid, squeeze, the short and the long ones", of_film_pressure)
       call add_channel(info, "drag_journal", "N.m", "joint", 1, "moment of the shear on the pin, whether it acts or not", &
                        of_drag_journal)
       call add_channel(info, "drag_bearing", "N.m", "joint", 1, "moment of the shear on the bushing, whether it acts or not", &
                        of_drag_bearing)
       call add_channel(info, "side_flow", "m^3/s", "none", 1, "lubricant that leaves at both ends of the bushing", of_side_flow)
-      call add_channel(info, "temperature_rise", "K", "none", 1, "of the lubricant, if the side flow takes all heat along; one " &
-                       //"below L R c (|w_i| + |w_j|)/1000 counts as that", of_temperature_rise)
+      call add_channel(info, "temperature_rise", "K", "none", 1, "of the lubricant, if the side flow takes all heat along; no " &
+                       //"number where that is below L R c (|w_i| + |w_j|)/1000", of_temperature_rise)
    end subroutine add_spatial_film_channels
 
    !> What is wrong with a row as to its level: contact needs a material and a law, a film a lubricant and a length.

@@ -10,8 +10,10 @@
 !> pin's axis u_j is then the one with zeta at the end, which moves along the pin with -(w . u)/(u_j . u). So that the force does
 !> the work that it stores, its direction is n - (n . u_j)/(u . u_j) u there, across the pin.
 !>
-!> C = r_j^P + (R_j - delta/2) n is the point of both bodies where the forces act: f_j = -F_N n + F_T t. t is the direction of
-!> sliding, v_T = v - (v . n) n with v the velocity of the material points of j against those of i at C.
+!> C = r_j^P + (R_j - delta/2) n is the point of both bodies where the forces act, half way between the two surfaces, which are
+!> R_j n and (R_j - delta) n away; of a pin r_j^P is the base or the station, and n the direction of the force:
+!> f_j = -F_N n + F_T t. t is the direction of sliding, v_T = v - (v . n) n with v the velocity of the material points of j
+!> against those of i at C.
 !> With e = 0 the normal is taken along w. Beside a ball |e|, n, c and the ball's radius have the other sign, and all of this holds
 !> as it stands.
 !>

@@ -16,6 +16,7 @@ module run_recorder
    use film_fields, only: append_field, film_field_t
    use film_words, only: missing_films
    use frames, only: frame_keeper_t
+   use hot_films, only: films_too_hot
    use hdf5_writer, only: hdf5_writer_t
    use kinds, only: i8, wp
    use member_result, only: member_result_t
@@ -279,6 +280,7 @@ contains
          allocate (outcome%pictures(0), outcome%warnings(0), outcome%files(0), outcome%csv(0))
          call append_all(outcome%warnings, [self%plan%warnings, full%warnings])
          if (allocated(self%wants_fields)) call append_all(outcome%warnings, missing_films(self%wants_fields, self%fields))
+         call append_all(outcome%warnings, films_too_hot(self%extremes, self%items))
          call append_all(outcome%warnings, statistics_without_numbers(self%statistics, self%items, full%time_end))
          if (self%plan%with%hdf5 .and. size(self%extremes%channels) > 0 .and. .not. self%extremes%has_rows()) then
             call append_text(outcome%warnings, "the time histories have no row: the run ended before they begin")
