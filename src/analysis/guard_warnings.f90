@@ -1,5 +1,6 @@
 !> What guards have to say: of a run that they end, and at the end of one.
 submodule(guards) guard_warnings
+   use elastic_waves, only: bar_speed, most_share, share_of_waves
    use text, only: append_text
    implicit none (type, external)
 
@@ -25,8 +26,10 @@ contains
             words = "penetrations of up to "//millimetres(breach%value)//", but the law ends at "//millimetres(limit)// &
                     " and was continued along its tangent"
          case (guard_impact_speed)
-            words = "impacts of up to "//real_text(breach%value, 3)//" m/s, but the law is quasi-static: strictly below "// &
-                    real_text(limit, 3)//" m/s (1e-5 sqrt(E/rho))"
+            words = "impacts of up to "//real_text(breach%value, 3)//" m/s, but the law is quasi-static: elastic waves, which "// &
+                    "it leaves out, take "//real_text(100.0_wp*share_of_waves(breach%value, bar_speed(limit)), 2)// &
+                    " % of the energy (limit "//real_text(100.0_wp*most_share, 2)//" %, "//real_text(limit, 3)// &
+                    " m/s; Hunter 1957): take a restitution measured at that speed, or lower the speed"
          case default
             words = "normal forces of up to "//real_text(breach%value, 3)//" N, but the strength of the material is reached at "// &
                     real_text(limit, 3)//" N"

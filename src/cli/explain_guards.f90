@@ -81,7 +81,8 @@ contains
       end do
       if (system%loose%n_contact == 0) return
       call say(verb_of(scene, "law_range")//" where a penetration leaves the range of its law (law_range)", 2)
-      call say(verb_of(scene, "impact_speed")//" where an impact is too fast for a quasi-static law (impact_speed)", 2)
+      call say(verb_of(scene, "impact_speed")// &
+               " where elastic waves take more than 10 % of the energy of an impact (impact_speed)", 2)
    end subroutine say_contacts
 
    !> What a guard does.

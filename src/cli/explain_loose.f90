@@ -4,6 +4,7 @@ module explain_loose
    use console, only: say
    use film_law, only: film_motion_t, parameter_length, parameter_radius, parameter_viscosity
    use kind_info, only: kind_info_t
+   use elastic_waves, only: bar_speed, most_share, share_of_waves
    use kinds, only: wp
    use load, only: loaded_t
    use mechanism, only: mechanism_t
@@ -134,12 +135,14 @@ contains
       contact_time = set%contact_time(contact, speed, system%linkage%inverse_mass(1, :))
    end function contact_time
 
-   !> Impact speed up to which contact is quasi-static.
+   !> How much of an impact's energy goes into elastic waves, which a quasi-static law leaves out.
    subroutine explain_validity(speed_limit)
       real(wp), intent(in) :: speed_limit  !! huge: not known [m/s]
 
       if (speed_limit >= huge(speed_limit)) return
-      call say("the law is quasi-static: strictly for impacts below "//real_text(speed_limit, 3)//" m/s (1e-5 sqrt(E/rho))", 4)
+      call say("the law is quasi-static: elastic waves, which it leaves out, take "// &
+               real_text(100.0_wp*share_of_waves(1.0_wp, bar_speed(speed_limit)), 2)//" % of the energy of an impact at 1 m/s, "// &
+               real_text(100.0_wp*most_share, 2)//" % at "//real_text(speed_limit, 3)//" m/s (Hunter 1957, for balls)", 4)
    end subroutine explain_validity
 
 end module explain_loose

@@ -6,7 +6,8 @@
 !> than a tenth of the speed of the depth in the damping term (`normal_law`), which two free bodies never reach. They show a
 !> restitution e that is not ce, whatever the elastic force, the masses and the speed: h(1+e) = ln[(1+h)/(1-h e)].
 !>
-!> Source: Flores et al. (2008), section 3.2. Limits: quasi-static contact, so impact speeds below 1e-5 sqrt(E/rho).
+!> Source: Flores et al. (2008), section 3.2. Limits: quasi-static contact: impact speeds below
+!> 0.02 sqrt(E/rho), see `elastic_waves`.
 module hertz_family
    use deep_damping, only: damp_all_deep, damp_deep
    use item, only: find_place, item_t

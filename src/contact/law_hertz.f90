@@ -3,7 +3,7 @@
 !> F_N = K delta^n,   n = 3/2,   energy = K delta^(n+1) / (n+1)
 !>
 !> Source: Flores et al. (2008), eqs. (3.2)-(3.5). Limits: no energy is lost; quasi-static, so impact
-!> speeds below 1e-5 sqrt(E/rho).
+!> speeds below 0.02 sqrt(E/rho).
 module law_hertz
    use hertz_family, only: add_elastic_columns, elastic_force, hertz_family_t
    use kind_info, only: kind_info_t

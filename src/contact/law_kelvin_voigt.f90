@@ -11,7 +11,7 @@
 !> onset, and what the spring still holds when the force is cut off is counted as lost.
 !>
 !> Source: Flores et al. (2008), eq. (3.1), corrected. Limits: the stiffness has no link to geometry or material and must be
-!> given; the reduced mass of the dashpot is that of free bodies; impact speeds below 1e-5 sqrt(E/rho).
+!> given; the reduced mass of the dashpot is that of free bodies; impact speeds below 0.02 sqrt(E/rho), see `elastic_waves`.
 module law_kelvin_voigt
    use hertz_family, only: add_restitution
    use item, only: item_t

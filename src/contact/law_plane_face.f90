@@ -9,7 +9,7 @@
 !> part with ce.
 !>
 !> Source: Flores et al. (2008), eq. (4.26), there for a square, with the damping of eq. (3.9). Limits: a face that stays parallel
-!> to the plane, and is small against the bodies; impact speeds below 1e-5 sqrt(E/rho).
+!> to the plane, and is small against the bodies; impact speeds below 0.02 sqrt(E/rho), see `elastic_waves`.
 module law_plane_face
    use hertz_family, only: add_restitution, damp
    use item, only: item_t

@@ -1,11 +1,12 @@
 !> A pair of surfaces that may touch: what a normal law needs to know of them.
 !>
-!> sigma_k = (1 - nu_k^2) / E_k;   least impact speed at which waves in the bodies matter: 1e-5 sqrt(E/rho)
+!> sigma_k = (1 - nu_k^2) / E_k;   impact speed from which on waves in the bodies matter: `elastic_waves`
 !>
 !> A geometry describes its contacts with it once, at set-up; a law fits its parameters to it.
 !> Source: Flores et al. (2008), eq. (3.4) and section 3.2 (the factor 1e-5 is that of Love).
 module surfaces
    use bodies, only: material_t
+   use elastic_waves, only: speed_of_share
    use kinds, only: wp
    implicit none (type, external)
    private
@@ -58,14 +59,12 @@ contains
       call set_materials(surfaces, materials(merge(of_i, of_j, of_i > 0)), materials(merge(of_j, of_i, of_j > 0)))
    end subroutine take_materials
 
-   !> Impact speed up to which contact is quasi-static.
+   !> Impact speed up to which contact is taken as quasi-static: where elastic waves take a tenth of the energy.
    pure real(wp) function speed_limit(material) result(speed)
       type(material_t), intent(in) :: material  !! of one surface
 
-      real(wp), parameter :: part = 1.0e-5_wp  ! of the speed of waves in a bar [1]
-
       speed = huge(1.0_wp)
-      if (material%density > 0.0_wp) speed = part*sqrt(material%young/material%density)
+      if (material%density > 0.0_wp) speed = speed_of_share(sqrt(material%young/material%density))
    end function speed_limit
 
 end module surfaces

@@ -23,8 +23,8 @@ contains
                       //"smaller radius, of a slider its length): beyond it the run ends; 0: no limit", default="1", lower=0.0_wp)
       call add_word(info, "clearance", "a penetration greater than the clearance of its joint", default="warn", choices=actions)
       call add_word(info, "law_range", "a penetration beyond the range of the normal law", default="warn", choices=actions)
-      call add_word(info, "impact_speed", "an impact too fast for a law that is quasi-static, 1e-5 sqrt(E/rho) of the materials", &
-                    default="warn", choices=actions)
+      call add_word(info, "impact_speed", "an impact so fast that elastic waves, which a quasi-static law leaves out, take 10 % " &
+                    //"of its energy, 0.02 sqrt(E/rho) of the materials", default="warn", choices=actions)
       call add_word(info, "strength", "a contact pressure beyond the strength that a row of [material] gives", default="warn", &
                     choices=actions)
       call add_number(info, "energy", dim_none, "energy made of nothing, the residual of the ledger or of a contact that begins " &

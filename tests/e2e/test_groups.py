@@ -45,7 +45,8 @@ def test_apart_as_together(gudgeon, method):
 
 def test_what_is_told(gudgeon):
     """Rows at contacts, strobes, warnings of guards and of drivers are those of the whole."""
-    text = DECK + "\n[statistics]\nafter = 50 ms\nperiod = 1 turns of motor\nchannels = loose.normal_force\n"
+    slow_waves = DECK.replace("0.3       7850", "0.3       1e8")  # a warning of the guard impact_speed
+    text = slow_waves + "\n[statistics]\nafter = 50 ms\nperiod = 1 turns of motor\nchannels = loose.normal_force\n"
     apart, together = (run_of(gudgeon, text, "--set", f"groups={word}") for word in ("apart", "together"))
     for kind in ("onset_rows", "peak_rows", "end_rows", "contacts", "samples"):
         assert apart.summary[kind] == together.summary[kind] > 0

@@ -8,6 +8,7 @@ module test_contact_laws
    use fixed_random, only: random_t
    use free_impact, only: impact_t, run_impact
    use kind_info, only: kind_info_t
+   use elastic_waves, only: bar_speed, share_of_waves
    use kinds, only: wp
    use law_fixture, only: make_law, make_restitution, steel, steel_mass, steel_pair, steel_pin
    use normal_law, only: n_law_parameter, normal_law_t
@@ -311,7 +312,12 @@ contains
       call check_close(error, curved_stiffness(steel_pair(shape_face)), 0.0_wp, 0.0_wp, "a face is not curved")
       pair = steel_pair(shape_internal)
       call check_close(error, pair%sigma_i, 4.3961352657e-12_wp, 1.0e-10_wp, "compliance", relative=.true.)
-      call check_close(error, pair%speed_limit, 0.05135_wp, 1.0e-4_wp, "speed limit", relative=.true.)
+      ! steel has waves of 5135 m/s; Hunter: 1.04 (v/c)^(3/5) of the energy
+      call check_close(error, pair%speed_limit, 5135.0_wp*exp(log(0.1_wp/1.04_wp)*5.0_wp/3.0_wp), 1.0e-4_wp, "speed limit", &
+                       relative=.true.)
+      call check_close(error, bar_speed(pair%speed_limit), 5135.0_wp, 1.0e-4_wp, "speed of waves", relative=.true.)
+      call check_close(error, share_of_waves(1.0_wp, 5135.0_wp), 0.006179_wp, 1.0e-3_wp, "share at 1 m/s", relative=.true.)
+      call check_close(error, share_of_waves(1.0e9_wp, 5135.0_wp), 1.0_wp, 0.0_wp, "no more than all")
       ! as stiff as can be (nu^2 = 1): half the compliance is gone, the stiffness doubles
       rigid%young = 1.0e11_wp
       rigid%poisson = -1.0_wp
