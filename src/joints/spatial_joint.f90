@@ -58,6 +58,7 @@ module spatial_joint
    type :: joint_axes_t
       type(element_t), allocatable :: elements(:)  !! of each item
       logical :: holds_turn = .false.              !! the frames are parallel as the deck puts the bodies
+      logical :: holds_parallel = .false.          !! rows keep axes z parallel, and hold where these are opposed too
       real(wp), allocatable :: axis_i(:, :)        !! (3, n) as in the deck, body's own axes [1]
       real(wp), allocatable :: axis_j(:, :)        !! (3, n) as in the deck; zero: left out [1]
       real(wp), allocatable :: across(:, :, :)     !! (3, 2, n) x of i and of j as in the deck; zero: left out [1]
@@ -70,7 +71,6 @@ module spatial_joint
    !> All items of one kind of joint of space.
    type, extends(joint_set_t), abstract :: spatial_joint_t
       type(joint_axes_t) :: axes   !! elementary constraints, and the axes that they are of
-      logical :: holds_parallel = .false. !! rows keep axes z parallel, and hold where these are opposed too
    contains
       procedure :: take_axes => spatial_take_axes
       procedure :: set_start => set_joint_frames
@@ -149,8 +149,8 @@ contains
 
       self%axes%elements = elements
       self%sides_apart = all(elements%what == is_point)
-      self%holds_parallel = any([(elements(k)%what == is_across .and. elements(k)%of_i == 1 .and. elements(k)%of_j == 3, &
-                                  k=1, size(elements))])
+      self%axes%holds_parallel = any([(elements(k)%what == is_across .and. elements(k)%of_i == 1 .and. elements(k)%of_j == 3, &
+                                       k=1, size(elements))])
       row = 0
       do k = 1, size(elements)
          row = row + merge(3, 1, elements(k)%what == is_point)
@@ -279,7 +279,7 @@ contains
       type(motion_t), intent(in) :: motion        !! positions
 
       is_over = .false.
-      if (self%holds_parallel) is_over = dot_product(axis_of(motion, self%body(1, k), self%axes%frame_i(:, 3, k)), &
+      if (self%axes%holds_parallel) is_over = dot_product(axis_of(motion, self%body(1, k), self%axes%frame_i(:, 3, k)), &
                                               axis_of(motion, self%body(2, k), self%axes%frame_j(:, 3, k))) < 0.0_wp
       if (is_over .or. .not. self%axes%holds_turn) return
       is_over = dot_product(axis_of(motion, self%body(1, k), self%axes%frame_i(:, 1, k)), &

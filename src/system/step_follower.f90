@@ -32,7 +32,7 @@ contains
       do k = 1, size(system%linkage%joints)
          select type (set => system%linkage%joints(k)%set)
          class is (spatial_joint_t)
-            has_branches = has_branches .or. set%holds_parallel
+            has_branches = has_branches .or. set%axes%holds_parallel
          end select
       end do
    end function has_branches
