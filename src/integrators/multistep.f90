@@ -229,8 +229,7 @@ contains
       logical :: is_good
 
       t = self%t
-      self%library%problem%system => system
-      self%library%problem%method => self
+      call self%library%problem%attend(system, self)
       status = advance_step
       if (self%is_fresh) then
          self%n_rejected_before = int(self%count%n_rejected)
@@ -247,7 +246,7 @@ contains
          self%count%n_rejected = self%n_rejected_before + self%library%n_rejected()
       end if
       self%last%has_polynomial = status == advance_step
-      nullify (self%library%problem%system, self%library%problem%method)
+      call self%library%problem%attend()
    end subroutine step_by_library
 
    !> Take the trial state: gaps of the polynomial, derivative, events.
