@@ -1,5 +1,7 @@
 !> The channels that ideal joints share, and those that drivers share, and the reaction that they tell of.
 !>
+!> The reaction of a joint is all that it transmits: its constraint forces and, if it rubs, its friction.
+!>
 !> Signs: force and moment of a joint are those on the body of i; those of a driver act on the body of j along its coordinate,
 !> -lambda. Power of a driver: lambda . Phi_t.
 submodule(joint_set) joint_channels
@@ -12,9 +14,9 @@ contains
 
    !> The channels that every ideal joint has.
    module procedure add_joint_channels
-      call add_channel(info, "force", "N", "world", 2, "reaction force on the body of i", of_force)
-      call add_channel(info, "moment", "N.m", "world", 1, "reaction moment on the body of i about the point of the force", &
-                       of_moment)
+      call add_channel(info, "force", "N", "world", 2, "reaction force on the body of i, friction of the joint included", of_force)
+      call add_channel(info, "moment", "N.m", "world", 1, "reaction moment on the body of i about the point of the force, "// &
+                       "friction of the joint included", of_moment)
       call add_channel(info, "violation", "m", "none", 1, "norm of the constraint violation, angles times 1 m", of_violation)
       call add_channel(info, "violation_rate", "m/s", "none", 1, "norm of the rate of the constraint violation", &
                        of_violation_rate)
@@ -33,6 +35,7 @@ contains
                values(at + 1) = -lambda(before + 1)
             else if (reading%code == of_force) then
                call find_load(self%n_row_item, before, 0, coordinates%n_v, rows%n, rows%jac, lambda, load)
+               if (self%friction%n > 0) call add_friction(self%friction, reading%item, 0, coordinates%n_v, load)
                call coordinates%split_load(load, motion, self%body(1, reading%item), force, moment)
                do i = 1, reading%width
                   values(at + i) = force(i)
@@ -95,9 +98,25 @@ contains
       body = self%body(merge(2, 1, before > 0), item)
       call find_load(self%n_row_item, self%first_row + (item - 1)*self%n_row_item, before, coordinates%n_v, rows%n, rows%jac, &
                      lambda, load)
+      if (self%friction%n > 0) call add_friction(self%friction, item, before, coordinates%n_v, load)
       call coordinates%split_load(load, motion, body, force, moment)
       moment = moment - cross(self%reaction_point(item, motion) - motion%r(:, body), force)
    end procedure joint_reaction
+
+   !> Add the friction of the last evaluation, if the item rubs.
+   pure subroutine add_friction(friction, item, before, n, load)
+      type(joint_friction_t), intent(in) :: friction  !! friction of the set
+      integer, intent(in) :: item                     !! item of the set
+      integer, intent(in) :: before                   !! places before the body's in the rows
+      integer, intent(in) :: n                        !! rates of a body
+      real(wp), intent(inout) :: load(most_rates)     !! (n) first: the load [N or N.m]
+
+      integer :: m
+
+      do m = 1, friction%n
+         if (friction%item(m) == item) load(1:n) = load(1:n) + friction%force(m)*friction%row(before + 1:before + n, m)
+      end do
+   end subroutine add_friction
 
    !> Load of some rows on the rates of a body.
    pure subroutine find_load(n_own, first, before, n, n_row, jac, lambda, load)

@@ -132,8 +132,9 @@ contains
    subroutine add_reaction_channels(info)
       type(kind_info_t), intent(inout) :: info  !! the kind
 
-      call add_channel(info, "force", "N", "world", 2, "reaction force on the body of i", of_force)
-      call add_channel(info, "moment", "N.m", "world", 2, "reaction moment on the body of i about its point", of_moment)
+      call add_channel(info, "force", "N", "world", 2, "reaction force on the body of i, friction of the joint included", of_force)
+      call add_channel(info, "moment", "N.m", "world", 2, "reaction moment on the body of i about its point, friction of the "// &
+                       "joint included", of_moment)
       call add_channel(info, "violation", "m", "none", 1, "norm of the constraint violation, angles times 1 m", of_violation)
       call add_channel(info, "violation_rate", "m/s", "none", 1, "norm of the rate of the constraint violation", &
                        of_violation_rate)
