@@ -9,6 +9,7 @@ module kinematic_start
    use mechanism, only: mechanism_t
    use row_corrections, only: evaluate_rows
    use scene, only: scene_t
+   use shared_friction, only: find_shared_friction
    use text, only: to_text
    implicit none (type, external)
    private
@@ -36,6 +37,7 @@ contains
       call evaluate_rows(system%linkage, 0.0_wp, q, v)
       call find_mobility(system%linkage, mobility)
       call find_dependent(system%linkage, q, v, report)
+      call find_shared_friction(system, report)
       system%linkage%solution%is_redundant = size(report%dependent) > 0
       if (any(mobility%is_excess)) then
          call refuse_excess(system, mobility, error)

@@ -12,6 +12,7 @@ module start_state
    use perturbation, only: shift_t
    use mechanism, only: mechanism_t
    use scene, only: scene_t
+   use shared_friction, only: find_shared_friction
    use static, only: equilibrium_t, find_equilibrium
    use text, only: to_text
    implicit none (type, external)
@@ -82,6 +83,7 @@ contains
          if (allocated(error)) return
       end if
       call find_dependent(system%linkage, q, v, report)
+      call find_shared_friction(system, report)
       associate (linkage => system%linkage)
          linkage%solution%is_redundant = size(report%dependent) > 0
          if (size(report%dependent) == 0) call linkage%solution%judge_pivots(linkage%inverse_mass, linkage%rows)
@@ -128,7 +130,7 @@ contains
       end do
    end subroutine start_at_rest
 
-   !> How many rows depend on others, and whose reactions are not unique; blank if none.
+   !> How many rows depend on others, whose reactions are not unique, and what friction depends on these; blank if none.
    function redundancy_text(system, report) result(words)
       class(mechanism_t), intent(in) :: system   !! the system that was assembled
       type(assembly_t), intent(in) :: report         !! dependent rows
@@ -145,8 +147,36 @@ contains
          names = names//" '"//system%linkage%row_name(report%shared(k))//"'"
       end do
       words = "redundant constraints: "//to_text(size(report%dependent))//" of "//to_text(system%linkage%rows%n)// &
-              " rows depend on others at the start; accelerations are exact, but the reactions of"//names// &
+              " rows depend on others at the start; "
+      if (allocated(report%rubbing)) then
+         if (size(report%rubbing) > 0) then
+            words = words//"the reactions of"//names//" are not unique: those of least norm are taken, and the motion "// &
+                    "depends on them by friction in"//rubbing_names()//"; give one of these joints compliance (clearance, or "// &
+                    "springs in its place) or take a kind with fewer rows"
+            return
+         end if
+      end if
+      words = words//"accelerations are exact, but the reactions of"//names// &
               " are not unique: those of least norm are given"
+
+   contains
+
+      !> Joints whose friction depends on them.
+      function rubbing_names() result(list)
+         character(:), allocatable :: list   !! their names, each after a blank
+
+         integer :: m
+
+         list = ""
+         associate (rubbing => system%friction%rubbing)
+            do m = 1, size(report%rubbing)
+               associate (set => system%linkage%joints(rubbing%slot(report%rubbing(m)))%set)
+                  list = list//" '"//set%names(set%friction%item(rubbing%place(report%rubbing(m))))%s//"'"
+               end associate
+            end do
+         end associate
+      end function rubbing_names
+
    end function redundancy_text
 
    !> No loose joint may begin with its surfaces overlapping, unless the deck says that it is preloaded: then its contact

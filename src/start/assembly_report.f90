@@ -15,6 +15,7 @@ module assembly_report
       integer :: changed_body = 0                !! the body it belongs to
       integer, allocatable :: dependent(:)       !! rows that depend on others
       integer, allocatable :: shared(:)          !! rows, those among them, whose multipliers are not unique
+      integer, allocatable :: rubbing(:)         !! joints among those that rub whose friction depends on such multipliers
    end type assembly_t
 
 end module assembly_report

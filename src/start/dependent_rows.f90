@@ -31,10 +31,12 @@ contains
    !> Rows, as evaluated, that depend on others, and all rows whose multipliers are therefore not unique: those that
    !> occur in a combination of rows that vanishes, Phi_q^T x = 0. From the factors R = [ R_1, R_2; 0, 0 ] of the rows in the
    !> order of their pivots, x = ( -R_1^-1 R_2, 1 ).
-   subroutine choose_dependent(linkage, report, is_sparse)
+   subroutine choose_dependent(linkage, report, is_sparse, combination)
       type(linkage_t), intent(in) :: linkage           !! the bodies and their rows
       type(assembly_t), intent(inout) :: report        !! rank and dependent rows are set
       logical, intent(in), optional :: is_sparse       !! whether matrices are sparse; absent: where there are many rows
+      real(wp), allocatable, intent(out), optional :: combination(:, :)  !! (rows, dependent rows) x of the scaled rows; not
+                                                       !! allocated where matrices are sparse, or no row depends on others [1]
 
       type(sparse_start_t) :: sparse
       real(wp), allocatable :: ease(:), jac(:, :), tau(:), transposed(:, :), work(:)
@@ -70,6 +72,12 @@ contains
       allocate (is_shared(m), source=.true.)
       is_shared(order(:report%rank)) = any(abs(transposed(:report%rank, report%rank + 1:)) > share, dim=2)
       report%shared = pack([(k, k=1, m)], is_shared)
+      if (.not. present(combination)) return
+      allocate (combination(m, m - report%rank), source=0.0_wp)
+      combination(order(:report%rank), :) = -transposed(:report%rank, report%rank + 1:)
+      do k = 1, m - report%rank
+         combination(report%dependent(k), k) = 1.0_wp
+      end do
    end subroutine choose_dependent
 
 end module dependent_rows
