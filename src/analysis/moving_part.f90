@@ -283,6 +283,7 @@ contains
 
       associate (linkage => part%system%linkage)
          call part%system%follow_pace(part%method%step%y1)
+         if (.not. part%system%ledger%is_kept) call part%system%scale_quadratures(0.0_wp)  ! impulses; else with the energy
          call part%instants%note_turning(part%system)
          if (linkage%rows%n_solve > 0) call look_at_rows(part, tally)
       end associate

@@ -103,7 +103,7 @@ contains
       call get(row, place, self%linkage%scales%late_rate)
       call get(row, place, self%friction%grips%h)
       call get(row, place, self%ledger%largest)
-      call self%scale_quadratures(self%ledger%largest)
+      if (self%ledger%largest > 0.0_wp) call self%scale_quadratures(self%ledger%largest)  ! 0: of a system not yet begun
       call get(row, place, self%linkage%solution%solver%n_factorisations)
       call get(row, place, self%linkage%piece%low)
       call get(row, place, self%linkage%piece%high)

@@ -204,6 +204,7 @@ contains
             bench%q(4:, k) = product_of(p, bench%q(4:, k))
          end do
          bench%motion%rot(:, :, 0) = turn
+         bench%motion%spatial%p(:, 0) = p
          call apply_rows(bench, spread(spread(0.0_wp, 1, 6), 2, n_body))
          do item = 1, n_item
             row = before + (item - 1)*bench%info%n_row
