@@ -38,7 +38,6 @@ module moving_part
       real(wp) :: level = 0.0_wp          !! kinetic + elastic energy + |change of potential| there [J]
       real(wp) :: magnitude = 0.0_wp      !! of what the ledger adds up there [J]
       real(wp) :: lost = 0.0_wp           !! what its contacts have lost by then [J]
-      real(wp) :: work = 0.0_wp           !! the largest work or loss by then [J]
    end type part_ledger_t
 
    !> A part in motion.
@@ -322,12 +321,11 @@ contains
       call follow(energy%balance() - part%ledger%balance_0, part%ledger%residual, tally%residual)
       call follow(energy%dissipated_contact, part%ledger%lost, tally%lost)
       call follow(energy%kinetic + energy%elastic + abs(energy%potential - part%ledger%potential_0), part%ledger%level, tally%level)
-      call follow(energy%largest_work(), part%ledger%work, tally%work)
       call follow(energy%magnitude(), part%ledger%magnitude, tally%magnitude)
       tally%least_lost = min(tally%least_lost, tally%lost)
       tally%residual_max = max(tally%residual_max, abs(tally%residual))
       tally%energy_max = max(tally%energy_max, tally%level)
-      call part%system%scale_quadratures(max(tally%energy_max, tally%work))
+      call part%system%scale_quadratures(max(part%ledger%level, energy%largest_work()))
       call part%guards%look_at_energy(tally%residual, tally%energy_max, tally%magnitude)
 
    contains

@@ -24,8 +24,8 @@ module run_memory
    public :: load_part_memory, load_run, save_part_memory, save_run
 
    integer, parameter :: watch_version = 1   !! of the form of what is kept of contacts from step to step
-   integer, parameter :: part_version = 2    !! of the form of where ledger and events stand
-   integer, parameter :: n_part = 11         !! numbers of the latter
+   integer, parameter :: part_version = 1    !! of the form of where ledger and events stand
+   integer, parameter :: n_part = 10         !! numbers of the latter
 
 contains
 
@@ -130,7 +130,7 @@ contains
          call put(row, place, part%n_idle)
          associate (ledger => part%ledger)
             call put(row, place, [part%t_event, ledger%balance_0, ledger%potential_0, ledger%residual, ledger%level, &
-                                  ledger%magnitude, ledger%lost, ledger%work, part%worst])
+                                  ledger%magnitude, ledger%lost, part%worst])
          end associate
          call put(row, place, part%worst_row)
       end associate
@@ -160,7 +160,6 @@ contains
          call get(row, place, part%ledger%level)
          call get(row, place, part%ledger%magnitude)
          call get(row, place, part%ledger%lost)
-         call get(row, place, part%ledger%work)
          call get(row, place, part%worst)
          call get(row, place, part%worst_row)
       end associate

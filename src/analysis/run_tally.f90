@@ -16,7 +16,6 @@ module run_tally
       real(wp) :: level = 0.0_wp                  !! kinetic + elastic energy + |change of potential| there [J]
       real(wp) :: magnitude = 0.0_wp              !! of what the ledger adds up there [J]
       real(wp) :: lost = 0.0_wp                   !! what contacts have lost by then [J]
-      real(wp) :: work = 0.0_wp                   !! the largest work or loss of each part by then, added up [J]
       real(wp) :: least_lost = 0.0_wp             !! least of it so far: negative, they made energy [J]
       real(wp) :: residual_max = 0.0_wp           !! greatest |residual| [J]
       real(wp) :: energy_max = 0.0_wp             !! greatest level [J]
@@ -35,8 +34,8 @@ contains
       type(tape_t), intent(inout) :: tape     !! receives it
 
       call tape%put([self%events, self%contacts])
-      call tape%put([self%aside%seconds(), self%residual, self%level, self%magnitude, self%lost, self%work, &
-                     self%least_lost, self%residual_max, self%energy_max, self%violation_max, self%violation_rate_max])
+      call tape%put([self%aside%seconds(), self%residual, self%level, self%magnitude, self%lost, self%least_lost, &
+                     self%residual_max, self%energy_max, self%violation_max, self%violation_rate_max])
    end subroutine save_tally
 
    !> Take it back.
@@ -54,7 +53,6 @@ contains
       call tape%get(self%level)
       call tape%get(self%magnitude)
       call tape%get(self%lost)
-      call tape%get(self%work)
       call tape%get(self%least_lost)
       call tape%get(self%residual_max)
       call tape%get(self%energy_max)

@@ -180,8 +180,8 @@ def test_moment_about_the_pin_is_friction(gudgeon):
 
 def test_kinematic_balance(gudgeon):
     """Inverse dynamics: all of them driven."""
-    text = PLANE.replace("[force.spring]", "[driver.angle]\nname joint angle\nd1 A {0.5rad*sin(4rad/s*t)}\nd3 C {-0.4rad*sin(5rad/s*t)}\n[driver.position]\nname i j axis position\n"
-                         "d2 b c x {0.1m*sin(6rad/s*t)}\n[force.spring]")
+    text = PLANE.replace("[force.spring]", "[driver.angle]\nname joint angle\nd1 A {0.5rad*sin(4rad/s*t)}\nd3 C {-0.4rad*sin(5rad/s*t)}\n"
+                         "[driver.position]\nname i j axis position\nd2 b c x {0.1m*sin(6rad/s*t)}\n[force.spring]")
     text = text.replace("s2 s j m2", "d11 d1 j m1\nd21 d2 i m1\nd22 d2 j m2\nd32 d3 i m2\nd33 d3 j m3\ns2 s j m2")
     bodies = {"one": ("A1", "B1", "s1", "d11", "d21"), "two": ("B2", "C2", "s2", "d22", "d32"), "three": ("C3", "d33")}
     result = run(gudgeon, text, analysis="[analysis.kinematic]\nend = 1 s\n")

@@ -153,7 +153,8 @@ def slider(position, more=""):
 
 def rubbing(text):
     """The slider's guide rubs."""
-    return text.replace("name i j axis\nslide o r x\n", "name i j axis friction preload[N]\nslide o r x rub 8\n").replace("[joint.revolute]", GUIDE + "[joint.revolute]")
+    text = text.replace("name i j axis\nslide o r x\n", "name i j axis friction preload[N]\nslide o r x rub 8\n")
+    return text.replace("[joint.revolute]", GUIDE + "[joint.revolute]")
 
 
 DECKS = {
@@ -174,7 +175,7 @@ def share(gudgeon, text, tolerance, *options):
     """Greatest residual over the tolerance of the largest energy or work, and the summary."""
     directory = scratch()
     deck = text if hasattr(text, "read_text") else written(directory, text)
-    done = call(gudgeon, "run", deck, "--out", directory / "out", "--tolerance", tolerance, "--write", "numbers", "--json", *options)
+    done = call(gudgeon, "run", deck, "--out", directory / "out", "--tolerance", tolerance, "--write", "channels", "--json", *options)
     told = json.loads(done.stdout)
     largest = max(max(abs(e["least"]), abs(e["greatest"])) for e in told["extremes"] if e["channel"] in [f"energy.{term}" for term in TERMS])
     largest = max(largest, told["energy_max"])
