@@ -37,8 +37,7 @@ module ode_system
       logical :: sees_wild = .false.        !! whether `evaluate` itself gives up derivatives that are wild, see `wild_stages`
       logical :: contact_begins = .false.   !! whether the last event was the onset of a contact
       logical :: with_quadratures = .true.  !! whether quadratures are wanted now: else they, or their rates, may be left
-      real(wp), allocatable :: quadrature_scale(:)  !! (n_quadrature) positive: what their errors are measured by; unallocated: they
-                                                    !! are not under error control [any]
+      real(wp), allocatable :: quadrature_scale(:)  !! (n_quadrature) scales of their errors; without, no error control [any]
    end type ode_traits_t
 
    !> A system of ordinary differential equations.

@@ -35,8 +35,7 @@ contains
       type(linkage_t), intent(in) :: linkage           !! the bodies and their rows
       type(assembly_t), intent(inout) :: report        !! rank and dependent rows are set
       logical, intent(in), optional :: is_sparse       !! whether matrices are sparse; absent: where there are many rows
-      real(wp), allocatable, intent(out), optional :: combination(:, :)  !! (rows, dependent rows) x of the scaled rows; not
-                                                       !! allocated where matrices are sparse, or no row depends on others [1]
+      real(wp), allocatable, intent(out), optional :: combination(:, :)  !! (rows, dependent) x, if dense and any [1]
 
       type(sparse_start_t) :: sparse
       real(wp), allocatable :: ease(:), jac(:, :), tau(:), transposed(:, :), work(:)
