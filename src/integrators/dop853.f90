@@ -19,7 +19,6 @@ module dop853
    use kinds, only: wp
    use ode_system, only: ode_system_t
    use one_step, only: one_step_t
-   use quadrature_error, only: by_one_step, counts_quadratures, greatest_error
    use step_course, only: along, course_even, pace_at, parameter_of
    use wild_stages, only: evaluate_aside, judge_stage
    implicit none (type, external)
@@ -265,32 +264,7 @@ contains
       end if
       if (norm > 0.0_wp) norm = norm*(norm/hypot(norm, 0.1_wp*norm_3))
       norm = h*norm/self%controls%tolerance
-      if (norm <= 1.0_wp .and. counts_quadratures(system)) norm = max(norm, quadrature_norm(self, system, h))
    end function dop853_error_norm
-
-   !> Norm of the error estimates of the quadratures, of each by itself.
-   real(wp) function quadrature_norm(self, system, h) result(norm)
-      class(dop853_t), intent(inout) :: self     !! the integrator
-      class(ode_system_t), intent(in) :: system  !! the system
-      real(wp), intent(in) :: h                  !! length of the step [s]
-
-      real(wp) :: estimate_3, estimate_5
-      integer :: i, j, n
-
-      n = system%n - system%n_quadrature
-      do i = 1, system%n_quadrature
-         estimate_5 = e5(1)*self%k(n + i, 1)
-         estimate_3 = e3(1)*self%k(n + i, 1)
-         do j = 6, 12
-            estimate_5 = estimate_5 + e5(j)*self%k(n + i, j)
-            estimate_3 = estimate_3 + e3(j)*self%k(n + i, j)
-         end do
-         estimate_5 = abs(estimate_5)
-         if (estimate_5 > 0.0_wp) estimate_5 = estimate_5*(estimate_5/hypot(estimate_5, 0.1_wp*estimate_3))
-         self%scratch(n + i) = h*estimate_5/self%controls%tolerance
-      end do
-      norm = greatest_error(system%n_quadrature, self%scratch(n + 1:), system%traits%quadrature_scale, by_one_step)
-   end function quadrature_norm
 
    !> The interpolant of order 7 of the last step. Stages of another length, as a search in the step leaves them, are made again.
    subroutine dop853_prepare_output(self, system, status)

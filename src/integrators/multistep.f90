@@ -229,7 +229,8 @@ contains
       logical :: is_good
 
       t = self%t
-      call self%library%problem%attend(system, self)
+      self%library%problem%system => system
+      self%library%problem%method => self
       status = advance_step
       if (self%is_fresh) then
          self%n_rejected_before = int(self%count%n_rejected)
@@ -246,7 +247,7 @@ contains
          self%count%n_rejected = self%n_rejected_before + self%library%n_rejected()
       end if
       self%last%has_polynomial = status == advance_step
-      call self%library%problem%attend()
+      nullify (self%library%problem%system, self%library%problem%method)
    end subroutine step_by_library
 
    !> Take the trial state: gaps of the polynomial, derivative, events.

@@ -1,7 +1,6 @@
 !> One-step methods: step control, events by re-stepping, checkpoints. A method adds its stages.
 !>
-!> A step is accepted if the norm of the error estimate is at most TOL; its length is that of `step_control`. Where quadratures
-!> have a greater error than the motion, theirs is the norm (`quadrature_error`). Fixed steps have no
+!> A step is accepted if the norm of the error estimate is at most TOL; its length is that of `step_control`. Fixed steps have no
 !> estimate; only the last one before a stop or an event is shorter.
 !>
 !> Events: the bracket from the interpolant is closed in on by Newton's iteration on the length of

@@ -12,7 +12,6 @@ module verner
    use kinds, only: wp
    use ode_system, only: ode_system_t
    use one_step, only: one_step_t
-   use quadrature_error, only: by_one_step, counts_quadratures, greatest_error
    use wild_stages, only: evaluate_aside, judge_stage
    implicit none (type, external)
    private
@@ -160,27 +159,7 @@ contains
       norm = estimate_norm(system%n - system%n_quadrature, system%n, self%controls%norm == norm_euclidean, self%step%f0, self%k, &
                            self%scale)
       norm = h*norm/self%controls%tolerance
-      if (norm <= 1.0_wp .and. counts_quadratures(system)) norm = max(norm, quadrature_norm(self, system, h))
    end function verner_error_norm
-
-   !> Norm of the error estimates of the quadratures. Stages 6 and 8 are both at the end of the step, where a power is the same to
-   !> the order of the estimate, and the first of them is evaluated without quadratures: the second stands for both.
-   real(wp) function quadrature_norm(self, system, h) result(norm)
-      class(verner_t), intent(inout) :: self     !! the integrator
-      class(ode_system_t), intent(in) :: system  !! the system
-      real(wp), intent(in) :: h                  !! length of the step [s]
-
-      integer :: i, n
-
-      n = system%n - system%n_quadrature
-      associate (k1 => self%step%f0, k => self%k, part => h/self%controls%tolerance)
-         do i = 1, system%n_quadrature
-            self%scratch(n + i) = part*(e1*k1(n + i) + e3*k(n + i, 3) + e4*k(n + i, 4) + e5*k(n + i, 5) + e7*k(n + i, 7) &
-                             + (e6 + e8)*k(n + i, 8))
-         end do
-      end associate
-      norm = greatest_error(system%n_quadrature, self%scratch(n + 1:), system%traits%quadrature_scale, by_one_step)
-   end function quadrature_norm
 
    !> Norm of the error estimate by length of the step, over the scales; on plain arrays.
    pure real(wp) function estimate_norm(n, n_all, is_euclidean, k1, k, scale) result(norm)
