@@ -212,7 +212,7 @@ def test_every_unit_has_a_scale_of_its_own(gudgeon):
     run = accurate(gudgeon, text, "--accuracy", "1e-5", "--quiet")
     for word in words.split():
         name = word.split(".")[1]
-        greatest = np.abs(run.item(f"clearances/{name}", "gudgeon")).max()
+        greatest = np.nanmax(np.abs(run.item(f"clearances/{name}", "gudgeon")))  # no rise without flow
         assert_close(extremes(run)[word]["scale"], greatest, relative=1e-3, what=name)
         assert extremes(run)[word]["error"] <= 1e-5*extremes(run)[word]["scale"]
 

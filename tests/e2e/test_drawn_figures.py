@@ -218,7 +218,7 @@ def test_loads_are_arrows(gudgeon, tmp_path):
         ("coupler(tipp)", "unknown point 'tipp'"),
         ("coupler()", "write mechanism("),
         ("animaton", "did you mean 'animation'?"),
-        ("mecanism(t=2ms)", "did you mean 'mechanism'?"),
+        ("mecanism(t=2ms)", "did you mean 'mechanism(t=2ms)'?"),
         ("mechanism(t=2s)", "not among what is written"),
         ("mechanism(t=2ms,1ms)", "instants must increase"),
         ("mechanism(t=2)", "no time of a run"),

@@ -162,7 +162,7 @@ def test_in_space(gudgeon):
     "channel, words",
     [
         ("sled.acceleration.x", "a load cannot see"),
-        ("slid.velocity.x", "did you mean 'sled.velocity'"),
+        ("slid.velocity.x", "did you mean 'sled.velocity.x'"),
         ("sled.velocity", "no single number"),
         ("sled.velocity.z", "no single number"),
         ("sled.velocity.w", "no such component"),
