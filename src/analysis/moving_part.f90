@@ -49,7 +49,7 @@ module moving_part
       type(instants_t) :: instants                         !! when its functions of time are not smooth
       type(velocity_jumps_t) :: jumps                      !! drivers whose velocity jumps there
       logical :: must_follow = .false.                     !! something goes on from step to step, see `step_follower`
-      logical :: has_branches = .false.                    !! joints can come to a branch that nobody means, see there
+      logical :: has_branches = .false.                    !! joints may reach an unintended branch, see there
       integer :: status = 0                                !! how its last step ended; an event, until it is handled
       integer :: n_idle = 0                                !! events since the last time that time passed
       real(wp) :: t_event = 0.0_wp                         !! time of the last event [s]

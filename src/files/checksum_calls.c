@@ -45,7 +45,7 @@ static uint64_t add_bytes(uint64_t h, const unsigned char *bytes, int64_t n)
    return add_word(h, w);
 }
 
-/* Goes on with a sum by rows of so many bytes each: it does not depend on how rows come together. */
+/* Continues a checksum over rows of so many bytes each: it does not depend on how rows come together. */
 void gudgeon_add_rows(uint64_t *sum, const unsigned char *bytes, int64_t n_rows, int64_t width)
 {
    for (int64_t k = 0; k < n_rows; k++) *sum = add_bytes(*sum, bytes + k * width, width);
