@@ -4,7 +4,7 @@
 !> From instant to instant the positions are predicted, q + h v + h^2/2 a, and corrected by Newton's iteration.
 !> A step in which a body would turn by more than 0.3 rad, or in which the correction turns one by more
 !> than 0.05 rad, is divided, so that the mechanism stays on its branch. When no step however small gets on,
-!> a driver has met a dead point (or jumps), and the run ends there.
+!> a driver has met a dead centre (or jumps), and the run ends there.
 !>
 !> Source: Flores et al. (2008), section 2.4, figure 2.5. Limits: all joints ideal; no integrated works.
 module kinematic
@@ -54,7 +54,7 @@ contains
       real(wp), intent(in) :: limit_cpu                   !! processor time allowed, 0: no limit [s]
       class(recorder_t), intent(inout) :: recorder        !! keeps the results
       type(summary_t), intent(out) :: summary             !! cost and errors
-      type(error_t), allocatable, intent(out) :: error    !! a dead point, or a file could not be written
+      type(error_t), allocatable, intent(out) :: error    !! a dead centre, or a file could not be written
 
       type(catalogue_t) :: catalogue
       type(cpu_budget_t) :: budget
@@ -104,7 +104,7 @@ contains
       class(recorder_t), intent(inout) :: recorder        !! keeps the results
       type(catalogue_t), intent(inout) :: catalogue       !! what is reported
       type(summary_t), intent(inout) :: summary           !! cost and errors so far
-      type(error_t), allocatable, intent(out) :: error    !! a dead point, or a file could not be written
+      type(error_t), allocatable, intent(out) :: error    !! a dead centre, or a file could not be written
 
       type(state_t) :: state
       integer(i8) :: k
@@ -275,9 +275,9 @@ contains
          message = new_line("a")//"  = '"//system%linkage%row_name(row)//"' would stay open by "// &
                    real_text(abs(system%linkage%rows%phi(row)), 3)//trim(merge(" rad", " m  ", &
                           system%linkage%rows%is_angle(row)))// &
-                   " at t = "//real_text(t, 9)//" s: a dead point, or a jump of a driver"
+                   " at t = "//real_text(t, 9)//" s: a dead centre, or a jump of a driver"
       case (singular)
-         message = new_line("a")//"  = rows depend on each other there: a dead point, or branches of the motion meet"
+         message = new_line("a")//"  = rows depend on each other there: a dead centre, or branches of the motion meet"
       case default
          message = new_line("a")//"  = no finite velocities and accelerations fulfil all rows there"
       end select
@@ -287,7 +287,7 @@ contains
       call set_error(error, exit_integration, "the mechanism cannot follow driver '"//driver//"' beyond t = "// &
                      real_text(state%t, 9)//" s"//message//new_line("a")// &
                      "  = everything up to the last output instant was saved; end the motion before, let the driver turn back "// &
-                     "earlier, drive another joint, or put the output instants beside the dead point")
+                     "earlier, drive another joint, or put the output instants beside the dead centre")
    end subroutine describe_failure
 
 end module kinematic

@@ -5,10 +5,12 @@ module kinematic_start
    use dependent_rows, only: find_dependent
    use errors, only: error_t, exit_assembly, set_error
    use kinds, only: wp
+   use linkage, only: linkage_t
    use mobility, only: find_mobility, joint_names, mobility_t, moving_bodies
    use mechanism, only: mechanism_t
-   use row_corrections, only: evaluate_rows
+   use row_corrections, only: evaluate_rows, worst_violation
    use scene, only: scene_t
+   use shaky, only: find_shaky, name_dead_centre
    use shared_friction, only: find_shared_friction
    use text, only: to_text
    implicit none (type, external)
@@ -39,14 +41,28 @@ contains
       call find_dependent(system%linkage, q, v, report)
       call find_shared_friction(system, report)
       system%linkage%solution%is_redundant = size(report%dependent) > 0
+      if (any(mobility%is_excess) .and. mobility%n_left > 0 .and. is_closed(system%linkage)) then
+         call name_dead_centre(system%linkage, q, mobility%is_excess, error)
+      end if
+      if (allocated(error)) return
       if (any(mobility%is_excess)) then
          call refuse_excess(system, mobility, error)
       else if (allocated(assembly_error)) then
          call move_alloc(assembly_error, error)
       else if (mobility%n_left > 0) then
-         call refuse_missing(system, mobility, report, error)
+         call find_shaky(system%linkage, q, error)
+         if (.not. allocated(error)) call refuse_missing(system, mobility, report, error)
       end if
    end subroutine find_kinematic_start
+
+   !> Whether positions fulfil the rows, where velocities may not.
+   logical function is_closed(linkage)
+      type(linkage_t), intent(in) :: linkage  !! the bodies and their rows, evaluated
+
+      real(wp), parameter :: closed = 1.0e-10_wp  ! scaled violation [1]
+
+      is_closed = worst_violation(linkage) <= closed
+   end function is_closed
 
    !> Drivers that prescribe what the joints and the other drivers do already.
    subroutine refuse_excess(system, mobility, error)
@@ -73,18 +89,18 @@ contains
       type(assembly_t), intent(in) :: report               !! dependent rows
       type(error_t), allocatable, intent(out) :: error     !! the message
 
-      character(:), allocatable :: dead_point
+      character(:), allocatable :: dead_centre
       logical :: is_shared(system%linkage%rows%n)
 
       is_shared = .false.
       is_shared(report%shared) = .true.
-      dead_point = ""
-      if (any(is_shared)) dead_point = new_line("a")//"  = rows of "//joint_names(system%linkage, is_shared)// &
-                                   " depend on each other here: if this is a dead point, start beside it"
+      dead_centre = ""
+      if (any(is_shared)) dead_centre = new_line("a")//"  = rows of "//joint_names(system%linkage, is_shared)// &
+                                   " depend on each other here: if this is a dead centre, start beside it"
       call set_error(error, exit_assembly, "the motion is not determined: "//freedoms(mobility%n_left)//" left; "// &
                      drivers(mobility%n_driver)//" for "//freedoms(mobility%n_freedom)//new_line("a")// &
                      "  = bodies that can still move: "//moving_bodies(system%linkage, &
-                          mobility%freedom)//dead_point//new_line("a")// &
+                          mobility%freedom)//dead_centre//new_line("a")// &
                      "  = add a driver for each freedom, or let forces move it: [analysis.dynamic]")
    end subroutine refuse_missing
 

@@ -238,9 +238,9 @@ contains
       case (film_ended)
          words = "take level = hybrid, which goes on with dry contact, or a lubricant of more viscosity"
       case (advance_failed_evaluation)
-         words = "look for a dead point, or for a load or driver that does not exist at that time"
+         words = "look for a dead centre, or for a load or driver that does not exist at that time"
       case default
-         words = "try a larger tolerance or a smaller minimum_step, or look for a dead point or a jump in a load or driver"
+         words = "try a larger tolerance or a smaller minimum_step, or look for a dead centre or a jump in a load or driver"
       end select
    end function advice
 

@@ -12,6 +12,7 @@ module start_state
    use perturbation, only: shift_t
    use mechanism, only: mechanism_t
    use scene, only: scene_t
+   use shaky, only: find_shaky
    use shared_friction, only: find_shared_friction
    use static, only: equilibrium_t, find_equilibrium
    use text, only: to_text
@@ -82,12 +83,12 @@ contains
          call assemble(twin%linkage, q, v, report, error)
          if (allocated(error)) return
       end if
-      call find_dependent(system%linkage, q, v, report)
-      call find_shared_friction(system, report)
-      associate (linkage => system%linkage)
-         linkage%solution%is_redundant = size(report%dependent) > 0
-         if (size(report%dependent) == 0) call linkage%solution%judge_pivots(linkage%inverse_mass, linkage%rows)
-      end associate
+      if (size(report%set_aside) > 0) then
+         call assemble(system%linkage, q, v, report, error)  ! rows are set aside in the system that runs, too
+         if (allocated(error)) return
+      end if
+      call judge_rows(system, q, v, report, error)
+      if (allocated(error)) return
       call check_method(scene, system, report, error)
       if (allocated(error)) return
       allocate (y(system%n), source=0.0_wp)
@@ -95,6 +96,24 @@ contains
       call look_at_overlap(system, y, &
                            scene%settings%dynamic%word("overlap") == "preload", error)
    end subroutine find_start
+
+   !> Which rows depend on others, what friction depends on these, and whether they hold a motion to second order only.
+   subroutine judge_rows(system, q, v, report, error)
+      type(mechanism_t), intent(inout) :: system            !! the system that will run
+      real(wp), intent(in) :: q(:)                          !! (n_q bodies) assembled positions [any]
+      real(wp), intent(in) :: v(:)                          !! (n_v bodies) their rates [m/s or rad/s]
+      type(assembly_t), intent(inout) :: report             !! dependent rows
+      type(error_t), allocatable, intent(out) :: error      !! the assembly is shaky
+
+      associate (linkage => system%linkage)
+         call find_dependent(linkage, q, v, report)
+         call find_shared_friction(system, report)
+         if (report%n_weak > size(report%set_aside)) call find_shaky(linkage, q, error)
+         if (allocated(error)) return
+         linkage%solution%is_redundant = size(report%dependent) > 0
+         if (size(report%dependent) == 0) call linkage%solution%judge_pivots(linkage%inverse_mass, linkage%rows)
+      end associate
+   end subroutine judge_rows
 
    !> A method that leaves dependent rows out has not the multipliers that friction in joints depends on.
    subroutine check_method(scene, system, report, error)
@@ -139,15 +158,17 @@ contains
       character(:), allocatable :: names
       integer :: k
 
-      words = ""
-      if (size(report%dependent) == 0) return
+      words = report%misfit
+      if (size(report%dependent) == size(report%set_aside)) return
+      if (words /= "") words = words//"; "
       names = ""
       do k = 1, size(report%shared)
+         if (any(report%set_aside == report%shared(k))) cycle
          if (index(names//" ", "'"//system%linkage%row_name(report%shared(k))//"'") > 0) cycle
          names = names//" '"//system%linkage%row_name(report%shared(k))//"'"
       end do
-      words = "redundant constraints: "//to_text(size(report%dependent))//" of "//to_text(system%linkage%rows%n)// &
-              " rows depend on others at the start; "
+      words = words//"redundant constraints: "//to_text(size(report%dependent) - size(report%set_aside))//" of "// &
+              to_text(system%linkage%rows%n)//" rows depend on others at the start; "
       if (allocated(report%rubbing)) then
          if (size(report%rubbing) > 0) then
             words = words//"the reactions of"//names//" are not unique: those of least norm are taken, and the motion "// &

@@ -4,7 +4,6 @@
 !> polishes; where KINSOL fails or wanders off, as at an indifferent equilibrium, the descent goes on
 !> alone. The equilibrium is stable, unstable or indifferent by the least eigenvalue of the tangent stiffness
 !> against the motions that the joints leave free.
-!>
 !> Source and limits: static_problem.
 module static
    use, intrinsic :: ieee_arithmetic, only: ieee_is_finite
@@ -28,10 +27,11 @@ module static
    use prescribed_motion, only: newton_t, solve_positions
    use recorder, only: recorder_t, status_complete, status_failed, summary_t
    use scene, only: analysis_static, scene_t
+   use shaky, only: find_shaky
    use static_kinsol, only: polish
    use static_film, only: settle_in_films
-   use static_problem, only: balance_t, evaluate_balance, free_stiffness, is_balanced, load_scale, look_at, position_scale, &
-      square_frequencies
+   use static_problem, only: balance_t, evaluate_balance, free_stiffness, is_balanced, load_scale, look_at, net_load, &
+      position_scale, rounding_load, square_frequencies
    use static_relaxation, only: relax
    use steady_stability, only: find_eigenvalues, gather_films, is_steady, mode_words, no_growth
    use text, only: append_text, real_text, to_text
@@ -42,7 +42,8 @@ module static
 
    real(wp), parameter :: rough = 1.0e-3_wp         !! unbalanced load at which KINSOL takes over, of the largest [1]
    real(wp), parameter :: nearby = 0.1_wp           !! how far KINSOL may move a coordinate, in sizes or radians [1]
-   real(wp), parameter :: no_stiffness = 1.0e-6_wp  !! stiffness that counts as none, of the largest load [1]
+   real(wp), parameter :: no_stiffness = 1.0e-6_wp  !! stiffness that counts as none, of the largest net load [1]
+   real(wp), parameter :: of_acting = 1.0e-7_wp     !! the same, of the forces that act: what differences lose [1]
    real(wp), parameter :: lost_digits = 1.0e-8_wp   !! stiffness lost in the differences, of the largest [1]
    real(wp), parameter :: to_round_off = 1.0e-14_wp !! unbalanced load that is tried for in the end, of the largest [1]
    integer, parameter :: n_last = 3                 !! steps from the tolerance towards it
@@ -53,7 +54,9 @@ module static
       real(wp), allocatable :: q(:)             !! (n_q bodies) positions [any]
       character(:), allocatable :: words        !! stable, unstable or indifferent, and why
       character(:), allocatable :: warning      !! what a careful reader should know; blank if it is stable
-      real(wp) :: unbalanced = 0.0_wp           !! load out of balance, of the largest [1]
+      real(wp) :: residual = 0.0_wp             !! of the sum of all forces [N.m]
+      real(wp) :: acting = 0.0_wp               !! forces that act, its measure [N.m]
+      real(wp) :: rounding = 0.0_wp             !! what the rounding of the positions makes of it [N.m]
       real(wp) :: tolerance = 0.0_wp            !! that was allowed [1]
       integer :: steps = 0                      !! steps of the descent
       integer(i8) :: n_evaluations = 0_i8       !! evaluations of the loads
@@ -99,7 +102,9 @@ contains
       else
          call relax_and_polish()
       end if
-      equilibrium%unbalanced = norm2(balance%load)/max(load_scale(system), tiny(1.0_wp))
+      equilibrium%residual = norm2(balance%load)
+      equilibrium%acting = load_scale(system)
+      equilibrium%rounding = rounding_load(system, balance)
       if (.not. is_settled) then
          call refuse(system, balance, equilibrium, error)
          return
@@ -118,7 +123,7 @@ contains
 
       !> Downhill, then by KINSOL, then downhill again if that did not help.
       subroutine relax_and_polish()
-         call relax(system, max(rough, equilibrium%tolerance), most, q, balance, equilibrium%steps, is_settled)
+         call relax(system, max(rough, equilibrium%tolerance), most, q, balance, equilibrium%steps, is_settled, .true.)
          if (is_settled) then
             call try_to_polish(system, q, balance, equilibrium)
             if (.not. equilibrium%is_polished) then
@@ -167,7 +172,13 @@ contains
          call name_conflict(scene, levels_ideal, q, 0.0_wp*v, error)
          return
       end if
+      if (size(report%set_aside) > 0) then
+         call assemble(system%linkage, q, v, report, error)  ! rows are set aside in this system, too
+         if (allocated(error)) return
+      end if
       call find_dependent(system%linkage, q, v, report)
+      if (report%n_weak > size(report%set_aside)) call find_shaky(system%linkage, q, error)
+      if (allocated(error)) return
       system%linkage%solution%is_redundant = size(report%dependent) > 0
    end subroutine assemble_at_rest
 
@@ -183,7 +194,7 @@ contains
       real(wp) :: load, moved(size(system%linkage%mass)), q_new(size(q)), rest(size(system%linkage%mass))
       integer :: outcome
 
-      load = load_scale(system)
+      load = max(load_scale(system), rounding_load(system, balance)/to_round_off)
       if (load <= 0.0_wp) return
       q_new = q
       rest = 0.0_wp
@@ -257,7 +268,7 @@ contains
             return
          end if
          square = square_frequencies(system, balance)
-         limit = max(no_stiffness*load_scale(system), lost_digits*maxval(abs(stiffness)), tiny(1.0_wp))
+         limit = max(no_stiffness*net_load(system), of_acting*load_scale(system), lost_digits*maxval(abs(stiffness)), tiny(1.0_wp))
          n_steep = count(stiffness < -limit)
          n_flat = count(abs(stiffness) <= limit)
          if (n_steep > 0) then
@@ -280,9 +291,8 @@ contains
 
    !> Numbers of the places that are true.
    pure function pack_range(mask) result(places)
-      logical, intent(in) :: mask(:)         !! (n) places
-      integer, allocatable :: places(:)      !! (any) their numbers
-
+      logical, intent(in) :: mask(:)      !! (n) places
+      integer, allocatable :: places(:)   !! (any) their numbers
       integer :: k
 
       places = pack([(k, k=1, size(mask))], mask)
@@ -303,6 +313,15 @@ contains
       end associate
    end function bodies_in
 
+   !> The residual, of the forces that act; of stiffness times length where they vanish at the equilibrium.
+   function residual_words(equilibrium) result(words)
+      type(equilibrium_t), intent(in) :: equilibrium  !! with residual and measures
+      character(:), allocatable :: words              !! as "residual 2e-16 of the forces that act"
+
+      words = "residual "//real_text(equilibrium%residual/max(equilibrium%acting, tiny(1.0_wp)), 2)//" of the forces that act"
+      if (max(equilibrium%acting, equilibrium%residual) <= equilibrium%rounding) words = "residual within the rounding of positions"
+   end function residual_words
+
    !> The search did not settle: say what still moves, and what to try.
    subroutine refuse(system, balance, equilibrium, error)
       type(mechanism_t), intent(in) :: system          !! the system where the search ended
@@ -316,8 +335,8 @@ contains
       part = bodies_in(system, reshape(free_load, [size(free_load), 1]))
       part = part/max(maxval(part), tiny(1.0_wp))
       where (part < 0.1_wp) part = 0.0_wp
-      call set_error(error, exit_assembly, "no static equilibrium was found: "//real_text(equilibrium%unbalanced, 3)// &
-                     " of the largest load is out of balance after "//to_text(equilibrium%steps)//" steps"//new_line("a")// &
+      call set_error(error, exit_assembly, "no static equilibrium was found after "//to_text(equilibrium%steps)// &
+                     " steps: "//residual_words(equilibrium)//", allowed "//real_text(equilibrium%tolerance, 2)//new_line("a")// &
                      "  = loads still move "//moving_bodies(system%linkage, part)//new_line("a")// &
                      "  = hold what can fall or turn freely by a joint, spring or driver; begin nearer to the equilibrium; or "// &
                      "allow more maximum_iterations or a larger tolerance in [analysis.static]")
@@ -348,7 +367,7 @@ contains
       if (equilibrium%warning /= "") call append_text(summary%warnings, equilibrium%warning)
       summary%method%integrator = "relaxation"
       if (equilibrium%is_polished) summary%method%integrator = "kinsol"
-      summary%equilibrium = equilibrium%words//"; "//real_text(equilibrium%unbalanced, 2)//" of the largest load out of balance"
+      summary%equilibrium = equilibrium%words//"; "//residual_words(equilibrium)
       summary%linear = equilibrium%linear
       summary%method%tolerance = equilibrium%tolerance
       summary%count%steps = int(equilibrium%steps, i8)

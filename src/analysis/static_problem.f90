@@ -12,6 +12,7 @@
 !> Optimization (2006), section 12.5 (second-order conditions). Limits: dense; friction and damping give no
 !> force at rest.
 module static_problem
+   use acting_forces, only: greatest_acting
    use inverse_dynamics, only: find_reactions
    use kinds, only: eps, i8, wp
    use lapack, only: dsyev, dsygv
@@ -21,10 +22,11 @@ module static_problem
    use row_corrections, only: evaluate_rows, scaled_jacobian
    implicit none (type, external)
    private
-   public :: balance_t, evaluate_balance, free_stiffness, is_balanced, load_scale, look_at, position_scale, square_frequencies
-   public :: unbalanced_load
+   public :: balance_t, evaluate_balance, free_stiffness, is_balanced, is_nearly_balanced, load_scale, look_at, net_load
+   public :: position_scale, rounding_load, square_frequencies, unbalanced_load
 
    real(wp), parameter :: difference = 1.0e-7_wp  !! step of the central differences, of the size or a radian [1]
+   real(wp), parameter :: roundings = 10.0_wp     !! of the positions, that a residual is allowed [1]
 
    !> The balance at a position.
    type :: balance_t
@@ -33,6 +35,7 @@ module static_problem
       real(wp), allocatable :: stiffness(:)   !! (freedoms) eigenvalues of the free tangent stiffness, ascending [N.m]
       real(wp), allocatable :: tangent(:, :)  !! (freedoms, freedoms) free tangent stiffness, of films not symmetric, N^T K N [N.m]
       real(wp), allocatable :: modes(:, :)    !! (n_v bodies, freedoms) the motions that belong to them [1]
+      real(wp) :: steepest = 0.0_wp           !! greatest change of the load along a free motion [N.m]
       real(wp) :: speed = 1.0_wp              !! of the drivers where there are films, over that of the deck [1]
       integer(i8) :: n_evaluations = 0_i8     !! evaluations of the loads so far
    end type balance_t
@@ -95,16 +98,33 @@ contains
       load = load*position_scale(system)
    end function unbalanced_load
 
-   !> The largest of weights, present loads and present reactions: what `unbalanced` is measured by.
+   !> What a residual is measured by: the forces that act, each by itself, or the largest net load.
    real(wp) function load_scale(system)
+      class(mechanism_t), intent(in) :: system   !! the system, rows and loads evaluated, lambda set
+
+      load_scale = max(net_load(system), greatest_acting(system))
+   end function load_scale
+
+   !> What the rounding of the positions puts out of balance: some roundings of stiffness times length, the greater of the size of
+   !> the bodies and their distance from the origin.
+   pure real(wp) function rounding_load(system, balance)
+      class(mechanism_t), intent(in) :: system   !! the system at a position
+      type(balance_t), intent(in) :: balance     !! with its stiffness
+
+      rounding_load = roundings*eps*balance%steepest* &
+                      max(1.0_wp, maxval(abs(system%linkage%motion%r(:, 1:)))/system%linkage%scales%length)
+   end function rounding_load
+
+   !> The largest of weights, present net loads and present net reactions.
+   real(wp) function net_load(system)
       class(mechanism_t), intent(in) :: system   !! the system, rows and loads evaluated, lambda set
 
       real(wp) :: rest(size(system%linkage%mass)), loads(size(system%linkage%mass))
 
       rest = unbalanced_load(system)
       loads = reshape(system%loading%g(:, 1:), [size(loads)])*position_scale(system)
-      load_scale = max(norm2(system%loading%weight(:, 1:))*system%linkage%scales%length, norm2(loads), norm2(loads - rest))
-   end function load_scale
+      net_load = max(norm2(system%loading%weight(:, 1:))*system%linkage%scales%length, norm2(loads), norm2(loads - rest))
+   end function net_load
 
    !> The balance at a position, with the multipliers that fit it best. No stiffness yet.
    subroutine evaluate_balance(system, q, balance)
@@ -151,6 +171,7 @@ contains
       end associate
       call look_at(system, q, balance%speed)
       balance%n_evaluations = balance%n_evaluations + int(2*n + 1, i8)
+      balance%steepest = maxval([0.0_wp, norm2(slope, dim=1)])
       k_free = matmul(transpose(balance%free), slope)
       balance%tangent = k_free
       k_free = 0.5_wp*(k_free + transpose(k_free))
@@ -160,18 +181,24 @@ contains
       balance%modes = matmul(balance%free, k_free)
    end subroutine free_stiffness
 
-   !> Whether no more is out of balance than a part of the loads, and what the round-off of the positions puts out of balance.
+   !> Whether the residual is within a part of the forces that act, and what the rounding of the positions puts out of balance.
    logical function is_balanced(system, balance, part)
       class(mechanism_t), intent(in) :: system   !! the system, balance evaluated
       type(balance_t), intent(in) :: balance     !! with its stiffness
-      real(wp), intent(in) :: part               !! unbalanced load allowed, of the largest [1]
+      real(wp), intent(in) :: part               !! residual allowed, of the forces that act [1]
 
-      real(wp) :: limit
-
-      limit = part*load_scale(system)
-      if (size(balance%stiffness) > 0) limit = limit + 8.0_wp*eps*maxval(abs(balance%stiffness))
-      is_balanced = norm2(balance%load) <= limit
+      is_balanced = norm2(balance%load) <= part*load_scale(system) + rounding_load(system, balance)
    end function is_balanced
+
+   !> Whether an equilibrium is near enough for Newton's iteration. By the net loads, where they do not vanish with the residual:
+   !> beside an unstable equilibrium the forces that act are too lax a measure.
+   logical function is_nearly_balanced(system, balance, part)
+      class(mechanism_t), intent(in) :: system   !! the system, balance evaluated
+      type(balance_t), intent(in) :: balance     !! with its stiffness
+      real(wp), intent(in) :: part               !! residual allowed, of the net loads; its square of the forces that act [1]
+
+      is_nearly_balanced = norm2(balance%load) <= part*net_load(system) .or. is_balanced(system, balance, part**2)
+   end function is_nearly_balanced
 
    !> Squares of the natural frequencies without damping, ascending; negative where a push grows.
    !>

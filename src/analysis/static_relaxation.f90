@@ -15,7 +15,7 @@ module static_relaxation
    use kinds, only: wp
    use mechanism, only: mechanism_t
    use prescribed_motion, only: newton_t, not_finite_rows, open_rows, solve_positions
-   use static_problem, only: balance_t, evaluate_balance, free_stiffness, is_balanced, position_scale
+   use static_problem, only: balance_t, evaluate_balance, free_stiffness, is_balanced, is_nearly_balanced, position_scale
    implicit none (type, external)
    private
    public :: relax
@@ -28,7 +28,7 @@ module static_relaxation
 contains
 
    !> Go downhill until the unbalanced load is below a part of the loads.
-   subroutine relax(system, part, most, q, balance, steps, is_settled)
+   subroutine relax(system, part, most, q, balance, steps, is_settled, is_rough)
       class(mechanism_t), intent(inout) :: system  !! the system, positions assembled
       real(wp), intent(in) :: part                     !! unbalanced load allowed, of the largest [1]
       integer, intent(in) :: most                      !! steps allowed
@@ -36,6 +36,7 @@ contains
       type(balance_t), intent(inout) :: balance        !! at the positions
       integer, intent(inout) :: steps                  !! steps made so far
       logical, intent(out) :: is_settled               !! the load is below
+      logical, intent(in), optional :: is_rough        !! near enough for Newton's iteration is enough
 
       real(wp) :: direction(size(system%linkage%mass))
 
@@ -43,6 +44,7 @@ contains
       do
          call free_stiffness(system, q, balance)
          is_settled = is_balanced(system, balance, part)
+         if (present(is_rough)) is_settled = is_nearly_balanced(system, balance, part)
          if (is_settled .or. steps >= most) return
          call downhill(system%linkage%coordinates, balance, extent_of(system), direction)
          call go_along(system, direction, q, balance)

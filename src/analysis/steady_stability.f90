@@ -10,6 +10,7 @@
 !> space). Limits: dense; a state that does not change while the bodies turn: where the drivers ask for accelerations there is none,
 !> and this is told instead.
 module steady_stability
+   use acting_forces, only: has_films
    use clearance_set, only: clearance_set_t
    use film_law, only: film_motion_t, film_slopes_t
    use journal_whirl, only: find_whirl, whirl_t
@@ -68,14 +69,6 @@ contains
          end associate
       end do
    end subroutine gather_films
-
-   !> Whether films act in a set.
-   pure logical function has_films(set)
-      class(clearance_set_t), intent(in) :: set  !! the set
-
-      has_films = .false.
-      if (allocated(set%laws%films)) has_films = set%laws%films%acts
-   end function has_films
 
    !> The film of one joint.
    subroutine describe_film(system, set, item, film)

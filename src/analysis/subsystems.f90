@@ -46,7 +46,7 @@ contains
       integer, allocatable :: item(:), slot(:)
       integer :: g
 
-      if (reason_to_stay(scene) == "") call find_groups(scene, groups)
+      if (reason_to_stay(scene) == "" .and. size(system%linkage%solution%set_aside) == 0) call find_groups(scene, groups)
       if (groups%n <= 1) then
          allocate (subsystems(0))
          return

@@ -11,7 +11,7 @@ module whirl_onset
    use linearised, only: linearised_t
    use mechanism, only: mechanism_t
    use static_film, only: settle_in_films
-   use static_problem, only: balance_t, load_scale, look_at
+   use static_problem, only: balance_t, is_balanced, look_at
    use steady_stability, only: find_eigenvalues, no_growth
    use text, only: real_text
    implicit none (type, external)
@@ -93,7 +93,7 @@ contains
       balance%speed = trial%speed
       steps = 0
       call settle_in_films(system, tolerance, most, trial%q, balance, steps, is_found)
-      is_found = norm2(balance%load) <= max(tolerance, enough)*load_scale(system)
+      is_found = is_balanced(system, balance, max(tolerance, enough))
       if (.not. is_found) return
       call find_eigenvalues(system, trial%q, balance, eigenvalues)
       trial%growth = eigenvalues(1, 1)

@@ -50,6 +50,7 @@ contains
       end associate
       linkage%scales%length = size_of_bodies(scene)
       linkage%scales%tolerance = scene%settings%dynamic%number("tolerance")
+      linkage%scales%misfit = scene%settings%header%number("closing_tolerance")
       if (scene%settings%is_spatial) then
          call new_motion(n, linkage%motion, scene%bodies%spatial%own)
       else

@@ -294,6 +294,7 @@ contains
       one%analysis = scene%analysis
       one%settings%dynamic = scene%settings%dynamic
       one%settings%is_spatial = scene%settings%is_spatial
+      one%settings%header = scene%settings%header
       do k = 1, n_joint_kinds
          one%joints(k)%info => scene%joints(k)%info
       end do
@@ -312,8 +313,7 @@ contains
       integer, intent(in) :: group              !! one of them
       type(scene_t), intent(inout) :: one       !! begun; its bodies, points and rows become those of the group
 
-      integer :: points(scene%points%n)
-      integer :: k, n_point
+      integer :: k, n_point, points(scene%points%n)
 
       call take_bodies(scene%bodies, groups%bodies_of(group), one%bodies)
       n_point = 0

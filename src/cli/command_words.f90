@@ -90,7 +90,7 @@ module command_words
       !! that a run may end with
    character(*), parameter :: exit_meanings(size(exit_codes)) = [character(60) :: &
       "done", "compared and found different", "a wrong command line", "a mistake in the deck", &
-      "the mechanism cannot be assembled", "the integration failed", &
+      "not assembled: open, shaky, or at a dead centre", "the integration failed", &
       "energy or constraints above a limit, or accuracy not reached", "stopped from outside, and saved", &
       "part of a sweep failed", "a file, the disk or memory", &
       "a mistake of the program itself"]

@@ -30,6 +30,7 @@ module force_point
       procedure, nopass :: info => point_info
       procedure :: prepare => point_prepare
       procedure :: evaluate => point_evaluate
+      procedure :: load_on => point_load_on
       procedure :: report => point_report
       procedure :: bodies_of => point_bodies
    end type force_point_t
@@ -100,6 +101,23 @@ contains
          power = power + dot_product(f, point_velocity(motion, self%body(k), p))
       end do
    end subroutine point_evaluate
+
+   !> Load of an item on its body, at its point; there is none on the ground.
+   subroutine point_load_on(self, k, side, t, motion, force, moment, place)
+      class(force_point_t), intent(in) :: self  !! the set
+      integer, intent(in) :: k                   !! item
+      integer, intent(in) :: side                !! 2: on the body
+      real(wp), intent(in) :: t                  !! time [s]
+      type(motion_t), intent(in) :: motion       !! positions and velocities
+      real(wp), intent(out) :: force(3)          !! (3) world frame [N]
+      real(wp), intent(out) :: moment(3)         !! (3) about the place, world frame [N.m]
+      real(wp), intent(out) :: place(3)          !! (3) the point, world frame [m]
+
+      force = 0.0_wp
+      moment = 0.0_wp
+      place = point_position(motion, self%body(k), self%s(:, k))
+      if (side == 2) force = force_of(self, k, t, motion)
+   end subroutine point_load_on
 
    !> Values of a channel for all items.
    subroutine point_report(self, code, t, motion, values)

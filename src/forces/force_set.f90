@@ -128,7 +128,8 @@ contains
       power = 0.0_wp*size(motion%angle)*self%n
    end function force_lost_power
 
-   !> Load of an item on one of its two bodies: none, unless the kind acts between two. No allocation.
+   !> Load of an item on one of its two bodies, as `bodies_of` orders them: none, unless the kind says otherwise. Statics measures
+   !> residuals by it. No allocation.
    subroutine force_load_on(self, k, side, t, motion, force, moment, place)
       class(force_set_t), intent(in) :: self  !! the set
       integer, intent(in) :: k                !! item

@@ -28,6 +28,7 @@ module spatial_force
       procedure, nopass :: info => force_info
       procedure :: prepare => force_prepare
       procedure :: evaluate => force_evaluate
+      procedure :: load_on => force_load_on
       procedure :: report => force_report
       procedure :: bodies_of => force_bodies
    end type spatial_force_t
@@ -88,6 +89,23 @@ contains
          power = power + dot_product(f, point_velocity(motion, self%body(k), p))
       end do
    end subroutine force_evaluate
+
+   !> Load of an item on its body, at its point; there is none on the ground.
+   subroutine force_load_on(self, k, side, t, motion, force, moment, place)
+      class(spatial_force_t), intent(in) :: self  !! the set
+      integer, intent(in) :: k                   !! item
+      integer, intent(in) :: side                !! 2: on the body
+      real(wp), intent(in) :: t                  !! time [s]
+      type(motion_t), intent(in) :: motion       !! positions and velocities
+      real(wp), intent(out) :: force(3)          !! (3) world frame [N]
+      real(wp), intent(out) :: moment(3)         !! (3) about the place, world frame [N.m]
+      real(wp), intent(out) :: place(3)          !! (3) the point, world frame [m]
+
+      force = 0.0_wp
+      moment = 0.0_wp
+      place = point_position(motion, self%body(k), self%s(:, k))
+      if (side == 2) force = self%force(k)%at(t, motion, self%body(k))
+   end subroutine force_load_on
 
    !> Values of a channel for all items.
    subroutine force_report(self, code, t, motion, values)

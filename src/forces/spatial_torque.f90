@@ -27,6 +27,7 @@ module spatial_torque
       procedure, nopass :: info => torque_info
       procedure :: prepare => torque_prepare
       procedure :: evaluate => torque_evaluate
+      procedure :: load_on => torque_load_on
       procedure :: report => torque_report
       procedure :: bodies_of => torque_bodies
    end type spatial_torque_t
@@ -84,6 +85,23 @@ contains
          power = power + dot_product(m, motion%omega(:, self%body(k)))
       end do
    end subroutine torque_evaluate
+
+   !> Load of an item on its body, a couple; there is none on the ground.
+   subroutine torque_load_on(self, k, side, t, motion, force, moment, place)
+      class(spatial_torque_t), intent(in) :: self  !! the set
+      integer, intent(in) :: k                   !! item
+      integer, intent(in) :: side                !! 2: on the body
+      real(wp), intent(in) :: t                  !! time [s]
+      type(motion_t), intent(in) :: motion       !! positions and velocities
+      real(wp), intent(out) :: force(3)          !! (3) world frame [N]
+      real(wp), intent(out) :: moment(3)         !! (3) about the place, world frame [N.m]
+      real(wp), intent(out) :: place(3)          !! (3) the centre of mass, world frame [m]
+
+      force = 0.0_wp
+      moment = 0.0_wp
+      place = motion%r(:, self%body(k))
+      if (side == 2) moment = self%moment(k)%at(t, motion, self%body(k))
+   end subroutine torque_load_on
 
    !> Values of a channel for all items.
    subroutine torque_report(self, code, t, motion, values)

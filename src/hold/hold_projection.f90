@@ -81,7 +81,7 @@ contains
             call correct(linkage, t, .false., y, status)
             if (status /= 0) return
          end do
-         ! beyond a dead point there is no position to correct to: shorter steps end there
+         ! beyond a dead centre there is no position to correct to: shorter steps end there
          if (.not. now <= too_much) status = 1
          if (status /= 0) return
          linkage%solution%b(:n) = -linkage%solution%phi_dot(:n)

@@ -28,6 +28,7 @@ module linkage
       real(wp) :: tolerance = 1.0e-8_wp   !! of the integrator, for what round-off allows [1]
       real(wp) :: pace = 1.0_wp           !! greatest rate of the mechanism so far [1/s]
       real(wp) :: late_rate = 0.01_wp     !! rate that errors are measured by at least [1/s]
+      real(wp) :: misfit = 0.0_wp         !! of redundant rows, fitted in least squares: sizes of the bodies or radians [1]
    end type scales_t
 
    !> Bodies and what links them.
@@ -57,6 +58,7 @@ module linkage
       procedure :: solve_rows => linkage_solve_rows, add_change => linkage_add_change, tidy => linkage_tidy
       procedure :: list_wanted => linkage_list_wanted, find_reactions => linkage_find_reactions
       procedure :: greatest_violation => linkage_greatest_violation
+      procedure :: set_rows_aside => linkage_set_rows_aside
       procedure :: row_name => linkage_row_name
    end type linkage_t
 
@@ -98,7 +100,7 @@ contains
       associate (solution => self%solution, n => self%rows%n, n_body => self%bodies%n)
          solution%row_weight = merge(1.0_wp, 1.0_wp/self%scales%length, self%rows%is_angle)
          allocate (solution%phi_dot(n), solution%b(n), solution%lambda(n), source=0.0_wp)
-         allocate (solution%left_out(0))
+         allocate (solution%left_out(0), solution%set_aside(0))
          allocate (solution%a(self%coordinates%n_v, 0:n_body), self%rest(self%coordinates%n_v, 0:n_body), source=0.0_wp)
          self%n_position = self%coordinates%n_q*self%rows%n_unknown + self%reduced%guided%n
          self%n_rate = self%coordinates%n_v*self%rows%n_unknown + self%reduced%guided%n
@@ -216,6 +218,7 @@ contains
          call self%ideal(k)%set%evaluate(inside, self%motion, self%rows)
       end do
       call find_sides(self, done + 1, self%rows%n_solve)
+      if (size(self%solution%set_aside) > 0) call self%set_rows_aside()
       if (size(self%rows%known, 2) == 0) return
       associate (rows => self%rows, motion => self%motion)
          if (self%coordinates%turns_in_body) then
@@ -225,6 +228,26 @@ contains
          end if
       end associate
    end subroutine linkage_evaluate_rows
+
+   !> Rows that are set aside ask for nothing.
+   pure subroutine linkage_set_rows_aside(self)
+      class(linkage_t), intent(inout) :: self   !! the linkage, rows evaluated
+
+      integer :: k
+
+      associate (rows => self%rows, solution => self%solution)
+         do k = 1, size(solution%set_aside)
+            associate (row => solution%set_aside(k))
+               rows%phi(row) = 0.0_wp
+               rows%phi_t(row) = 0.0_wp
+               rows%jac(:, row) = 0.0_wp
+               rows%gam(row) = 0.0_wp
+               solution%phi_dot(row) = 0.0_wp
+               solution%b(row) = 0.0_wp
+            end associate
+         end do
+      end associate
+   end subroutine linkage_set_rows_aside
 
    !> Many solved rows of joints, some at a time with their right-hand sides.
    subroutine evaluate_many(linkage, t, done)

@@ -32,6 +32,9 @@ contains
                     choices="planar spatial")
       call add_vector(info, "gravity", dim_acceleration, 3, "acceleration of free fall, world frame: two numbers in the plane, "// &
                       "three in space", default="0 0 m/s^2")
+      call add_number(info, "closing_tolerance", dim_none, "misfit of redundant rows of closed loops that counts as rounding of " &
+                      //"the deck's numbers, of the size of the bodies or a radian: the loops are fitted in least squares, " &
+                      //"with a warning; 0: none", default="1e-3", lower=0.0_wp, upper=0.1_wp)
    end function scene_info
 
    !> The section [analysis.dynamic].

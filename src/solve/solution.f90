@@ -37,6 +37,7 @@ module solution
       real(wp), allocatable :: lambda(:)                 !! (rows) multipliers [N or N.m]
       integer(i8) :: n_damped = 0                        !! evaluations in which rows were dependent, or nearly so
       integer, allocatable :: left_out(:)                !! rows that the form of index 2 leaves out, which depend on others
+      integer, allocatable :: set_aside(:)               !! redundant rows that do not quite agree, held by no one: `closing_fit`
       real(wp) :: least_pivot = least_pivots(1)          !! of independent rows, of the diagonal it came from [1]
       integer :: bad_row = 0                             !! row at which the last evaluation was singular, 0: none
    contains

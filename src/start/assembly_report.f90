@@ -13,6 +13,9 @@ module assembly_report
       real(wp) :: residual = 0.0_wp              !! greatest violation left [m or rad]
       real(wp) :: rate_changed = 0.0_wp          !! greatest change of a given velocity, angles times the size of the bodies [m/s]
       integer :: changed_body = 0                !! the body it belongs to
+      integer :: n_weak = 0                      !! rows that depend on others, or nearly so, by 1e-6
+      integer, allocatable :: set_aside(:)       !! redundant rows that do not quite agree with the others, left out
+      character(:), allocatable :: misfit        !! by how much, and what was done; blank if none are
       integer, allocatable :: dependent(:)       !! rows that depend on others
       integer, allocatable :: shared(:)          !! rows, those among them, whose multipliers are not unique
       integer, allocatable :: rubbing(:)         !! joints among those that rub whose friction depends on such multipliers

@@ -10,13 +10,14 @@
 module consistent_start
    use assembly_report, only: assembly_t
    use branches, only: check_branches
+   use closing_fit, only: fit_loops
    use errors, only: error_t
    use kinds, only: wp
    use linkage, only: linkage_t
    use row_corrections, only: change_weights, coordinate_scale, evaluate_rows, least_correction, limit_step, rates, wants_sparse, &
       worst_violation
    use sparse_start, only: new_sparse_start, sparse_start_t
-   use start_errors, only: check_finite, position_error, velocity_error
+   use start_errors, only: check_finite, name_misfit, position_error, velocity_error
    implicit none (type, external)
    private
    public :: assemble
@@ -30,6 +31,8 @@ module consistent_start
 contains
 
    !> Make positions and velocities consistent with the constraints at t = 0.
+   !>
+   !> Length: one step after the other, each of which can end it.
    subroutine assemble(linkage, q, v, report, error, is_sparse)
       type(linkage_t), intent(inout) :: linkage          !! all joints ideal
       real(wp), intent(inout) :: q(:)                    !! (n_q bodies) coordinates [any]
@@ -39,13 +42,15 @@ contains
       logical, intent(in), optional :: is_sparse         !! whether matrices are sparse; absent: where there are many rows
 
       type(sparse_start_t) :: sparse
-      logical :: with_sparse
-      real(wp) :: largest
-      real(wp), allocatable :: correction(:), ease(:), q_given(:), right(:), v_given(:)
-      integer :: k, n
+      logical :: is_fitted, with_sparse
+      real(wp), allocatable :: correction(:), ease(:), q_fit(:), q_given(:), right(:), v_given(:)
+      integer :: n
 
       n = size(v)
-      allocate (report%dependent(0), report%shared(0))
+      allocate (report%dependent(0), report%shared(0), report%set_aside(0))
+      report%misfit = ""
+      linkage%solution%set_aside = [integer ::]
+      is_fitted = .false.
       if (linkage%rows%n == 0) return
       allocate (correction(n), right(linkage%rows%n))
       allocate (ease(n), source=1.0_wp)
@@ -55,11 +60,13 @@ contains
       call close_positions()
       if (allocated(error)) return
       call evaluate_rows(linkage, 0.0_wp, q, v)
+      if (.not. worst_violation(linkage) <= closed .and. .not. with_sparse) call fit_positions()
+      if (allocated(error)) return
       report%residual = maxval(abs(linkage%rows%phi))
       call linkage%coordinates%difference(linkage%bodies%n, q_given, q, correction)
       report%moved = maxval(abs(correction)*coordinate_scale(linkage))
       if (.not. worst_violation(linkage) <= closed) then
-         call position_error(linkage, q_given, v, error)
+         call position_error(linkage, q_given, v, report%misfit, error)
          return
       end if
       call check_branches(linkage, error)
@@ -68,22 +75,59 @@ contains
       if (allocated(error)) return
       ease = merge(1.0_wp, give_way, reshape(linkage%bodies%is_rate_given, [n]))
       v_given = v
-      do k = 1, merge(1, 2, with_sparse)  ! the second takes away the round-off of the first, as refinement does
-         call rates(linkage, v, right)
-         call correct(-right)
-         v = v + correction
-      end do
+      call find_velocities()
+      if (.not. agree() .and. .not. with_sparse .and. .not. is_fitted) call fit_velocities()
       correction = merge(abs(v - v_given)*coordinate_scale(linkage), 0.0_wp, ease <= 1.0_wp)
       report%rate_changed = maxval(correction)
       report%changed_body = (maxloc(correction, dim=1) - 1)/linkage%coordinates%n_v + 1
-      call rates(linkage, v, right)
-      largest = maxval(max(abs(v), abs(v_given))*coordinate_scale(linkage))  ! where nothing is left free v is round-off alone
-      if (maxval(abs(right)*linkage%solution%row_weight) > agreed*(largest &
-                                                          + maxval(abs(linkage%rows%phi_t)*linkage%solution%row_weight))) then
-         call velocity_error(linkage, right, error)
-      end if
+      if (.not. agree()) call velocity_error(linkage, right, error)
 
    contains
+
+      !> Positions of a loop that closes but for the digits of the deck; else the misfit is told.
+      subroutine fit_positions()
+         q_fit = q
+         call fit_loops(linkage, q_given, .false., q_fit, report, is_fitted)
+         if (is_fitted) then
+            q = q_fit
+            call close_positions()
+            if (allocated(error)) return
+         else
+            call name_misfit(linkage, q_fit, report)
+         end if
+         call evaluate_rows(linkage, 0.0_wp, q, v)
+      end subroutine fit_positions
+
+      !> Velocities of a loop that closes, and could move but for the digits of the deck.
+      subroutine fit_velocities()
+         q_fit = q
+         call fit_loops(linkage, q, .true., q_fit, report, is_fitted)
+         call evaluate_rows(linkage, 0.0_wp, q, v_given)
+         if (.not. is_fitted) return
+         v = v_given
+         call find_velocities()
+      end subroutine fit_velocities
+
+      !> The least change of the velocities that makes them consistent.
+      subroutine find_velocities()
+         integer :: k
+
+         do k = 1, merge(1, 2, with_sparse)  ! the second takes away the round-off of the first, as refinement does
+            call rates(linkage, v, right)
+            call correct(-right)
+            v = v + correction
+         end do
+      end subroutine find_velocities
+
+      !> Whether velocities fulfil all rows.
+      logical function agree()
+         real(wp) :: largest
+
+         call rates(linkage, v, right)
+         largest = maxval(max(abs(v), abs(v_given))*coordinate_scale(linkage))  ! where nothing is left free v is round-off alone
+         agree = .not. maxval(abs(right)*linkage%solution%row_weight) &
+                 > agreed*(largest + maxval(abs(linkage%rows%phi_t)*linkage%solution%row_weight))
+      end function agree
 
       !> Newton's iteration on the positions, until round-off or no longer better.
       subroutine close_positions()

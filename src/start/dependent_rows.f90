@@ -13,6 +13,7 @@ module dependent_rows
    private
    public :: choose_dependent, find_dependent
 
+   real(wp), parameter :: weak = 1.0e-6_wp   !! pivot of a row that nearly depends on others, of the greatest [1]
    real(wp), parameter :: share = 1.0e-6_wp  !! least part of a scaled row in a combination that vanishes [1]
 
 contains
@@ -43,6 +44,7 @@ contains
       logical, allocatable :: is_shared(:)
       integer :: info, k, m, n
 
+      report%n_weak = 0
       report%dependent = [integer ::]
       report%shared = [integer ::]
       if (linkage%rows%n == 0) return
@@ -65,6 +67,7 @@ contains
       do k = 1, min(m, n)
          if (abs(transposed(k, k)) > rank_tolerance*abs(transposed(1, 1))) report%rank = k
       end do
+      report%n_weak = m - count([(abs(transposed(k, k)) > weak*abs(transposed(1, 1)), k=1, min(m, n))])
       report%dependent = order(report%rank + 1:m)
       if (report%rank == m) return
       call dtrtrs("U", "N", "N", report%rank, m - report%rank, transposed, n, transposed(:, report%rank + 1:), n, info)

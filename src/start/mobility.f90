@@ -15,7 +15,7 @@ module mobility
    use text, only: append_text, text_t, to_text
    implicit none (type, external)
    private
-   public :: find_mobility, joint_names, mobility_t, moving_bodies, split_space, stiffest_driver
+   public :: drives, find_mobility, joint_names, mobility_t, moving_bodies, split_space, stiffest_driver
 
    real(wp), parameter :: takes_part = 1.0e-6_wp   !! least entry of a unit vector that counts [1]
    integer, parameter :: most_names = 8            !! names told in a message
@@ -45,7 +45,7 @@ contains
 
       m = linkage%rows%n
       n = linkage%coordinates%n_v*linkage%bodies%n
-      call mark_drivers(linkage, mobility%is_driver)
+      mobility%is_driver = drives(linkage)
       mobility%n_driver = count(mobility%is_driver)
       drivers = pack([(k, k=1, m)], mobility%is_driver)
       others = pack([(k, k=1, m)], .not. mobility%is_driver)
@@ -66,30 +66,34 @@ contains
    end subroutine find_mobility
 
    !> Which rows belong to drivers.
-   subroutine mark_drivers(linkage, is_driver)
+   function drives(linkage) result(is_driver)
       type(linkage_t), intent(in) :: linkage         !! the bodies and their rows
-      logical, allocatable, intent(out) :: is_driver(:)      !! (rows) rows of drivers
+      logical :: is_driver(linkage%rows%n)           !! (rows) rows of drivers
 
       integer :: k
 
-      allocate (is_driver(linkage%rows%n), source=.false.)
+      is_driver = .false.
       do k = 1, size(linkage%joints)
          associate (set => linkage%joints(k)%set)
             if (set%is_driver) is_driver(set%first_row + 1:set%first_row + set%n*set%n_row_item) = .true.
          end associate
       end do
-   end subroutine mark_drivers
+   end function drives
 
    !> Rank, left singular vectors, and an orthonormal basis of the motions that the rows leave free.
-   subroutine split_space(jac, rank, left, free)
+   subroutine split_space(jac, rank, left, free, tolerance)
       real(wp), intent(in) :: jac(:, :)                   !! (rows, n) scaled Jacobian [1]
       integer, intent(out) :: rank                        !! independent rows
       real(wp), allocatable, intent(out) :: left(:, :)    !! (rows, rows) left singular vectors [1]
       real(wp), allocatable, intent(out) :: free(:, :)    !! (n, n - rank) free motions [1]
+      real(wp), intent(in), optional :: tolerance         !! least ratio of singular values, if another than usual [1]
 
       real(wp), allocatable :: a(:, :), s(:), vt(:, :), work(:)
+      real(wp) :: least
       integer :: info, k, m, n
 
+      least = rank_tolerance
+      if (present(tolerance)) least = tolerance
       m = size(jac, 1)
       n = size(jac, 2)
       rank = 0
@@ -101,7 +105,7 @@ contains
       else
          a = jac
          call dgesvd("A", "A", m, n, a, m, s, left, m, vt, n, work, size(work), info)
-         rank = count(s > rank_tolerance*s(1))
+         rank = count(s > least*s(1))
       end if
       free = transpose(vt(rank + 1:, :))
    end subroutine split_space
@@ -132,9 +136,9 @@ contains
       is_excess(drivers(order(1:rank))) = .false.
    end subroutine find_excess
 
-   !> The driver that takes the greatest part in the least singular value: the one that meets a dead point.
+   !> The driver that takes the greatest part in the least singular value: the one that meets a dead centre.
    integer function stiffest_driver(mobility) result(row)
-      type(mobility_t), intent(in) :: mobility  !! at a position near the dead point
+      type(mobility_t), intent(in) :: mobility  !! at a position near the dead centre
 
       row = maxloc(abs(mobility%weakest), dim=1, mask=mobility%is_driver)
    end function stiffest_driver

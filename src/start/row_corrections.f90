@@ -34,6 +34,7 @@ contains
       do k = 1, size(linkage%ideal)
          call linkage%ideal(k)%set%evaluate(linkage%piece%inside(t), linkage%motion, linkage%rows)
       end do
+      if (size(linkage%solution%set_aside) > 0) call linkage%set_rows_aside()
    end subroutine evaluate_rows
 
    !> Rates of the violations, Phi_q v + Phi_t.

@@ -1,23 +1,26 @@
 !> What is said of a mechanism that cannot be assembled: where, by how much, and what may be the matter.
 module start_errors
+   use assembly_report, only: assembly_t
+   use closing_fit, only: misfit_words
    use errors, only: error_t, exit_assembly, set_error
    use, intrinsic :: ieee_arithmetic, only: ieee_is_finite
-   use kinds, only: wp
+   use kinds, only: pi, wp
    use linkage, only: linkage_t
    use row_corrections, only: evaluate_rows
    use text, only: real_text, to_text
    implicit none (type, external)
    private
-   public :: check_finite, position_error, velocity_error
+   public :: check_finite, name_misfit, position_error, velocity_error
 
 contains
 
    !> The mechanism does not close: say where and by how much. A joint whose axes no small turn brings nearer where the deck puts
    !> the bodies is to blame, whichever joint is torn where the search ended: from there on the corrections are as good as chance.
-   subroutine position_error(linkage, q, v, error)
+   subroutine position_error(linkage, q, v, misfit, error)
       type(linkage_t), intent(inout) :: linkage          !! the system, rows evaluated where the search ended
       real(wp), intent(in) :: q(:)                       !! (n_q bodies) coordinates of the deck [any]
       real(wp), intent(in) :: v(:)                       !! (n_v bodies) rates [m/s or rad/s]
+      character(*), intent(in) :: misfit                 !! misfit in least squares; blank: not known
       type(error_t), allocatable, intent(out) :: error   !! the message
 
       character(:), allocatable :: hint, place
@@ -39,10 +42,23 @@ contains
          hint = "the bodies were moved as little as possible from where the deck puts them, without success"//new_line("a")// &
                 "  = check the points of this joint, the lengths of the loop, and the start positions"
       end if
+      if (misfit /= "") hint = misfit//new_line("a")//"  = "//hint
       call set_error(error, exit_assembly, "the mechanism cannot be assembled: joint '"//linkage%row_name(row)// &
                      "' "//place//" by "//real_text(open, 4)// &
                      trim(merge(" rad", " m  ", linkage%rows%is_angle(row)))//new_line("a")//"  = "//hint)
    end subroutine position_error
+
+   !> Say by how much joints are off at positions of the least misfit.
+   subroutine name_misfit(linkage, q, report)
+      type(linkage_t), intent(inout) :: linkage          !! the system; rows are evaluated there
+      real(wp), intent(in) :: q(:)                       !! (n_q bodies) these positions [any]
+      type(assembly_t), intent(inout) :: report          !! its misfit is set
+
+      call evaluate_rows(linkage, 0.0_wp, q, spread(0.0_wp, 1, size(linkage%mass)))
+      report%misfit = "in least squares "//misfit_words(linkage)//"; allowed: closing_tolerance "// &
+                      real_text(linkage%scales%misfit, 3)//", here "//real_text(1.0e3_wp*linkage%scales%misfit &
+                      *linkage%scales%length, 3)//" mm and "//real_text(linkage%scales%misfit*180.0_wp/pi, 3)//" deg"
+   end subroutine name_misfit
 
    !> The row between axes, far from zero, that small turns help least; 0: they help all. Of axes with an angle theta between them
    !> it is cos(theta), which changes by sin(theta) with it.
@@ -102,7 +118,7 @@ contains
       call set_error(error, exit_assembly, "no velocities fulfil the constraints: joint or driver '"// &
                      linkage%row_name(row)//"' is left with "//to_text(abs(right(row)))// &
                      trim(merge(" rad/s", " m/s  ", linkage%rows%is_angle(row)))//others//new_line("a")// &
-                     "  = two drivers or initial speeds may contradict each other, or the mechanism is in a dead point that a "// &
+                     "  = two drivers or initial speeds may contradict each other, or the mechanism is in a dead centre that a "// &
                      "driver wants to pass")
    end subroutine velocity_error
 

@@ -1,4 +1,4 @@
-"""Kinematic analysis against closed forms: motion, driving and reaction forces, redundancy, dead points."""
+"""Kinematic analysis against closed forms: motion, driving and reaction forces, redundancy, dead centres."""
 
 import re
 
@@ -264,8 +264,8 @@ def test_dead_point(gudgeon, speed, limit):
     message = result.done.stderr
     found = re.search(r"cannot follow driver 'motor' beyond t = ([0-9.]+) s", message)
     assert found, message
-    assert_close(float(found[1]), expected, absolute=2e-8, what="time of the dead point")
-    assert "a dead point" in message
+    assert_close(float(found[1]), expected, absolute=2e-8, what="time of the dead centre")
+    assert "a dead centre" in message
     assert "was saved" in message
     assert_close(result.time[-1], np.floor(expected * 100) / 100, absolute=1e-12, what="last instant saved")
     angle = result.item("bodies/angle", "rocker").ravel()

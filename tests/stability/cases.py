@@ -199,7 +199,7 @@ def crank_angle(coupler_mass):
 
 
 def dead_point_time(message):
-    """The driver at its dead point: error of the time that the message says."""
+    """The driver at its dead centre: error of the time that the message says."""
     found = re.search(r"at t = (\S+) s", message)
     return abs(float(found.group(1)) - np.arccos(3/8)) if found else np.inf
 
@@ -348,9 +348,9 @@ CASES = (
          must(1e-6, "1e-11", fast="1e-11") + others("1e-11")),
     Case("wrong velocities", f"{HARD}/wrong_velocities.deck", crank_angle(1.0), "angles at 2 s [rad]",
          must(1e-6, "1e-11", fast="1e-11"), says=("velocity",)),
-    Case("dead point", f"{HARD}/dead_point.deck", dead_point_time, "time in the message [s]",
+    Case("dead centre", f"{HARD}/dead_point.deck", dead_point_time, "time in the message [s]",
          must(1e-3, "1e-8", fast="1e-8") + tuple(Way("1e-8", stabilise=hold) for hold in HOLDS),
-         ends_early=True, says=("top|crankpin|pivot|motor|main", "dead point|try")),
+         ends_early=True, says=("top|crankpin|pivot|motor|main", "dead centre|try")),
     *CONTACTS,
     *film_cases(Case, Way, with_parameters),
     *space_cases(Case, Way, HOLDS, SOLVERS, with_parameters),

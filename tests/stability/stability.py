@@ -17,6 +17,8 @@ import time
 os.environ.setdefault("OPENBLAS_NUM_THREADS", "1")
 
 from cases import CASES, ROOT  # noqa: E402
+import random_loops  # noqa: E402
+import random_statics  # noqa: E402
 from random_runs import run_random  # noqa: E402
 from runs import Result, solve  # noqa: E402
 
@@ -107,7 +109,7 @@ def wrong_scenes(program):
         progress.clear()
         shutil.rmtree(scratch, ignore_errors=True)
     print(f"\n{total} runs of random scenes, {len(wrong)} mistakes")
-    return wrong
+    return wrong + random_statics.wrong_scenes(program) + random_loops.wrong_scenes(program)
 
 
 def write_csv(path, results):

@@ -1,0 +1,133 @@
+!> Assemblies at a position where rows lose rank and the motion so freed leads nowhere: shaky ones, and drivers at a dead centre.
+!>
+!> See `second_order` for the test. A self-stress in which a driver takes part is a dead centre: the driver holds, or asks for, what
+!> the mechanism cannot give there to first order.
+!>
+!> Source and limits: `second_order`; rows up to those whose matrices are dense.
+module shaky
+   use errors, only: error_t, exit_assembly, set_error
+   use kinds, only: wp
+   use linkage, only: linkage_t
+   use mobility, only: drives, joint_names, moving_bodies, split_space
+   use row_corrections, only: evaluate_rows, scaled_jacobian, wants_sparse
+   use second_order, only: find_definite, find_forms, most_free
+   implicit none (type, external)
+   private
+   public :: find_shaky, name_dead_centre
+
+   real(wp), parameter :: dependent = 1.0e-6_wp   !! singular value that counts as none: positions are known to its square [1]
+   real(wp), parameter :: takes_part = 1.0e-3_wp  !! least part of a row in a self-stress [1]
+
+contains
+
+   !> Refuse an assembly whose joints make it infinitesimally mobile. Drivers are left out: with them it is a dead centre.
+   subroutine find_shaky(linkage, q, error)
+      type(linkage_t), intent(inout) :: linkage          !! the bodies and their rows; evaluated at rest
+      real(wp), intent(in) :: q(:)                       !! (n_q bodies) assembled positions [any]
+      type(error_t), allocatable, intent(out) :: error   !! it is, and where
+
+      real(wp), allocatable :: combination(:), form(:, :, :), free(:, :), held(:), modes(:, :), stress(:, :)
+      character(:), allocatable :: joints, moving
+      logical :: is_found
+
+      call find_spaces(linkage, q, .false., free, stress)
+      if (size(free, 2) == 0 .or. size(free, 2) > most_free .or. size(stress, 2) == 0) return
+      call find_forms(linkage, q, free, stress, form)
+      allocate (combination(size(stress, 2)))
+      call find_definite(form, combination, modes, is_found)
+      if (.not. is_found) return
+      held = matmul(stress, combination)
+      joints = joint_names(linkage, abs(held) > takes_part*maxval(abs(held)))
+      moving = moving_bodies(linkage, moved_by(linkage, matmul(free, modes)))
+      call set_error(error, exit_assembly, "the assembly is infinitesimally mobile (shaky): "//moving//" can begin to move "// &
+                     "here, and no finite motion follows"//new_line("a")//"  = rows of "//joints//" depend on one another "// &
+                     "at this position and hold that motion to second order only: no finite reactions bear a load against it" &
+                     //new_line("a")//"  = move these joints off the line or plane in which they lie, leave one of them out, "// &
+                     "or replace one by a spring or a bushing")
+   end subroutine find_shaky
+
+   !> Say whether drivers that seem to be in excess stand at a dead centre: what they prescribe, other rows prescribe here to first
+   !> order only.
+   subroutine name_dead_centre(linkage, q, is_excess, error)
+      type(linkage_t), intent(inout) :: linkage          !! the bodies and their rows; evaluated at rest
+      real(wp), intent(in) :: q(:)                       !! (n_q bodies) assembled positions [any]
+      logical, intent(in) :: is_excess(:)                !! (rows) rows of such drivers
+      type(error_t), allocatable, intent(out) :: error   !! they do
+
+      real(wp), allocatable :: form(:, :, :), free(:, :), held(:, :), stress(:, :)
+      logical, allocatable :: is_in(:)
+      integer :: k, row
+
+      call find_spaces(linkage, q, .true., free, stress)
+      if (size(free, 2) == 0 .or. size(free, 2) > most_free .or. size(stress, 2) == 0) return
+      do row = 1, size(is_excess)
+         if (.not. is_excess(row)) cycle
+         held = matmul(stress, reshape(stress(row, :), [size(stress, 2), 1]))  ! the self-stress that strains the driver most
+         call find_forms(linkage, q, free, held, form)
+         if (.not. maxval(abs(form)) > 0.0_wp) cycle
+         is_in = abs(held(:, 1)) > takes_part*maxval(abs(held))
+         call refuse_dead_centre(linkage, [(k == row, k=1, size(is_excess))], is_in, moved_by(linkage, free), error)
+         return
+      end do
+   end subroutine name_dead_centre
+
+   !> Free motions and self-stresses at a position.
+   subroutine find_spaces(linkage, q, with_drivers, free, stress)
+      type(linkage_t), intent(inout) :: linkage             !! the bodies and their rows; evaluated at rest
+      real(wp), intent(in) :: q(:)                          !! (n_q bodies) positions [any]
+      logical, intent(in) :: with_drivers                   !! rows of drivers take part
+      real(wp), allocatable, intent(out) :: free(:, :)      !! (n_v bodies, any) scaled free motions [1]
+      real(wp), allocatable, intent(out) :: stress(:, :)    !! (rows, any) self-stresses of the scaled rows [1]
+
+      real(wp), allocatable :: jac(:, :), left(:, :)
+      logical :: is_out(linkage%rows%n)
+      integer :: k, rank
+
+      allocate (free(0, 0), stress(0, 0))
+      if (linkage%rows%n == 0 .or. wants_sparse(linkage)) return
+      call evaluate_rows(linkage, 0.0_wp, q, spread(0.0_wp, 1, size(linkage%mass)))
+      call scaled_jacobian(linkage, jac)
+      is_out = .not. with_drivers .and. drives(linkage)
+      do k = 1, size(jac, 2)
+         where (is_out) jac(:, k) = 0.0_wp
+      end do
+      deallocate (free)
+      call split_space(jac, rank, left, free, dependent)
+      stress = left(:, rank + 1:)
+      do k = 1, size(stress, 2)
+         where (is_out) stress(:, k) = 0.0_wp
+      end do
+   end subroutine find_spaces
+
+   !> How much each body takes part in some motions.
+   pure function moved_by(linkage, motions) result(part)
+      type(linkage_t), intent(in) :: linkage   !! the bodies
+      real(wp), intent(in) :: motions(:, :)    !! (n_v bodies, any) scaled motions [1]
+      real(wp) :: part(linkage%bodies%n)       !! (bodies) greatest part of each, of that of the body that moves most [1]
+
+      integer :: k
+
+      associate (n_v => linkage%coordinates%n_v)
+         do k = 1, size(part)
+            part(k) = maxval(norm2(motions(n_v*(k - 1) + 1:n_v*k, :), dim=1))
+         end do
+      end associate
+      part = part/max(maxval(part), tiny(1.0_wp))
+      where (part < takes_part) part = 0.0_wp
+   end function moved_by
+
+   !> A driver at a dead centre.
+   subroutine refuse_dead_centre(linkage, is_driver, is_in, part, error)
+      type(linkage_t), intent(in) :: linkage             !! the bodies and their rows, at the position
+      logical, intent(in) :: is_driver(:)                !! (rows) rows of the driver
+      logical, intent(in) :: is_in(:)                    !! (rows) rows that depend on one another
+      real(wp), intent(in) :: part(:)                    !! (bodies) how much each can still move [1]
+      type(error_t), allocatable, intent(out) :: error   !! the message
+
+      call set_error(error, exit_assembly, "the mechanism stands at a dead centre of driver "//joint_names(linkage, is_driver)// &
+                     " at t = 0 s"//new_line("a")//"  = rows of "//joint_names(linkage, is_in .and. .not. is_driver)// &
+                     " keep the driver from moving it here, and "//moving_bodies(linkage, part)//" can begin to move without it" &
+                     //new_line("a")//"  = begin beside the dead centre, or drive another joint")
+   end subroutine refuse_dead_centre
+
+end module shaky
