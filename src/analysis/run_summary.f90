@@ -3,7 +3,6 @@ module run_summary
    use errors, only: error_t
    use guards, only: guards_t
    use integrator, only: integrator_t
-   use kind_info, only: kind_info_t
    use kinds, only: not_a_number, wp
    use mechanism, only: mechanism_t
    use passed_contacts, only: warn_of_passed
@@ -11,6 +10,7 @@ module run_summary
    use run_audit, only: audit, limits_t, warn_of_errors
    use run_tally, only: run_tally_t
    use sampling, only: sampler_t
+   use stiff_run, only: method_words, stiffness_warning
    use stop_condition, only: stop_t
    use text, only: append_text, text_t
    use whole_motion, only: whole_motion_t
@@ -24,7 +24,7 @@ contains
 
    !> Cost and errors of a run, and whether it kept its limits.
    subroutine sum_up(whole, sampler, tally, stop, method, limits, summary, error)
-      type(whole_motion_t), intent(in) :: whole              !! the motion
+      type(whole_motion_t), intent(inout) :: whole           !! the motion; its systems are left elsewhere
       type(sampler_t), intent(in) :: sampler                 !! what was reported
       type(run_tally_t), intent(in) :: tally                 !! sums and maxima
       type(stop_t), intent(in) :: stop                       !! conditions that end it by intent
@@ -37,7 +37,7 @@ contains
       integer :: p, worst
 
       allocate (summary%warnings(0))
-      summary%method%integrator = method_name(method)
+      summary%method%integrator = method_words(whole%parts(busiest(whole))%method)
       summary%method%solver = whole%system%linkage%solution%solver%name()
       summary%method%stabilisation = whole%system%way%words()
       summary%method%tolerance = merge(0.0_wp, method%controls%tolerance, method%controls%fixed_step > 0.0_wp)
@@ -72,7 +72,7 @@ contains
       call warn_by_parts(whole, summary)
       guards = limits%guards
       call whole%seen(guards)
-      call warn_by_guards(guards, whole%system, method, summary)
+      call warn_of_stiffness(whole, guards, method, allocated(error), summary)
       summary%status = status_complete
       summary%message = ""
       if (stop%met > 0) summary%message = stop%message()
@@ -114,27 +114,39 @@ contains
       end do
    end subroutine warn_by_forces
 
-   !> What the guards have seen.
-   subroutine warn_by_guards(guards, system, method, summary)
+   !> What the guards have seen, and that the method is explicit where the equations are stiff: said once.
+   subroutine warn_of_stiffness(whole, guards, method, has_failed, summary)
+      type(whole_motion_t), intent(inout) :: whole   !! the motion; its systems are left elsewhere
       type(guards_t), intent(in) :: guards           !! the guards
-      type(mechanism_t), intent(in) :: system        !! the whole
       class(integrator_t), intent(in) :: method      !! the integrator
+      logical, intent(in) :: has_failed              !! the run ended early
       type(summary_t), intent(inout) :: summary      !! its warnings grow
 
-      call guards%warn(system, summary%warnings)
+      character(:), allocatable :: words
+      integer :: p
+
+      call guards%warn(whole%system, summary%warnings)
+      do p = 1, size(whole%parts)
+         if (has_failed) exit
+         words = stiffness_warning(whole%parts(p)%system, whole%parts(p)%method)
+         if (words == "") cycle
+         call append_text(summary%warnings, words)
+         exit
+      end do
       if (.not. method%is_explicit() .or. summary%count%steps < many_steps) return
-      call guards%films%warn_of_stiffness(system, summary%method%integrator, summary%warnings)
-   end subroutine warn_by_guards
+      call guards%films%warn_of_stiffness(whole%system, summary%method%integrator, summary%warnings)
+   end subroutine warn_of_stiffness
 
-   !> Name of an integrator.
-   function method_name(method) result(name)
-      class(integrator_t), intent(in) :: method  !! the integrator
-      character(:), allocatable :: name          !! its name
+   !> The part with the most steps.
+   pure integer function busiest(whole) result(p)
+      type(whole_motion_t), intent(in) :: whole  !! the motion
 
-      type(kind_info_t) :: info
+      integer :: k
 
-      info = method%info()
-      name = info%name
-   end function method_name
+      p = 1
+      do k = 2, size(whole%parts)
+         if (whole%parts(k)%method%count%n_steps > whole%parts(p)%method%count%n_steps) p = k
+      end do
+   end function busiest
 
 end module run_summary

@@ -1,11 +1,14 @@
 !> Method, solver, stabilisation and times, with the reasons of what `auto` has chosen, for `gudgeon explain`.
 module explain_method
+   use auto, only: auto_t
    use console, only: say
+   use integrator, only: integrator_t
    use kinds, only: wp
    use load, only: loaded_t
    use mechanism, only: mechanism_t
    use row_plan, only: contact_rows_text
    use scene, only: analysis_kinematic, analysis_static
+   use scene_method, only: new_method
    use subsystems, only: grouping_words
    use text, only: counted, to_text
    use time_plan, only: last_instant
@@ -44,6 +47,7 @@ contains
          end if
          call say("integrator "//settings%word("method")//", tolerance "// &
                   to_text(settings%number("tolerance")), 2)
+         if (settings%word("method") == "auto") call say(words_of_auto(loaded), 2)
          call say(fixed, 2)
          call say("solver "//solver, 2)
          hold = loaded%system%way%words()
@@ -67,6 +71,21 @@ contains
       words = grouping_words(loaded%scene)
       if (len(words) > 0) call say(words, 2)
    end subroutine explain_times
+
+   !> What the method that chooses has to choose from.
+   function words_of_auto(loaded) result(words)
+      type(loaded_t), intent(in) :: loaded  !! the deck
+      character(:), allocatable :: words    !! the parts
+
+      class(integrator_t), allocatable :: method
+
+      call new_method(loaded%scene, method)
+      words = ""
+      select type (method)
+      type is (auto_t)
+         words = method%parts_in_words()
+      end select
+   end function words_of_auto
 
    !> Why `auto` has chosen the solver.
    function reason_of_solver(system) result(words)

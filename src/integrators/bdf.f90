@@ -21,7 +21,7 @@ module bdf
    type, extends(multistep_t) :: bdf_t
    contains
       procedure, nopass :: info => bdf_info
-      procedure, nopass :: is_explicit => bdf_is_explicit
+      procedure :: is_explicit => bdf_is_explicit
       procedure :: make_library => bdf_make_library
    end type bdf_t
 
@@ -48,7 +48,9 @@ contains
    end subroutine bdf_make_library
 
    !> A method for stiff equations.
-   pure logical function bdf_is_explicit()
+   pure logical function bdf_is_explicit(self)
+      class(bdf_t), intent(in) :: self  !! the integrator
+
       bdf_is_explicit = .false.
    end function bdf_is_explicit
 

@@ -25,7 +25,7 @@ module ida
    type, extends(multistep_t) :: ida_t
    contains
       procedure, nopass :: info => ida_info
-      procedure, nopass :: is_explicit => ida_is_explicit
+      procedure :: is_explicit => ida_is_explicit
       procedure :: make_library => ida_make_library
    end type ida_t
 
@@ -54,7 +54,9 @@ contains
    end subroutine ida_make_library
 
    !> A method for stiff equations.
-   pure logical function ida_is_explicit()
+   pure logical function ida_is_explicit(self)
+      class(ida_t), intent(in) :: self  !! the integrator
+
       ida_is_explicit = .false.
    end function ida_is_explicit
 

@@ -12,9 +12,10 @@ module integrator
    use ode_system, only: ode_system_t
    implicit none (type, external)
    private
-   public :: event_values_t, integrator_t, kept_places
-   public :: advance_event, advance_failed_evaluation, advance_no_memory, advance_step, advance_too_many_evaluations
-   public :: advance_too_many_steps, advance_too_small
+   public :: event_values_t, integrator_list_memory, integrator_prepare_output, integrator_reach, integrator_t, integrator_within, &
+      kept_places
+   public :: advance_event, advance_failed_evaluation, advance_no_memory, advance_step, advance_too_many_evaluations, &
+      advance_too_many_steps, advance_too_small
    public :: steps_any, steps_fixed, steps_variable
 
    integer, parameter :: advance_step = 0                   !! a step was made
@@ -93,7 +94,7 @@ module integrator
       procedure(restart_interface), deferred :: restart
       procedure(refine_interface), deferred :: refine
       procedure, nopass :: steps => integrator_steps
-      procedure, nopass :: is_explicit => integrator_is_explicit
+      procedure :: is_explicit => integrator_is_explicit
       procedure, nopass :: begins_anew => integrator_begins_anew
       procedure :: prepare_output => integrator_prepare_output
       procedure :: within => integrator_within
@@ -162,7 +163,6 @@ module integrator
    end interface
 
    interface
-
       !> List what the integrator saves: what every one keeps, then what the method adds.
       module subroutine integrator_list_memory(self, pieces)
          implicit none (type, external)
@@ -213,7 +213,6 @@ module integrator
          real(wp), intent(in) :: row(:)              !! (any) checkpoint [any]
          integer, intent(inout) :: place             !! last place used
       end subroutine load_base
-
    end interface
 
 contains
@@ -255,8 +254,8 @@ contains
       end if
    end subroutine integrator_state_at
 
-   !> The same as rows tell it, whose forces follow the state: by interpolation too, as good as it gets; what cannot be evaluated
-   !> between is interpolated without it. A method whose interpolation is not good enough for stiff forces overrides this.
+   !> The same as rows tell it: by interpolation too, as good as it gets; what cannot be evaluated between is interpolated without
+   !> it. A method whose interpolation is not good enough for stiff forces overrides this.
    subroutine integrator_reach(self, system, t, y)
       class(integrator_t), intent(inout) :: self    !! the integrator
       class(ode_system_t), intent(inout) :: system  !! the system
@@ -284,7 +283,9 @@ contains
    end subroutine integrator_within
 
    !> Whether what decays fast keeps the steps short, however little it moves; a method for stiff equations overrides this.
-   pure logical function integrator_is_explicit()
+   pure logical function integrator_is_explicit(self)
+      class(integrator_t), intent(in) :: self  !! the integrator
+
       integrator_is_explicit = .true.
    end function integrator_is_explicit
 

@@ -1,6 +1,7 @@
 !> The integrators: two lines each (`use`, `case`).
 module integrator_registry
    use adams, only: adams_t
+   use auto, only: auto_t
    use bdf, only: bdf_t
    use dop853, only: dop853_t
    use ida, only: ida_t
@@ -14,7 +15,7 @@ module integrator_registry
    private
    public :: find_integrator, n_integrator_kinds, new_integrator
 
-   integer, parameter :: n_integrator_kinds = 8  !! number of methods
+   integer, parameter :: n_integrator_kinds = 9  !! number of methods
 
 contains
 
@@ -24,14 +25,15 @@ contains
       class(integrator_t), allocatable, intent(out) :: method   !! the integrator, not started
 
       select case (k)
-      case (1); allocate (verner_t :: method)
-      case (2); allocate (dop853_t :: method)
-      case (3); allocate (rk4_t :: method)
-      case (4); allocate (adams_t :: method)
-      case (5); allocate (bdf_t :: method)
-      case (6); allocate (ida_t :: method)
-      case (7); allocate (rock4_t :: method)
-      case (8); allocate (radau_t :: method)
+      case (1); allocate (auto_t :: method)
+      case (2); allocate (verner_t :: method)
+      case (3); allocate (dop853_t :: method)
+      case (4); allocate (rk4_t :: method)
+      case (5); allocate (adams_t :: method)
+      case (6); allocate (bdf_t :: method)
+      case (7); allocate (ida_t :: method)
+      case (8); allocate (rock4_t :: method)
+      case (9); allocate (radau_t :: method)
       end select
    end subroutine new_integrator
 

@@ -148,6 +148,7 @@ contains
       if (associated(self%weight)) call fn_vdestroy(self%weight)
       if (associated(self%side)) call fn_vdestroy(self%side)
       if (associated(self%solution)) call fn_vdestroy(self%solution)
+      nullify (self%linear, self%weight, self%side, self%solution)  ! a part of a part is finalised twice by some compilers
       if (.not. associated(self%caller)) return
       deallocate (self%caller)
       status = fsuncontext_free(self%context)

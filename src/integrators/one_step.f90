@@ -9,6 +9,7 @@
 module one_step
    use event_location, only: find_first_event
    use event_prediction, only: foretell_event
+   use exchange, only: swap
    use integrator, only: advance_event, advance_failed_evaluation, advance_step, advance_too_many_evaluations, &
       advance_too_many_steps, advance_too_small, integrator_t
    use integrator_controls, only: onset_located, onset_reject
@@ -17,10 +18,11 @@ module one_step
    use ode_system, only: contact_end, ode_system_t
    use onset_control, only: begin_control, end_controlled_step, is_too_deep, meet_onsets
    use step_control, only: n_control_number, step_control_t
+   use stability_limit, only: n_stability_number, stability_limit_t
    use wild_stages, only: is_wild
    implicit none (type, external)
    private
-   public :: one_step_advance, one_step_load, one_step_memory_size, one_step_restart, one_step_save, one_step_t
+   public :: one_step_advance, one_step_load, one_step_memory_size, one_step_refine, one_step_restart, one_step_save, one_step_t
 
    integer, parameter :: too_deep = 2             !! of a trial step: a contact that begins is beyond the limit
    real(wp), parameter :: near_event = 2.0_wp**(-10)  !! what is left of Newton's way to an event on the interpolant: beyond, its
@@ -32,6 +34,8 @@ module one_step
       integer :: order = 1             !! order of the method; the estimate falls as the step to this power
       integer :: n_new_stage = 0       !! evaluations of `make_stages`
       logical :: bends = .false.       !! it knows how time goes as a square, see `step_course`
+      real(wp) :: stretch = 0.0_wp     !! h rho up to which it is stable, of an explicit method; 0: not known [1]
+      type(stability_limit_t) :: stability   !! whether that keeps its steps short
    contains
       procedure(prepare_interface), deferred :: prepare
       procedure(stages_interface), deferred :: make_stages
@@ -40,6 +44,7 @@ module one_step
       procedure :: advance => one_step_advance
       procedure :: restart => one_step_restart
       procedure :: refine => one_step_refine
+      procedure :: fastest_rate => one_step_fastest_rate
       procedure, nopass :: memory_version => one_step_memory_version
       procedure :: memory_size => one_step_memory_size
       procedure :: save => one_step_save
@@ -107,6 +112,7 @@ contains
       self%step%t0 = t
       self%step%h = 0.0_wp
       self%step%y1 = y
+      self%stability = stability_limit_t(is_watched=self%stretch > 0.0_wp .and. self%controls%fixed_step <= 0.0_wp)
       self%pace = step_control_t(order=real(self%order, wp), bends=self%bends .and. self%controls%onset == onset_located)
       call self%restart(system, 0.0_wp, status)
       if (status /= advance_step) return
@@ -162,6 +168,11 @@ contains
       call exchange_ends(self%step)
       call take_step(self, system, t_stop, status)
       if (status == advance_step) then
+         ! before events are searched for, which takes the stages away
+         if (self%stability%is_watched) then
+            if (self%stability%is_due()) call self%stability%note(self%step%h, self%fastest_rate(system%n - system%n_quadrature), &
+                                                                  self%stretch, self%t, self%count%n_evaluations)
+         end if
          call finish_step(self, system, status)
       else
          ! the state is where it was
@@ -170,6 +181,14 @@ contains
          self%step%f0(:) = self%step%f1
       end if
    end subroutine one_step_advance
+
+   !> Rate at which a difference of two states at the end of the step decays or swings; a method that has two overrides this.
+   real(wp) function one_step_fastest_rate(self, n) result(rate)
+      class(one_step_t), intent(in) :: self  !! the integrator, after a step
+      integer, intent(in) :: n               !! entries without quadratures
+
+      rate = 0.0_wp
+   end function one_step_fastest_rate
 
    !> The end of the last step becomes the start of this one; what stands at its end is of no use until the step is accepted.
    pure subroutine exchange_ends(step)
@@ -227,18 +246,6 @@ contains
       call swap(self%step%y1, self%trial)
       status = advance_step
    end subroutine take_step
-
-   !> Two arrays change places.
-   pure subroutine swap(a, b)
-      real(wp), allocatable, intent(inout) :: a(:)   !! (n) one [any]
-      real(wp), allocatable, intent(inout) :: b(:)   !! (n) the other [any]
-
-      real(wp), allocatable :: other(:)
-
-      call move_alloc(a, other)
-      call move_alloc(b, a)
-      call move_alloc(other, b)
-   end subroutine swap
 
    !> Whether another step is allowed.
    pure subroutine check_limits(self, status)
@@ -358,14 +365,14 @@ contains
 
    !> Version of the form of what is saved.
    pure integer function one_step_memory_version() result(version)
-      version = 2
+      version = 3
    end function one_step_memory_version
 
    !> Numbers that a checkpoint needs.
    integer function one_step_memory_size(self) result(n)
       class(one_step_t), intent(in) :: self  !! the integrator
 
-      n = self%base_memory_size() + n_control_number
+      n = self%base_memory_size() + n_control_number + n_stability_number
    end function one_step_memory_size
 
    !> Write what the integrator remembers.
@@ -376,6 +383,7 @@ contains
 
       call self%save_base(row, place)
       call self%pace%save(row, place)
+      call self%stability%save(row, place)
    end subroutine one_step_save
 
    !> Read what the integrator remembers.
@@ -386,6 +394,7 @@ contains
 
       call self%load_base(row, place)
       call self%pace%load(row, place)
+      call self%stability%load(row, place)
    end subroutine one_step_load
 
 end module one_step

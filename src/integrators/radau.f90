@@ -30,6 +30,7 @@
 module radau
    use anderson, only: anderson_t
    use integrator, only: advance_failed_evaluation, advance_no_memory, advance_step
+   use interpolation, only: step_t
    use kind_info, only: kind_info_t
    use kinds, only: eps, wp
    use krylov_solver, only: krylov_solver_t
@@ -37,6 +38,7 @@ module radau
    use one_step, only: one_step_advance, one_step_load, one_step_memory_size, one_step_restart, one_step_save, one_step_t
    use radau_matrix, only: radau_matrix_t
    use radau_products, only: a, c, filter_product_t, stage_product_t
+   use radau_stages, only: foresee, stages_t
    implicit none (type, external)
    private
    public :: radau_t
@@ -45,13 +47,6 @@ module radau
    real(wp), parameter :: wide = 2.0_wp                 !! times longer than with the matrix a step must be, to be worth GMRES [1]
    real(wp), parameter :: forgets = 1.1_wp              !! growth of what the matrix is thought to do, in a step by GMRES [1]
    real(wp), parameter :: diverged = (0.9_wp/0.5_wp)**4 !! norm of a step without stages, which halves it [1]
-
-   !> Stages of a step.
-   type :: stages_t
-      real(wp) :: t = 0.0_wp               !! its start [s]
-      real(wp) :: h = 0.0_wp               !! its length, 0: there are none [s]
-      real(wp), allocatable :: z(:, :)     !! (n, 3) changes of the state, without quadratures [any]
-   end type stages_t
 
    !> The method.
    type, extends(one_step_t) :: radau_t
@@ -81,7 +76,7 @@ module radau
       real(wp) :: contraction = 1.0_wp          !! theta/(1 - theta) of the last iteration [1]
    contains
       procedure, nopass :: info => radau_info
-      procedure, nopass :: is_explicit => radau_is_explicit
+      procedure :: is_explicit => radau_is_explicit
       procedure :: prepare => radau_prepare
       procedure :: restart => radau_restart
       procedure :: advance => radau_advance
@@ -93,6 +88,12 @@ module radau
       procedure :: memory_size => radau_memory_size
       procedure :: save => radau_save
       procedure :: load => radau_load
+      ! for a method that has this one as a part, and the step in hand itself
+      procedure :: open => radau_open
+      procedure :: within_step => radau_within_step
+      procedure :: own_memory_size => radau_own_memory_size
+      procedure :: save_own => radau_save_own
+      procedure :: load_own => radau_load_own
    end type radau_t
 
    interface
@@ -155,6 +156,16 @@ module radau
          real(wp), intent(in) :: s                  !! place in the step, 0 to 1 [1]
          real(wp), intent(inout) :: y(system%n)     !! (n) state [any]
       end subroutine radau_within
+
+      !> The same of a step that this method has made and another keeps.
+      module subroutine radau_within_step(self, step, system, s, y)
+         implicit none (type, external)
+         class(radau_t), intent(in) :: self         !! the integrator
+         type(step_t), intent(in) :: step           !! the step
+         class(ode_system_t), intent(in) :: system  !! the system
+         real(wp), intent(in) :: s                  !! place in the step, 0 to 1 [1]
+         real(wp), intent(inout) :: y(system%n)     !! (n) state [any]
+      end subroutine radau_within_step
    end interface
 
    interface
@@ -179,6 +190,28 @@ module radau
          real(wp), intent(in) :: row(:)         !! (any) checkpoint [any]
          integer, intent(inout) :: place        !! last place used
       end subroutine radau_load
+
+      !> Numbers of the stages, the matrix and their lengths of steps.
+      pure integer module function radau_own_memory_size(self) result(n)
+         implicit none (type, external)
+         class(radau_t), intent(in) :: self  !! the integrator, opened
+      end function radau_own_memory_size
+
+      !> Write them.
+      module subroutine radau_save_own(self, row, place)
+         implicit none (type, external)
+         class(radau_t), intent(in) :: self  !! the integrator, opened
+         real(wp), intent(inout) :: row(:)   !! (any) checkpoint [any]
+         integer, intent(inout) :: place     !! last place used
+      end subroutine radau_save_own
+
+      !> Read them.
+      module subroutine radau_load_own(self, row, place)
+         implicit none (type, external)
+         class(radau_t), intent(inout) :: self  !! the integrator, opened
+         real(wp), intent(in) :: row(:)         !! (any) checkpoint [any]
+         integer, intent(inout) :: place        !! last place used
+      end subroutine radau_load_own
    end interface
 
 contains
@@ -193,7 +226,9 @@ contains
    end function radau_info
 
    !> A method for stiff equations.
-   pure logical function radau_is_explicit()
+   pure logical function radau_is_explicit(self)
+      class(radau_t), intent(in) :: self  !! the integrator
+
       radau_is_explicit = .false.
    end function radau_is_explicit
 
@@ -218,7 +253,17 @@ contains
       self%contraction = 1.0_wp
       self%is_stale = .true.
       call one_step_restart(self, system, step_hint, status)
-      if (status /= advance_step .or. self%n > 0) return
+      if (status == advance_step) call self%open(system, status)
+   end subroutine radau_restart
+
+   !> Room for the stages, the matrix and what solves without one, made once.
+   subroutine radau_open(self, system, status)
+      class(radau_t), intent(inout) :: self         !! the integrator
+      class(ode_system_t), intent(in) :: system     !! the system
+      integer, intent(out) :: status                !! advance_step, or a failure
+
+      status = advance_step
+      if (self%n > 0) return
       self%n = system%n - system%n_quadrature
       associate (n => self%n)
          allocate (self%z(n, 3), self%first_z(n, 3), self%side(3*n), self%change(3*n), self%weight(3*n), &
@@ -231,7 +276,7 @@ contains
          if (status == 0) call self%filter_solver%open(n, status)
       end associate
       status = merge(advance_step, advance_no_memory, status == 0)
-   end subroutine radau_restart
+   end subroutine radau_open
 
    !> One step, by GMRES where it may be much longer than with the matrix. After a restart it begins with the derivative at the
    !> state itself, not that behind a force that jumps there: the matrix is made of differences from it, and the estimate must see
@@ -326,38 +371,6 @@ contains
       self%now%h = 0.0_wp
       self%has_failed = .false.
    end subroutine go_on
-
-   !> Where the iteration begins: on the polynomial through stages of a step that ends, or begins, where this one begins; else on
-   !> the tangent there, which friction that begins to slide has its direction from.
-   pure subroutine foresee(stages, t, h, f0, z)
-      type(stages_t), intent(in) :: stages  !! the stages
-      real(wp), intent(in) :: t             !! start of the step in hand [s]
-      real(wp), intent(in) :: h             !! its length [s]
-      real(wp), intent(in) :: f0(:)         !! (all) derivative there [any]
-      real(wp), intent(out) :: z(:, :)      !! (n, 3) changes of the state at its stages [any]
-
-      real(wp) :: p(3), s
-      integer :: i, k
-      logical :: goes_on
-
-      goes_on = stages%t < t
-      if (.not. stages%h > 0.0_wp .or. abs(merge(stages%t + stages%h, stages%t, goes_on) - t) > 4.0_wp*eps*abs(t)) then
-         do k = 1, 3
-            z(:, k) = c(k)*h*f0(:size(z, 1))
-         end do
-         return
-      end if
-      do k = 1, 3
-         s = c(k)*h/stages%h + merge(1.0_wp, 0.0_wp, goes_on)
-         p(1) = s*(s - c(2))*(s - c(3))/(c(1)*(c(1) - c(2))*(c(1) - c(3)))
-         p(2) = s*(s - c(1))*(s - c(3))/(c(2)*(c(2) - c(1))*(c(2) - c(3)))
-         p(3) = s*(s - c(1))*(s - c(2))/(c(3)*(c(3) - c(1))*(c(3) - c(2)))
-         if (goes_on) p(3) = p(3) - 1.0_wp
-         do i = 1, size(z, 1)
-            z(i, k) = p(1)*stages%z(i, 1) + p(2)*stages%z(i, 2) + p(3)*stages%z(i, 3)
-         end do
-      end do
-   end subroutine foresee
 
    !> Norm of the error estimate of the trial step, over TOL'.
    real(wp) function radau_error_norm(self, system, h) result(norm)

@@ -14,7 +14,7 @@ contains
    !> No evaluations, or those of stages of another length.
    module procedure radau_prepare_output
       status = 0
-      if (self%step%h <= 0.0_wp .or. has_stages(self)) return
+      if (self%step%h <= 0.0_wp .or. has_stages(self, self%step)) return
       self%count%n_output_evaluations = self%count%n_output_evaluations - self%count%n_evaluations
       call self%refine(system, 1.0_wp, self%y, status)
       self%count%n_output_evaluations = self%count%n_output_evaluations + self%count%n_evaluations
@@ -35,21 +35,27 @@ contains
    end procedure radau_reach
 
    !> Whether the derivatives at hand are those of the last step.
-   pure logical function has_stages(self)
+   pure logical function has_stages(self, step)
       class(radau_t), intent(in) :: self  !! the integrator
+      type(step_t), intent(in) :: step    !! the last step
 
-      has_stages = abs(self%stage%t - self%step%t0) <= 0.0_wp .and. abs(self%stage%h - self%step%h) <= 0.0_wp
+      has_stages = abs(self%stage%t - step%t0) <= 0.0_wp .and. abs(self%stage%h - step%h) <= 0.0_wp
    end function has_stages
 
-   !> By the quintic, the cubics, or the stages.
+   !> Of the step in hand.
    module procedure radau_within
+      call self%within_step(self%step, system, s, y)
+   end procedure radau_within
+
+   !> By the quintic, the cubics, or the stages.
+   module procedure radau_within_step
       real(wp) :: p(0:3), q(3)
       integer :: first, i, n
 
       n = system%n
       if (.not. system%traits%with_quadratures) n = n - system%n_quadrature
-      call interpolate(self%step, system%n_position, system%traits%n_turning, s, n, y)
-      if (.not. has_stages(self)) return
+      call interpolate(step, system%n_position, system%traits%n_turning, s, n, y)
+      if (.not. has_stages(self, step)) return
       p = integrals(s)
       first = 2*system%n_position - system%traits%n_turning + 1
       if (self%is_stiff) then
@@ -57,16 +63,16 @@ contains
               s*(s - c(1))*(s - c(3))/(c(2)*(c(2) - c(1))*(c(2) - c(3))), &
               s*(s - c(1))*(s - c(2))/(c(3)*(c(3) - c(1))*(c(3) - c(2)))]
          do i = system%n_position + 1, first - 1
-            y(i) = self%step%y0(i) + q(1)*self%z(i, 1) + q(2)*self%z(i, 2) + q(3)*self%z(i, 3)
+            y(i) = step%y0(i) + q(1)*self%z(i, 1) + q(2)*self%z(i, 2) + q(3)*self%z(i, 3)
          end do
       end if
-      associate (step => self%step, f => self%stage%f)
+      associate (f => self%stage%f)
          do i = 1, n
             if (i < first .and. .not. (self%is_stiff .and. i <= system%n_position)) cycle
             y(i) = step%y0(i) + step%h*(p(0)*step%f0(i) + p(1)*f(i, 1) + p(2)*f(i, 2) + p(3)*f(i, 3))
          end do
       end associate
-   end procedure radau_within
+   end procedure radau_within_step
 
    !> Integrals from 0 to s of the cubics of Lagrange through 0 and the places of the stages.
    pure function integrals(s) result(p)

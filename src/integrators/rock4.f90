@@ -54,7 +54,7 @@ module rock4
       integer :: age = n_step_radius                !! steps since it was found
    contains
       procedure, nopass :: info => rock4_info
-      procedure, nopass :: is_explicit => rock4_is_explicit
+      procedure :: is_explicit => rock4_is_explicit
       procedure :: prepare => rock4_prepare
       procedure :: restart => rock4_restart
       procedure :: advance => rock4_advance
@@ -80,7 +80,9 @@ contains
    end function rock4_info
 
    !> What decays fast does not keep its steps short.
-   pure logical function rock4_is_explicit()
+   pure logical function rock4_is_explicit(self)
+      class(rock4_t), intent(in) :: self  !! the integrator
+
       rock4_is_explicit = .false.
    end function rock4_is_explicit
 

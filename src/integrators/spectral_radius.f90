@@ -10,7 +10,7 @@ module spectral_radius
    use ode_system, only: ode_system_t
    implicit none (type, external)
    private
-   public :: find_radius, most_iterations
+   public :: find_radius, most_iterations, reserve
 
    integer, parameter :: most_iterations = 50        !! evaluations
    integer, parameter :: fewest_iterations = 4       !! before it may end

@@ -8,14 +8,16 @@
 !> coefficients these are. Limits: not for stiff equations.
 module verner
    use integrator_controls, only: norm_euclidean
+   use interpolation, only: step_t
    use kind_info, only: kind_info_t
-   use kinds, only: wp
+   use kinds, only: i8, wp
    use ode_system, only: ode_system_t
    use one_step, only: one_step_t
+   use stability_limit, only: rate_between
    use wild_stages, only: evaluate_aside, judge_stage
    implicit none (type, external)
    private
-   public :: verner_t
+   public :: verner_stages_t, verner_stretch, verner_t
 
    real(wp), parameter :: c2 = 1.0_wp/6.0_wp, c3 = 4.0_wp/15.0_wp, c4 = 2.0_wp/3.0_wp, c5 = 5.0_wp/6.0_wp, &
       c7 = 1.0_wp/15.0_wp  !! places of the stages; c6 = c8 = 1 [1]
@@ -34,16 +36,28 @@ module verner
       e5 = b5 - 12.0_wp/85.0_wp, e6 = -3.0_wp/44.0_wp, e7 = b7, e8 = b8  !! less those of order 5 [1]
 
    integer, parameter :: n_new_stage = 7  !! evaluations of a trial step; the first stage is known
+   real(wp), parameter :: verner_stretch = 4.07_wp  !! stable up to -4.07 along the negative real axis [1]
+
+   !> Stages of a step.
+   type :: verner_stages_t
+      real(wp), allocatable :: k(:, :)              !! (n, 2:8) derivatives of the stages; the first is step%f0 [any]
+      real(wp), allocatable :: y(:)                 !! (n) state of a stage, the last one at its end [any]
+   contains
+      procedure :: open => stages_open
+      procedure :: make => stages_make
+      procedure :: norm => stages_norm
+      procedure :: fastest_rate => stages_fastest_rate
+   end type verner_stages_t
 
    !> Verner's method with its workspace.
    type, extends(one_step_t) :: verner_t
-      real(wp), allocatable :: k(:, :)              !! (n, 2:8) derivatives of the stages; the first is step%f0 [any]
-      real(wp), allocatable :: y(:)                 !! (n) state of a stage [any]
+      type(verner_stages_t) :: stages               !! of the step in hand
    contains
       procedure, nopass :: info => verner_info
       procedure :: prepare => verner_prepare
       procedure :: make_stages => verner_make_stages
       procedure :: error_norm => verner_error_norm
+      procedure :: fastest_rate => verner_fastest_rate
    end type verner_t
 
 contains
@@ -63,8 +77,8 @@ contains
       integer, intent(in) :: n                !! entries of the state
 
       self%order = 6
-      self%n_new_stage = n_new_stage
-      if (.not. allocated(self%k)) allocate (self%k(n, 2:8), self%y(n), source=0.0_wp)
+      self%stretch = verner_stretch
+      call self%stages%open(n, self%n_new_stage)
    end subroutine verner_prepare
 
    !> Stages of a step of length h from the start of the present step; the end state into `trial`.
@@ -74,10 +88,33 @@ contains
       real(wp), intent(in) :: h                     !! length of the step [s]
       integer, intent(out) :: status                !! of the evaluations
 
-      self%count%n_evaluations = self%count%n_evaluations + n_new_stage
-      call pass_stages(system, system%n, self%step%t0, h, self%step%y0, self%step%f0, self%k(:, 2), self%k(:, 3), self%k(:, 4), &
-                       self%k(:, 5), self%k(:, 6), self%k(:, 7), self%k(:, 8), self%y, self%trial, status)
+      call self%stages%make(system, self%step, h, self%trial, self%count%n_evaluations, status)
    end subroutine verner_make_stages
+
+   !> Room.
+   subroutine stages_open(self, n, n_stage)
+      class(verner_stages_t), intent(inout) :: self  !! the stages
+      integer, intent(in) :: n                       !! entries of the state
+      integer, intent(out) :: n_stage                !! evaluations of a trial step
+
+      n_stage = n_new_stage
+      if (.not. allocated(self%k)) allocate (self%k(n, 2:8), self%y(n), source=0.0_wp)
+   end subroutine stages_open
+
+   !> Stages of a step of length h from the start of another.
+   subroutine stages_make(self, system, step, h, y_end, n_evaluation, status)
+      class(verner_stages_t), intent(inout) :: self !! the stages
+      class(ode_system_t), intent(inout) :: system  !! the system
+      type(step_t), intent(in) :: step              !! its start
+      real(wp), intent(in) :: h                     !! length [s]
+      real(wp), intent(inout) :: y_end(:)           !! (n) state at the end of the step, set [any]
+      integer(i8), intent(inout) :: n_evaluation    !! evaluations so far
+      integer, intent(out) :: status                !! of the evaluations
+
+      n_evaluation = n_evaluation + n_new_stage
+      call pass_stages(system, system%n, step%t0, h, step%y0, step%f0, self%k(:, 2), self%k(:, 3), self%k(:, 4), self%k(:, 5), &
+                       self%k(:, 6), self%k(:, 7), self%k(:, 8), self%y, y_end, status)
+   end subroutine stages_make
 
    !> The same on plain arrays. Nothing depends on quadratures: states of stages are without them, and so are derivatives of stages
    !> that the end state has no part of.
@@ -156,12 +193,40 @@ contains
       real(wp), intent(in) :: h                  !! length of the step [s]
 
       call self%set_scales(system, self%trial)
-      norm = estimate_norm(system%n - system%n_quadrature, system%n, self%controls%norm == norm_euclidean, self%step%f0, self%k, &
-                           self%scale)
+      norm = self%stages%norm(system, self%step%f0, self%scale, self%controls%norm == norm_euclidean)
       norm = h*norm/self%controls%tolerance
    end function verner_error_norm
 
-   !> Norm of the error estimate by length of the step, over the scales; on plain arrays.
+   !> Rate at which the last two states at the end of the step make a difference of each other decay or swing.
+   real(wp) function verner_fastest_rate(self, n) result(rate)
+      class(verner_t), intent(in) :: self  !! the integrator, after a step
+      integer, intent(in) :: n             !! entries without quadratures
+
+      rate = self%stages%fastest_rate(n, self%step, self%scale)
+   end function verner_fastest_rate
+
+   !> The same of stages.
+   pure real(wp) function stages_fastest_rate(self, n, step, scale) result(rate)
+      class(verner_stages_t), intent(in) :: self  !! the stages
+      integer, intent(in) :: n                    !! entries without quadratures
+      type(step_t), intent(in) :: step            !! the step that they made
+      real(wp), intent(in) :: scale(:)            !! (n or more) what the entries are measured by [any]
+
+      rate = rate_between(n, self%y, self%k(:, 8), step%y1, step%f1, scale)
+   end function stages_fastest_rate
+
+   !> Norm of the error estimate by length of the step, over the scales.
+   real(wp) function stages_norm(self, system, f0, scale, is_euclidean) result(norm)
+      class(verner_stages_t), intent(in) :: self !! the stages
+      class(ode_system_t), intent(in) :: system  !! the system
+      real(wp), intent(in) :: f0(:)              !! (n) derivative at the start of the step [any]
+      real(wp), intent(in) :: scale(:)           !! (n) what the entries are measured by [any]
+      logical, intent(in) :: is_euclidean        !! the root of the sum of squares; else the greatest entry
+
+      norm = estimate_norm(system%n - system%n_quadrature, system%n, is_euclidean, f0, self%k, scale)
+   end function stages_norm
+
+   !> The same on plain arrays.
    pure real(wp) function estimate_norm(n, n_all, is_euclidean, k1, k, scale) result(norm)
       integer, intent(in) :: n                !! entries that count
       integer, intent(in) :: n_all            !! entries of the state

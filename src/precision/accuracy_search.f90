@@ -167,6 +167,7 @@ contains
       associate (own => search%taken%what)
          do k = 1, size(others)
             if (others(k) == own%setting%method .or. search%other%is_there) cycle
+            if (own%setting%method == "auto" .and. others(k) == "verner") cycle  ! whose steps these may be
             call confirm_by(trim(others(k)), own%asked)
          end do
          if (best(1) < pair(1) .and. own%asked > same*least_tolerance .and. .not. search%is_false_end) then

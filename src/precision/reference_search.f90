@@ -95,7 +95,8 @@ contains
       untried = [text_t("verner"), text_t("adams")]
       do k = 1, size(study%ladders)
          associate (ladder => study%ladders(k))
-            if (ladder%is_fixed .or. any([(untried(i)%s == ladder%setting%method, i=1, size(untried))])) cycle
+            if (ladder%is_fixed .or. ladder%setting%method == "auto") cycle
+            if (any([(untried(i)%s == ladder%setting%method, i=1, size(untried))])) cycle
             call append_text(untried, ladder%setting%method)
          end associate
       end do
@@ -240,7 +241,7 @@ contains
       tells_time = rung%state /= rung_unrun .and. rung%reason /= not_ready .and. rung%wall > 0.0_wp
    end function tells_time
 
-   !> Append the tightest run of a ladder that came to its end.
+   !> Append the tightest run of a ladder that came to its end. `auto` makes the steps of others, and confirms none of them.
    subroutine append_tightest(study, kept, k, runs)
       type(precision_t), intent(in) :: study                     !! with its ladders
       type(kept_ladder_t), intent(in) :: kept(:)                 !! (ladders) their runs
@@ -252,7 +253,7 @@ contains
 
       associate (ladder => study%ladders(k))
          i = findloc(ladder%rungs%state == rung_done, .true., dim=1, back=.true.)
-         if (i == 0) return
+         if (i == 0 .or. ladder%setting%method == "auto") return
          found%is_there = .true.
          found%setting = ladder%setting
          found%asked = ladder%rungs(i)%asked

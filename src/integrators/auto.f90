@@ -1,0 +1,382 @@
+!> The method of integration chosen as the motion goes on: explicit, or implicit where the equations are stiff.
+!>
+!> Explicit steps are those of `dop853`, of order 8, at tolerances below `order_8_below`, and of `verner`, of order 6, at looser
+!> ones: to the bit those of that method, as long as nothing is stiff. Where stability, not accuracy, keeps its steps short
+!> (`stability_limit`), Radau IIA (`radau`) goes on from the end of the step, on trial, and the explicit method from where
+!> that is no longer worth it (`method_choice`). What decides is the step times the spectral radius, and counts of evaluations; never the clock.
+!>
+!> The parts share one state: while the implicit part makes a step, or is asked about its last one, it is lent what every
+!> integrator keeps.
+!>
+!> Source: L. Petzold, Automatic selection of methods for solving stiff and nonstiff systems of ordinary differential equations,
+!> SIAM J. Sci. Stat. Comput. 4 (1983) 136-148; E. Hairer and G. Wanner, Solving Ordinary Differential Equations II, 2nd ed. (1996),
+!> section IV.2. Limits: fixed steps, and onsets of contacts that are not located, are those of `verner` throughout.
+module auto
+   use checkpoint, only: piece_t
+   use dop853_stages, only: dop853_stages_t, dop853_stretch
+   use integrator, only: advance_failed_evaluation, advance_no_memory, advance_step, advance_too_small
+   use integrator_controls, only: norm_euclidean, onset_located
+   use kind_info, only: kind_info_t
+   use kinds, only: i8, wp
+   use method_choice, only: method_choice_t
+   use ode_system, only: ode_system_t
+   use one_step, only: one_step_advance, one_step_restart, one_step_t
+   use radau, only: radau_t
+   use spectral_radius, only: find_radius, reserve
+   use step_control, only: step_control_t
+   use verner, only: verner_stages_t, verner_stretch
+   implicit none (type, external)
+   private
+   public :: auto_t, order_8_below
+
+   real(wp), parameter :: order_8_below = 1.0e-8_wp  !! tolerance below which explicit steps are of order 8 [1]
+   real(wp), parameter :: usual = 0.8_wp             !! step of the explicit method at the bound of stability, over that bound [1]
+
+   !> The method, with its parts.
+   type, extends(one_step_t) :: auto_t
+      private
+      logical :: is_eighth = .false.              !! whether explicit steps are of order 8
+      logical :: can_change = .false.             !! whether the implicit method may be chosen
+      logical :: is_implicit = .false.            !! whether the last step was one of the implicit method
+      type(method_choice_t), public :: choice     !! what the next one is
+      type(verner_stages_t) :: six                !! explicit stages of order 6
+      type(dop853_stages_t) :: eight              !! explicit stages of order 8
+      type(radau_t), allocatable :: stiff         !! the implicit method, once it was chosen
+      real(wp), allocatable :: saved(:)           !! (any) what a checkpoint holds of it, until it is there [any]
+      real(wp), allocatable :: direction(:), moved(:), rate(:)  !! (n) of the fastest change, and room [any]
+   contains
+      procedure, nopass :: info => auto_info
+      procedure :: is_explicit => auto_is_explicit
+      procedure :: prepare => auto_prepare
+      procedure :: make_stages => auto_make_stages
+      procedure :: error_norm => auto_error_norm
+      procedure :: fastest_rate => auto_fastest_rate
+      procedure :: advance => auto_advance
+      procedure :: restart => auto_restart
+      procedure :: refine => auto_refine
+      procedure :: prepare_output => auto_prepare_output
+      procedure :: within => auto_within
+      procedure :: reach => auto_reach
+      procedure :: list_memory => auto_list_memory
+      procedure, nopass :: memory_version => auto_memory_version
+      procedure :: memory_size => auto_memory_size
+      procedure :: save => auto_save
+      procedure :: load => auto_load
+      procedure :: parts_in_words
+      procedure :: choice_in_words
+   end type auto_t
+
+   interface
+      !> State within the last step by a shorter step of the method that made it.
+      module subroutine auto_refine(self, system, s, y, status)
+         implicit none (type, external)
+         class(auto_t), intent(inout) :: self          !! the integrator
+         class(ode_system_t), intent(inout) :: system  !! the system
+         real(wp), intent(in) :: s                     !! place in the step, 0 to 1 [1]
+         real(wp), intent(out) :: y(:)                 !! (n) state [any]
+         integer, intent(out) :: status                !! advance_step, or a failure
+      end subroutine auto_refine
+
+      !> What interpolation in the last step needs.
+      module subroutine auto_prepare_output(self, system, status)
+         implicit none (type, external)
+         class(auto_t), intent(inout) :: self          !! the integrator
+         class(ode_system_t), intent(inout) :: system  !! the system
+         integer, intent(out) :: status                !! of the evaluations
+      end subroutine auto_prepare_output
+
+      !> State at a place of the last step, by interpolation.
+      module subroutine auto_within(self, system, s, y)
+         implicit none (type, external)
+         class(auto_t), intent(in) :: self          !! the integrator
+         class(ode_system_t), intent(in) :: system  !! the system
+         real(wp), intent(in) :: s                  !! place in the step, 0 to 1 [1]
+         real(wp), intent(inout) :: y(system%n)     !! (n) state [any]
+      end subroutine auto_within
+
+      !> State at a time within the last step as rows tell it.
+      module subroutine auto_reach(self, system, t, y)
+         implicit none (type, external)
+         class(auto_t), intent(inout) :: self          !! the integrator
+         class(ode_system_t), intent(inout) :: system  !! the system
+         real(wp), intent(in) :: t                     !! time [s]
+         real(wp), intent(inout) :: y(system%n)        !! (n) state [any]
+      end subroutine auto_reach
+   end interface
+
+   interface
+      !> What there is to choose from, by the controls.
+      module function parts_in_words(self) result(words)
+         implicit none (type, external)
+         class(auto_t), intent(in) :: self      !! the integrator, with its controls
+         character(:), allocatable :: words     !! a line
+      end function parts_in_words
+
+      !> What was chosen, when and why.
+      module function choice_in_words(self) result(words)
+         implicit none (type, external)
+         class(auto_t), intent(in) :: self      !! the integrator, after a run
+         character(:), allocatable :: words     !! part of a line
+      end function choice_in_words
+   end interface
+
+   interface
+      !> The implicit part gets what every integrator keeps; it is made when it is wanted first.
+      module subroutine lend_state(self, system, status)
+         implicit none (type, external)
+         class(auto_t), intent(inout) :: self       !! the integrator
+         class(ode_system_t), intent(in) :: system  !! the system
+         integer, intent(out) :: status             !! advance_step, or a failure
+      end subroutine lend_state
+
+      !> It gives it back.
+      module subroutine take_state(self)
+         implicit none (type, external)
+         class(auto_t), intent(inout) :: self       !! the integrator
+      end subroutine take_state
+   end interface
+
+   interface
+      !> List what the integrator saves; how much, the choices of the run decide.
+      module subroutine auto_list_memory(self, pieces)
+         implicit none (type, external)
+         class(auto_t), intent(in) :: self                       !! the integrator
+         type(piece_t), allocatable, intent(inout) :: pieces(:)  !! (any) the list, grown
+      end subroutine auto_list_memory
+
+      !> Version of the form of what is saved.
+      pure integer module function auto_memory_version() result(version)
+         implicit none (type, external)
+      end function auto_memory_version
+
+      !> Numbers that a checkpoint needs.
+      integer module function auto_memory_size(self) result(n)
+         implicit none (type, external)
+         class(auto_t), intent(in) :: self  !! the integrator
+      end function auto_memory_size
+
+      !> Write what the integrator remembers.
+      module subroutine auto_save(self, row, place)
+         implicit none (type, external)
+         class(auto_t), intent(in) :: self  !! the integrator
+         real(wp), intent(inout) :: row(:)  !! (any) checkpoint [any]
+         integer, intent(inout) :: place    !! last place used
+      end subroutine auto_save
+
+      !> Read what the integrator remembers. The implicit part takes its own back when it is there.
+      module subroutine auto_load(self, row, place)
+         implicit none (type, external)
+         class(auto_t), intent(inout) :: self  !! the integrator
+         real(wp), intent(in) :: row(:)        !! (any) checkpoint [any]
+         integer, intent(inout) :: place       !! last place used
+      end subroutine auto_load
+
+      !> The implicit part takes back what a checkpoint holds of it.
+      module subroutine take_saved(self, system, status)
+         implicit none (type, external)
+         class(auto_t), intent(inout) :: self       !! the integrator
+         class(ode_system_t), intent(in) :: system  !! the system
+         integer, intent(out) :: status             !! advance_step, or a failure
+      end subroutine take_saved
+   end interface
+
+contains
+
+   !> What the method says of itself.
+   function auto_info() result(info)
+      type(kind_info_t) :: info  !! name and help
+
+      info%name = "auto"
+      info%help = "chosen as the motion goes on: explicit of order 6 (verner), or 8 (dop853) at tolerances below 1e-8; radau " &
+                  //"where the equations are stiff"
+      info%source = "Petzold (1983); Hairer and Wanner (1996)"
+   end function auto_info
+
+   !> Whether what decays fast kept the last step short.
+   pure logical function auto_is_explicit(self)
+      class(auto_t), intent(in) :: self  !! the integrator
+
+      auto_is_explicit = .not. self%is_implicit
+   end function auto_is_explicit
+
+   !> Whether the implicit method may be chosen, and order 8.
+   pure logical function may_change(self)
+      class(auto_t), intent(in) :: self  !! the integrator, with its controls
+
+      may_change = self%controls%fixed_step <= 0.0_wp .and. self%controls%onset == onset_located
+   end function may_change
+
+   !> Room for the stages of the explicit method that the tolerance asks for.
+   subroutine auto_prepare(self, n)
+      class(auto_t), intent(inout) :: self  !! the integrator
+      integer, intent(in) :: n              !! entries of the state
+
+      self%can_change = may_change(self)
+      self%is_eighth = self%can_change .and. self%controls%tolerance < order_8_below
+      self%is_implicit = .false.
+      self%choice = method_choice_t()
+      self%order = merge(8, 6, self%is_eighth)
+      self%bends = self%is_eighth
+      self%stretch = merge(dop853_stretch, verner_stretch, self%is_eighth)
+      if (self%is_eighth) then
+         call self%eight%open(n, self%n_new_stage)
+      else
+         call self%six%open(n, self%n_new_stage)
+      end if
+   end subroutine auto_prepare
+
+   !> Stages of an explicit step of length h from the start of the present step; the end state into `trial`.
+   subroutine auto_make_stages(self, system, h, status)
+      class(auto_t), intent(inout) :: self          !! the integrator
+      class(ode_system_t), intent(inout) :: system  !! the system
+      real(wp), intent(in) :: h                     !! length of the step [s]
+      integer, intent(out) :: status                !! of the evaluations
+
+      if (self%is_eighth) then
+         call self%eight%make(system, self%step, h, self%trial, self%count%n_evaluations, status)
+      else
+         call self%six%make(system, self%step, h, self%trial, self%count%n_evaluations, status)
+      end if
+   end subroutine auto_make_stages
+
+   !> Norm of the error estimate of the explicit trial step, over the tolerance.
+   real(wp) function auto_error_norm(self, system, h) result(norm)
+      class(auto_t), intent(inout) :: self       !! the integrator
+      class(ode_system_t), intent(in) :: system  !! the system
+      real(wp), intent(in) :: h                  !! length of the step [s]
+
+      call self%set_scales(system, self%trial)
+      if (self%is_eighth) then
+         norm = self%eight%norm(system%n - system%n_quadrature, self%scale, self%controls%norm)
+      else
+         norm = self%six%norm(system, self%step%f0, self%scale, self%controls%norm == norm_euclidean)
+      end if
+      norm = h*norm/self%controls%tolerance
+   end function auto_error_norm
+
+   !> Rate at which the last two states at the end of an explicit step make a difference of each other decay or swing.
+   real(wp) function auto_fastest_rate(self, n) result(rate)
+      class(auto_t), intent(in) :: self  !! the integrator, after a step
+      integer, intent(in) :: n           !! entries without quadratures
+
+      if (self%is_eighth) then
+         rate = self%eight%fastest_rate(n, self%step, self%scale)
+      else
+         rate = self%six%fastest_rate(n, self%step, self%scale)
+      end if
+   end function auto_fastest_rate
+
+   !> One accepted step, of the method that was chosen after the last one. Where the implicit one fails, the explicit one goes on.
+   subroutine auto_advance(self, system, t_stop, status)
+      class(auto_t), intent(inout) :: self          !! the integrator
+      class(ode_system_t), intent(inout) :: system  !! the system
+      real(wp), intent(in) :: t_stop                !! not to be passed [s]
+      integer, intent(out) :: status                !! advance_step, advance_event or a failure
+
+      if (self%choice%is_implicit) call look_for_way_back(self, system)
+      if (self%choice%is_implicit) then
+         call advance_implicit(self, system, t_stop, status)
+         if (.not. any(status == [advance_failed_evaluation, advance_no_memory, advance_too_small])) return
+         call self%choice%give_up(self%count%n_evaluations)
+      end if
+      if (self%is_implicit) then
+         call leave_implicit(self, system, status)
+         if (status /= advance_step) return
+      end if
+      call one_step_advance(self, system, t_stop, status)
+      if (self%stability%is_stiff .and. self%can_change .and. status >= 0) call choose_implicit(self)
+   end subroutine auto_advance
+
+   !> The implicit method is chosen for the next step, unless it has to wait.
+   subroutine choose_implicit(self)
+      class(auto_t), intent(inout) :: self  !! the integrator, after an explicit step that stability kept short
+
+      associate (seen => self%stability)
+         if (.not. self%choice%may_leave(self%count%n_evaluations) .or. .not. self%t > seen%t_from) return
+         call self%choice%begin_implicit(real(self%count%n_evaluations - seen%n_from, wp)/(self%t - seen%t_from), seen%product, &
+                                         self%pace%h_next, self%t, self%count%n_evaluations)
+         call seen%forget()
+      end associate
+   end subroutine choose_implicit
+
+   !> Now and then, and after events: whether the explicit method, at the bound of its stability, would be better again.
+   subroutine look_for_way_back(self, system)
+      class(auto_t), intent(inout) :: self          !! the integrator, before an implicit step
+      class(ode_system_t), intent(inout) :: system  !! the system
+
+      real(wp) :: radius
+      integer :: n_radius, status
+
+      if (.not. self%choice%wants_radius(self%count%n_evaluations)) return
+      if (.not. allocated(self%direction)) allocate (self%direction(system%n), self%moved(system%n), self%rate(system%n))
+      self%direction(:) = 0.0_wp
+      call self%set_scales(system, self%step%y1)
+      ! differences from the state itself: behind a force that jumps there the derivative is another
+      call system%evaluate(self%t, self%step%y1, self%scratch, status)
+      n_radius = 0
+      if (status == 0) call find_radius(system, self%t, self%step%y1, self%scratch, self%scale, self%direction, self%moved, &
+                                        self%rate, radius, n_radius, status)
+      self%count%n_evaluations = self%count%n_evaluations + n_radius + 1
+      if (status /= 0) return
+      radius = max(radius/reserve, tiny(1.0_wp))
+      call self%choice%note_radius(real(self%n_new_stage + 1, wp)*radius/(usual*self%stretch), n_radius + 1, &
+                                   self%count%n_evaluations)
+      if (self%choice%is_implicit) return
+      self%choice%h_before = min(usual*self%stretch/radius, self%stiff%pace%h_next)
+      self%choice%product_back = self%step%h*radius
+   end subroutine look_for_way_back
+
+   !> One step of the implicit method.
+   subroutine advance_implicit(self, system, t_stop, status)
+      class(auto_t), intent(inout) :: self          !! the integrator
+      class(ode_system_t), intent(inout) :: system  !! the system
+      real(wp), intent(in) :: t_stop                !! not to be passed [s]
+      integer, intent(out) :: status                !! advance_step, advance_event or a failure
+
+      integer(i8) :: n_before
+
+      n_before = self%count%n_evaluations
+      call lend_state(self, system, status)
+      if (status == advance_step .and. .not. self%is_implicit) then
+         self%is_implicit = .true.
+         self%stiff%pace = step_control_t(order=real(self%stiff%order, wp), h_next=self%choice%h_before)
+         call self%stiff%restart(system, 0.0_wp, status)
+      end if
+      if (status == advance_step) call self%stiff%advance(system, t_stop, status)
+      call take_state(self)
+      if (status < 0) return
+      call self%choice%note_step(self%step%h, self%t, self%count%n_evaluations - n_before, self%count%n_evaluations)
+   end subroutine advance_implicit
+
+   !> The explicit method goes on from the present state.
+   subroutine leave_implicit(self, system, status)
+      class(auto_t), intent(inout) :: self          !! the integrator
+      class(ode_system_t), intent(inout) :: system  !! the system
+      integer, intent(out) :: status                !! advance_step, or a failure
+
+      self%is_implicit = .false.
+      self%pace = step_control_t(order=real(self%order, wp), bends=self%bends, h_next=self%choice%h_before)
+      call one_step_restart(self, system, 0.0_wp, status)
+      call self%stability%forget()
+      call self%choice%begin_explicit(self%choice%product_back, self%t)
+      self%choice%product_back = 0.0_wp
+   end subroutine leave_implicit
+
+   !> The system has changed at the present state.
+   subroutine auto_restart(self, system, step_hint, status)
+      class(auto_t), intent(inout) :: self          !! the integrator
+      class(ode_system_t), intent(inout) :: system  !! the system
+      real(wp), intent(in) :: step_hint             !! step that suits what begins now; 0: as before [s]
+      integer, intent(out) :: status                !! advance_step, or a failure
+
+      if (.not. self%is_implicit) then
+         call one_step_restart(self, system, step_hint, status)
+         return
+      end if
+      self%choice%is_at_event = .true.
+      call lend_state(self, system, status)
+      if (status == advance_step) call self%stiff%restart(system, step_hint, status)
+      call take_state(self)
+   end subroutine auto_restart
+
+end module auto

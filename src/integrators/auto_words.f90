@@ -1,0 +1,42 @@
+!> What the method that chooses says of its choices.
+submodule(auto) auto_words
+   use method_choice, only: most_told
+   use text, only: real_text, to_text
+   implicit none (type, external)
+
+contains
+
+   !> What there is to choose from.
+   module procedure parts_in_words
+      logical :: may_change
+
+      may_change = self%controls%fixed_step <= 0.0_wp .and. self%controls%onset == onset_located
+      if (.not. may_change) then
+         words = "its steps: those of verner, as they are fixed or onsets of contacts are not located"
+      else if (self%controls%tolerance < order_8_below) then
+         words = "its steps: explicit of order 8 (dop853: the tolerance is below "//real_text(order_8_below, 1)//")"
+      else
+         words = "its steps: explicit of order 6 (verner: the tolerance is not below "//real_text(order_8_below, 1)//")"
+      end if
+      if (may_change) words = words//"; implicit (radau) where stability keeps these short and it takes fewer evaluations"
+   end procedure parts_in_words
+
+   !> What was chosen, when and why.
+   module procedure choice_in_words
+      integer :: k
+
+      words = trim(merge("dop853", "verner", self%is_eighth))
+      associate (choice => self%choice)
+         if (choice%n_step == 0) return
+         words = words//", and radau in "//to_text(choice%n_step)//" steps over "//real_text(choice%time, 3)//" s ("
+         do k = 1, int(min(choice%n_change, int(most_told, i8)))
+            if (k > 1) words = words//", "
+            words = words//trim(merge("from", "to  ", modulo(k, 2) == 1))//" "//real_text(choice%t_change(k), 4)//" s"
+            if (choice%product(k) > 0.0_wp) words = words//": h lambda = "//real_text(choice%product(k), 2)
+         end do
+         if (choice%n_change > most_told) words = words//", "//to_text(choice%n_change)//" changes in all"
+         words = words//")"
+      end associate
+   end procedure choice_in_words
+
+end submodule auto_words

@@ -1,0 +1,157 @@
+!> Whether the steps of an explicit method are as long as its stability allows, and no longer for accuracy's sake.
+!>
+!> Two states at the end of a step, the one that the last stage was evaluated at and the one that the step gives, differ mostly in
+!> what decays or swings fastest. The difference of their derivatives over their own is an estimate of its rate
+!>
+!> $$ \rho = \| f(y_1) - f(g_s) \| / \| y_1 - g_s \| $$
+!>
+!> over the error scales. Where h rho is near the bound of stability in step after step, the equations are stiff for the method.
+!>
+!> Source: E. Hairer and G. Wanner, Solving Ordinary Differential Equations II, 2nd ed. (1996), section IV.2 (stiffness detection).
+!> Limits: an estimate from below where something slow makes up the difference.
+module stability_limit
+   use kinds, only: i8, wp
+   use memory, only: get, put
+   implicit none (type, external)
+   private
+   public :: n_stability_number, rate_between, stability_limit_t
+
+   integer, parameter :: look_every = 8          !! steps from one look to the next, where nothing is near the bound
+   integer, parameter :: enough = 25             !! looks near the bound that make the equations stiff
+   integer, parameter :: calm = 6                !! looks in a row below, after which they are not
+   integer, parameter :: most = 1000000          !! looks that are counted
+   integer, parameter :: n_stability_number = 11 !! numbers of a checkpoint
+   real(wp), parameter :: near = 0.6_wp          !! of the bound; eigenvalues beside the imaginary axis come no nearer [1]
+
+   !> What was seen of an explicit method's steps.
+   type :: stability_limit_t
+      logical :: is_watched = .false.        !! whether steps are looked at
+      logical :: is_stiff = .false.          !! whether stability keeps the steps short
+      integer :: pause = look_every          !! steps until the next look
+      integer :: n_near = 0                  !! looks near the bound in this stretch of steps
+      integer :: n_below = 0                 !! looks below since the last of them
+      real(wp) :: t_from = 0.0_wp            !! where the stretch began [s]
+      integer(i8) :: n_from = 0              !! evaluations until then
+      real(wp) :: product = 0.0_wp           !! h rho at the last look [1]
+      ! over the run
+      integer(i8) :: n_step = 0              !! steps that stability kept short
+      real(wp) :: time = 0.0_wp              !! their lengths together [s]
+      real(wp) :: t_first = -1.0_wp          !! where the first stretch of them began; negative: there was none [s]
+   contains
+      procedure :: is_due
+      procedure :: note
+      procedure :: forget
+      procedure :: save => save_limit
+      procedure :: load => load_limit
+   end type stability_limit_t
+
+contains
+
+   !> Rate at which a difference of two states changes; zero where there is none.
+   pure real(wp) function rate_between(n, y_a, f_a, y_b, f_b, scale) result(rate)
+      integer, intent(in) :: n           !! entries that count
+      real(wp), intent(in) :: y_a(*)     !! (n or more) a state [any]
+      real(wp), intent(in) :: f_a(*)     !! (n or more) its derivative [any]
+      real(wp), intent(in) :: y_b(*)     !! (n or more) another state [any]
+      real(wp), intent(in) :: f_b(*)     !! (n or more) its derivative [any]
+      real(wp), intent(in) :: scale(*)   !! (n or more) what the entries are measured by [any]
+
+      real(wp) :: above, below
+      integer :: i
+
+      above = 0.0_wp
+      below = 0.0_wp
+      do i = 1, n
+         above = above + ((f_b(i) - f_a(i))/scale(i))**2
+         below = below + ((y_b(i) - y_a(i))/scale(i))**2
+      end do
+      rate = 0.0_wp
+      if (below > 0.0_wp) rate = sqrt(above/below)
+   end function rate_between
+
+   !> Whether the step just made is to be looked at.
+   logical function is_due(self)
+      class(stability_limit_t), intent(inout) :: self   !! what was seen
+
+      self%pause = self%pause - 1
+      is_due = self%pause <= 0
+   end function is_due
+
+   !> A look at a step.
+   pure subroutine note(self, h, rate, stretch, t, n_evaluation)
+      class(stability_limit_t), intent(inout) :: self   !! what was seen
+      real(wp), intent(in) :: h                   !! length of the step [s]
+      real(wp), intent(in) :: rate                !! the fastest rate in it [1/s]
+      real(wp), intent(in) :: stretch             !! h rho at the bound of stability [1]
+      real(wp), intent(in) :: t                   !! time at its end [s]
+      integer(i8), intent(in) :: n_evaluation     !! evaluations until then
+
+      self%product = h*rate
+      if (self%product > near*stretch) then
+         if (self%n_near == 0) then
+            self%t_from = t
+            self%n_from = n_evaluation
+         end if
+         self%n_near = min(self%n_near + 1, most)
+         self%n_below = 0
+         self%is_stiff = self%n_near >= enough
+      else
+         self%n_below = self%n_below + 1
+         if (self%n_below >= calm) call self%forget()
+      end if
+      self%pause = merge(1, look_every, self%n_near > 0)
+      if (.not. self%is_stiff) return
+      if (self%t_first < 0.0_wp) self%t_first = self%t_from
+      self%n_step = self%n_step + 1
+      self%time = self%time + h
+   end subroutine note
+
+   !> A new stretch begins.
+   pure subroutine forget(self)
+      class(stability_limit_t), intent(inout) :: self   !! what was seen
+
+      self%is_stiff = .false.
+      self%n_near = 0
+      self%n_below = 0
+      self%pause = look_every
+   end subroutine forget
+
+   !> Write what was seen.
+   subroutine save_limit(self, row, place)
+      class(stability_limit_t), intent(in) :: self  !! what was seen
+      real(wp), intent(inout) :: row(:)       !! (any) checkpoint [any]
+      integer, intent(inout) :: place         !! last place used
+
+      call put(row, place, self%is_watched)
+      call put(row, place, self%is_stiff)
+      call put(row, place, self%pause)
+      call put(row, place, self%n_near)
+      call put(row, place, self%n_below)
+      call put(row, place, self%t_from)
+      call put(row, place, self%n_from)
+      call put(row, place, self%product)
+      call put(row, place, self%n_step)
+      call put(row, place, self%time)
+      call put(row, place, self%t_first)
+   end subroutine save_limit
+
+   !> Read it.
+   subroutine load_limit(self, row, place)
+      class(stability_limit_t), intent(inout) :: self  !! what was seen
+      real(wp), intent(in) :: row(:)             !! (any) checkpoint [any]
+      integer, intent(inout) :: place            !! last place used
+
+      call get(row, place, self%is_watched)
+      call get(row, place, self%is_stiff)
+      call get(row, place, self%pause)
+      call get(row, place, self%n_near)
+      call get(row, place, self%n_below)
+      call get(row, place, self%t_from)
+      call get(row, place, self%n_from)
+      call get(row, place, self%product)
+      call get(row, place, self%n_step)
+      call get(row, place, self%time)
+      call get(row, place, self%t_first)
+   end subroutine load_limit
+
+end module stability_limit
