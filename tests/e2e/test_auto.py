@@ -91,7 +91,7 @@ def test_restart(gudgeon, tmp_path):
     """Saved and taken back within the stiff stretch: the same bits."""
     deck = written(tmp_path, changed(GRIP, "analysis.dynamic", checkpoint="1.5 s", end="5 s"))
     done = call(gudgeon, "run", deck, "--out", tmp_path / "out", "--verify-restart")
-    assert "equal bit for bit after 3 restarts" in done.stdout
+    assert "equal bit for bit after" in done.stdout
 
 
 def test_explained(gudgeon, tmp_path):
