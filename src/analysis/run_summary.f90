@@ -10,7 +10,7 @@ module run_summary
    use run_audit, only: audit, limits_t, warn_of_errors
    use run_tally, only: run_tally_t
    use sampling, only: sampler_t
-   use stiff_run, only: method_words, stiffness_warning
+   use stiff_run, only: is_explicit_by_name, method_words, stiffness_warning, trial_evaluations
    use stop_condition, only: stop_t
    use text, only: append_text, text_t
    use whole_motion, only: whole_motion_t
@@ -48,7 +48,8 @@ contains
          associate (part => whole%parts(p))
             summary%count%steps = summary%count%steps + part%method%count%n_steps
             summary%count%rejected_steps = summary%count%rejected_steps + part%method%count%n_rejected
-            summary%count%rhs_evaluations = summary%count%rhs_evaluations + part%system%n_evaluations
+            summary%count%rhs_evaluations = summary%count%rhs_evaluations + part%system%n_evaluations &
+                                            + trial_evaluations(part%method)
             summary%count%output_evaluations = summary%count%output_evaluations + part%method%count%n_output_evaluations
             summary%count%factorisations = summary%count%factorisations + part%system%linkage%solution%solver%n_factorisations
          end associate
@@ -131,9 +132,9 @@ contains
          words = stiffness_warning(whole%parts(p)%system, whole%parts(p)%method)
          if (words == "") cycle
          call append_text(summary%warnings, words)
-         exit
+         return
       end do
-      if (.not. method%is_explicit() .or. summary%count%steps < many_steps) return
+      if (.not. is_explicit_by_name(method) .or. summary%count%steps < many_steps) return
       call guards%films%warn_of_stiffness(whole%system, summary%method%integrator, summary%warnings)
    end subroutine warn_of_stiffness
 

@@ -1,27 +1,26 @@
 !> Whether a run by an explicit method was stiff, and how many times fewer evaluations an implicit one would have taken.
 !>
-!> Where stability kept most steps short (`stability_limit`), `radau` goes on from the end of the motion, for some steps that
-!> nobody sees: the ratio of evaluations per second of the motion is told. Limits: it is that of the end of the motion; none is
-!> found where an event comes first.
+!> At the end of a run whose steps were many and as short as the next one, `radau` is tried (`method_trial`). The ratio of
+!> evaluations per second of the motion is reported. Limits: it is that of the end of the motion.
 module stiff_run
    use auto, only: auto_t
-   use integrator, only: advance_step, integrator_t
+   use integrator, only: integrator_t
    use integrator_registry, only: find_integrator
    use kind_info, only: kind_info_t
    use kinds, only: i8, wp
    use mechanism, only: mechanism_t
+   use method_trial, only: run_trial, trial_t
    use one_step, only: one_step_t
-   use text, only: real_text, to_text
+   use text, only: real_text
    implicit none (type, external)
    private
-   public :: method_words, stiffness_warning
+   public :: is_explicit_by_name, method_words, stiffness_warning, trial_evaluations
 
-   integer(i8), parameter :: many = 2000       !! steps kept short, below which nothing is said
-   real(wp), parameter :: most_of = 0.5_wp     !! part of all steps that they must be [1]
-   real(wp), parameter :: worth = 3.0_wp       !! ratio of evaluations from which on it is told [1]
-   integer, parameter :: settling = 12         !! steps of the implicit method that do not count
-   integer, parameter :: n_try = 40            !! steps, at most
-   real(wp), parameter :: part_of_run = 0.05_wp  !! evaluations of this, at most, of those of the run [1]
+   integer(i8), parameter :: many = 4000       !! steps, below which nothing is said
+   real(wp), parameter :: shorter = 2.0_wp     !! next step over the mean one, at most [1]
+   real(wp), parameter :: worth = 3.0_wp       !! ratio of evaluations from which on it is reported [1]
+   integer, parameter :: n_step = 40           !! steps of the trial
+   real(wp), parameter :: part_of_run = 0.01_wp  !! length of the trial, of the run, at most [1]
 
 contains
 
@@ -38,64 +37,59 @@ contains
       end select
    end function method_words
 
+   !> Whether a method is explicit and does not choose another one.
+   logical function is_explicit_by_name(method) result(is_explicit)
+      class(integrator_t), intent(in) :: method   !! the integrator, after the run
+
+      select type (method)
+      type is (auto_t)
+         is_explicit = .false.
+      class default
+         is_explicit = method%is_explicit()
+      end select
+   end function is_explicit_by_name
+
+   !> Evaluations of trials of another method, which the system does not count.
+   pure integer(i8) function trial_evaluations(method) result(n)
+      class(integrator_t), intent(in) :: method   !! the integrator, after the run
+
+      n = 0
+      select type (method)
+      type is (auto_t)
+         n = method%choice%n_tried
+      end select
+   end function trial_evaluations
+
    !> The warning, blank if there is none. The system is left elsewhere.
    function stiffness_warning(system, method) result(words)
       type(mechanism_t), intent(inout) :: system  !! the system
       class(integrator_t), intent(in) :: method   !! its integrator, at the end of the run
       character(:), allocatable :: words          !! a sentence
 
-      real(wp) :: factor
+      class(integrator_t), allocatable :: radau
+      type(trial_t) :: trial
+      real(wp) :: factor, h
 
       words = ""
       select type (method)
       type is (auto_t)
       class is (one_step_t)
-         associate (seen => method%stability)
-            if (seen%n_step < many .or. real(seen%n_step, wp) < most_of*real(method%count%n_steps, wp)) return
-            factor = real(seen%n_step, wp)*real(method%n_new_stage + 1, wp)/seen%time
-            factor = factor/evaluations_per_second(system, method, factor)
-            if (factor < worth) return
-            words = "stiff for method = "//name_of(method)//": stability, not accuracy, kept "//to_text(seen%n_step)//" of "// &
-                    to_text(method%count%n_steps)//" steps short, to "//real_text(seen%time/real(seen%n_step, wp), 2)// &
-                    " s on average; radau takes about "//real_text(factor, 2)//" times fewer evaluations: leave method out, "// &
-                    "or set method = radau"
-         end associate
+         h = method%pace%h_next
+         if (.not. method%stability%is_watched .or. method%count%n_steps < many) return
+         if (h*real(method%count%n_steps, wp) > shorter*method%t) return
+         call find_integrator("radau", radau)
+         select type (radau)
+         class is (one_step_t)
+            call run_trial(radau, system, method%controls, method%t, method%step%y1, (1.0_wp + part_of_run)*method%t, h, n_step, &
+                           trial)
+         end select
+         factor = real(method%n_new_stage + 1, wp)/h*(trial%t_end - trial%t_begin)/real(trial%n_evaluation, wp)
+         if (factor < worth) return
+         words = "stiff for method = "//name_of(method)//": stability keeps its steps short, at "//real_text(h, 2)// &
+                 " s; at the end of the motion radau takes about "//real_text(factor, 2)// &
+                 " times fewer evaluations: leave method out, or set method = radau"
       end select
    end function stiffness_warning
-
-   !> Evaluations per second of the motion that `radau` takes from the end of a run on; huge: not found.
-   real(wp) function evaluations_per_second(system, method, usual) result(rate)
-      type(mechanism_t), intent(inout) :: system   !! the system
-      class(integrator_t), intent(in) :: method    !! its integrator, at the end of the run
-      real(wp), intent(in) :: usual                !! those of the explicit method [1/s]
-
-      class(integrator_t), allocatable :: other
-      integer(i8) :: most, n_first
-      integer :: k, status
-      real(wp) :: t_first
-
-      rate = huge(1.0_wp)
-      call find_integrator("radau", other)
-      other%controls = method%controls
-      other%controls%maximum_steps = 0
-      other%controls%maximum_evaluations = 0
-      other%controls%initial_step = 10.0_wp/usual
-      most = int(part_of_run*real(method%count%n_evaluations, wp), i8)
-      call other%start(system, method%t, method%step%y1, 2.0_wp*method%t, status)
-      if (status /= advance_step) return
-      t_first = other%t
-      n_first = 0
-      do k = 1, n_try
-         call other%advance(system, 2.0_wp*method%t, status)
-         if (status /= advance_step) return
-         if (k > settling) rate = real(other%count%n_evaluations - n_first, wp)/(other%t - t_first)
-         if (k == settling) then
-            t_first = other%t
-            n_first = other%count%n_evaluations
-         end if
-         if (other%count%n_evaluations > most .or. .not. other%t < 2.0_wp*method%t) return
-      end do
-   end function evaluations_per_second
 
    !> Name of an integrator.
    function name_of(method) result(name)

@@ -1,36 +1,39 @@
 !> The method of integration chosen as the motion goes on: explicit, or implicit where the equations are stiff.
 !>
 !> Explicit steps are those of `dop853`, of order 8, at tolerances below `order_8_below`, and of `verner`, of order 6, at looser
-!> ones: to the bit those of that method, as long as nothing is stiff. Where stability, not accuracy, keeps its steps short
-!> (`stability_limit`), Radau IIA (`radau`) goes on from the end of the step, on trial, and the explicit method from where
-!> that is no longer worth it (`method_choice`). What decides is the step times the spectral radius, and counts of evaluations; never the clock.
+!> ones: to the bit those of that method, as long as no others are made. Where stability, not accuracy, keeps them short
+!> (`stability_limit`), and now and then in any case, Radau IIA (`radau`) is tried; it makes the next steps where it needs fewer
+!> evaluations for the same stretch of time (`method_choice`, `method_trial`). The explicit method comes back in the same way.
+!> Counts of evaluations decide, never the clock.
 !>
 !> The parts share one state: while the implicit part makes a step, or is asked about its last one, it is lent what every
 !> integrator keeps.
 !>
-!> Source: L. Petzold, Automatic selection of methods for solving stiff and nonstiff systems of ordinary differential equations,
-!> SIAM J. Sci. Stat. Comput. 4 (1983) 136-148; E. Hairer and G. Wanner, Solving Ordinary Differential Equations II, 2nd ed. (1996),
-!> section IV.2. Limits: fixed steps, and onsets of contacts that are not located, are those of `verner` throughout.
+!> Source: L. Petzold, Automatic selection of methods for solving stiff and nonstiff systems of ordinary differential
+!> equations, SIAM J. Sci. Stat. Comput. 4 (1983) 136-148; E. Hairer and G. Wanner, Solving Ordinary Differential Equations II,
+!> 2nd ed. (1996), section IV.2. Limits: fixed steps, and onsets of contacts that are not located, are those of `verner`
+!> throughout.
 module auto
    use checkpoint, only: piece_t
-   use dop853_stages, only: dop853_stages_t, dop853_stretch
+   use dop853, only: dop853_t
+   use dop853_stages, only: dop853_bound, dop853_stages_t
    use integrator, only: advance_failed_evaluation, advance_no_memory, advance_step, advance_too_small
    use integrator_controls, only: norm_euclidean, onset_located
    use kind_info, only: kind_info_t
    use kinds, only: i8, wp
    use method_choice, only: method_choice_t
+   use method_trial, only: run_trial, trial_t
    use ode_system, only: ode_system_t
    use one_step, only: one_step_advance, one_step_restart, one_step_t
    use radau, only: radau_t
-   use spectral_radius, only: find_radius, reserve
    use step_control, only: step_control_t
-   use verner, only: verner_stages_t, verner_stretch
+   use verner, only: verner_bound, verner_stages_t, verner_t
    implicit none (type, external)
    private
    public :: auto_t, order_8_below
 
    real(wp), parameter :: order_8_below = 1.0e-8_wp  !! tolerance below which explicit steps are of order 8 [1]
-   real(wp), parameter :: usual = 0.8_wp             !! step of the explicit method at the bound of stability, over that bound [1]
+   integer, parameter :: n_trial_step(2) = [16, 10]  !! (implicit, explicit) steps of a trial
 
    !> The method, with its parts.
    type, extends(one_step_t) :: auto_t
@@ -43,7 +46,6 @@ module auto
       type(dop853_stages_t) :: eight              !! explicit stages of order 8
       type(radau_t), allocatable :: stiff         !! the implicit method, once it was chosen
       real(wp), allocatable :: saved(:)           !! (any) what a checkpoint holds of it, until it is there [any]
-      real(wp), allocatable :: direction(:), moved(:), rate(:)  !! (n) of the fastest change, and room [any]
    contains
       procedure, nopass :: info => auto_info
       procedure :: is_explicit => auto_is_explicit
@@ -214,10 +216,12 @@ contains
       self%can_change = may_change(self)
       self%is_eighth = self%can_change .and. self%controls%tolerance < order_8_below
       self%is_implicit = .false.
+      if (allocated(self%stiff)) deallocate (self%stiff)
+      if (allocated(self%saved)) deallocate (self%saved)
       self%choice = method_choice_t()
       self%order = merge(8, 6, self%is_eighth)
-      self%bends = self%is_eighth
-      self%stretch = merge(dop853_stretch, verner_stretch, self%is_eighth)
+      self%pace%bends = self%is_eighth
+      self%stability%bound = merge(dop853_bound, verner_bound, self%is_eighth)
       if (self%is_eighth) then
          call self%eight%open(n, self%n_new_stage)
       else
@@ -273,58 +277,59 @@ contains
       real(wp), intent(in) :: t_stop                !! not to be passed [s]
       integer, intent(out) :: status                !! advance_step, advance_event or a failure
 
-      if (self%choice%is_implicit) call look_for_way_back(self, system)
+      if (self%can_change) then
+         if (self%choice%wants_trial(motion_evaluations(self), self%stability%is_stiff)) call try_other(self, system, t_stop)
+      end if
       if (self%choice%is_implicit) then
          call advance_implicit(self, system, t_stop, status)
-         if (.not. any(status == [advance_failed_evaluation, advance_no_memory, advance_too_small])) return
-         call self%choice%give_up(self%count%n_evaluations)
+         if (.not. any(status == [advance_failed_evaluation, advance_no_memory, advance_too_small])) then
+            if (status >= 0) call self%choice%compare(self%t, motion_evaluations(self))
+            return
+         end if
+         call self%choice%give_up(self%t, motion_evaluations(self))
       end if
       if (self%is_implicit) then
          call leave_implicit(self, system, status)
          if (status /= advance_step) return
       end if
       call one_step_advance(self, system, t_stop, status)
-      if (self%stability%is_stiff .and. self%can_change .and. status >= 0) call choose_implicit(self)
+      if (status >= 0) call self%choice%compare(self%t, motion_evaluations(self))
    end subroutine auto_advance
 
-   !> The implicit method is chosen for the next step, unless it has to wait.
-   subroutine choose_implicit(self)
-      class(auto_t), intent(inout) :: self  !! the integrator, after an explicit step that stability kept short
+   !> Evaluations so far, without those for output.
+   pure integer(i8) function motion_evaluations(self) result(n)
+      class(auto_t), intent(in) :: self  !! the integrator
 
-      associate (seen => self%stability)
-         if (.not. self%choice%may_leave(self%count%n_evaluations) .or. .not. self%t > seen%t_from) return
-         call self%choice%begin_implicit(real(self%count%n_evaluations - seen%n_from, wp)/(self%t - seen%t_from), seen%product, &
-                                         self%pace%h_next, self%t, self%count%n_evaluations)
-         call seen%forget()
-      end associate
-   end subroutine choose_implicit
+      n = self%count%n_evaluations - self%count%n_output_evaluations
+   end function motion_evaluations
 
-   !> Now and then, and after events: whether the explicit method, at the bound of its stability, would be better again.
-   subroutine look_for_way_back(self, system)
-      class(auto_t), intent(inout) :: self          !! the integrator, before an implicit step
+   !> Some steps of the other method, of which the motion knows nothing.
+   subroutine try_other(self, system, t_stop)
+      class(auto_t), intent(inout) :: self          !! the integrator, before a step
       class(ode_system_t), intent(inout) :: system  !! the system
+      real(wp), intent(in) :: t_stop                !! not to be passed [s]
 
-      real(wp) :: radius
-      integer :: n_radius, status
+      class(one_step_t), allocatable :: other
+      type(trial_t) :: trial
+      real(wp) :: h
 
-      if (.not. self%choice%wants_radius(self%count%n_evaluations)) return
-      if (.not. allocated(self%direction)) allocate (self%direction(system%n), self%moved(system%n), self%rate(system%n))
-      self%direction(:) = 0.0_wp
-      call self%set_scales(system, self%step%y1)
-      ! differences from the state itself: behind a force that jumps there the derivative is another
-      call system%evaluate(self%t, self%step%y1, self%scratch, status)
-      n_radius = 0
-      if (status == 0) call find_radius(system, self%t, self%step%y1, self%scratch, self%scale, self%direction, self%moved, &
-                                        self%rate, radius, n_radius, status)
-      self%count%n_evaluations = self%count%n_evaluations + n_radius + 1
-      if (status /= 0) return
-      radius = max(radius/reserve, tiny(1.0_wp))
-      call self%choice%note_radius(real(self%n_new_stage + 1, wp)*radius/(usual*self%stretch), n_radius + 1, &
-                                   self%count%n_evaluations)
-      if (self%choice%is_implicit) return
-      self%choice%h_before = min(usual*self%stretch/radius, self%stiff%pace%h_next)
-      self%choice%product_back = self%step%h*radius
-   end subroutine look_for_way_back
+      h = self%pace%h_next
+      if (.not. self%choice%is_implicit) then
+         allocate (radau_t :: other)
+      else
+         h = self%choice%trial%h
+         if (self%is_eighth) then
+            allocate (dop853_t :: other)
+         else
+            allocate (verner_t :: other)
+         end if
+      end if
+      call run_trial(other, system, self%controls, self%t, self%step%y1, t_stop, h, &
+                     n_trial_step(merge(2, 1, self%choice%is_implicit)), trial)
+      self%count%n_evaluations = self%count%n_evaluations + trial%n_evaluation
+      call self%choice%note_trial(trial, motion_evaluations(self), merge(self%stability%product, 0.0_wp, self%stability%is_stiff))
+      call self%stability%forget()
+   end subroutine try_other
 
    !> One step of the implicit method.
    subroutine advance_implicit(self, system, t_stop, status)
@@ -333,19 +338,16 @@ contains
       real(wp), intent(in) :: t_stop                !! not to be passed [s]
       integer, intent(out) :: status                !! advance_step, advance_event or a failure
 
-      integer(i8) :: n_before
-
-      n_before = self%count%n_evaluations
       call lend_state(self, system, status)
       if (status == advance_step .and. .not. self%is_implicit) then
          self%is_implicit = .true.
-         self%stiff%pace = step_control_t(order=real(self%stiff%order, wp), h_next=self%choice%h_before)
+         self%stiff%pace = step_control_t(order=real(self%stiff%order, wp), h_next=self%choice%trial%h)
          call self%stiff%restart(system, 0.0_wp, status)
       end if
       if (status == advance_step) call self%stiff%advance(system, t_stop, status)
       call take_state(self)
       if (status < 0) return
-      call self%choice%note_step(self%step%h, self%t, self%count%n_evaluations - n_before, self%count%n_evaluations)
+      call self%choice%note_step(self%step%h)
    end subroutine advance_implicit
 
    !> The explicit method goes on from the present state.
@@ -355,11 +357,11 @@ contains
       integer, intent(out) :: status                !! advance_step, or a failure
 
       self%is_implicit = .false.
-      self%pace = step_control_t(order=real(self%order, wp), bends=self%bends, h_next=self%choice%h_before)
+      if (allocated(self%stiff)) deallocate (self%stiff)
+      if (allocated(self%saved)) deallocate (self%saved)
+      self%pace = step_control_t(order=real(self%order, wp), bends=self%pace%bends, h_next=self%choice%trial%h)
       call one_step_restart(self, system, 0.0_wp, status)
       call self%stability%forget()
-      call self%choice%begin_explicit(self%choice%product_back, self%t)
-      self%choice%product_back = 0.0_wp
    end subroutine leave_implicit
 
    !> The system has changed at the present state.

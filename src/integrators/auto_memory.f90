@@ -61,6 +61,7 @@ contains
       call self%choice%load(row, place)
       call get(row, place, self%is_implicit)
       call get(row, place, n)
+      if (allocated(self%stiff)) deallocate (self%stiff)
       if (allocated(self%saved)) deallocate (self%saved)
       n = min(max(n, 0), size(row) - place)
       if (n == 0) return

@@ -1,6 +1,6 @@
 !> What the method that chooses says of its choices.
 submodule(auto) auto_words
-   use method_choice, only: most_told
+   use method_choice, only: most_changes
    use text, only: real_text, to_text
    implicit none (type, external)
 
@@ -29,12 +29,12 @@ contains
       associate (choice => self%choice)
          if (choice%n_step == 0) return
          words = words//", and radau in "//to_text(choice%n_step)//" steps over "//real_text(choice%time, 3)//" s ("
-         do k = 1, int(min(choice%n_change, int(most_told, i8)))
+         do k = 1, int(min(choice%n_change, int(most_changes, i8)))
             if (k > 1) words = words//", "
             words = words//trim(merge("from", "to  ", modulo(k, 2) == 1))//" "//real_text(choice%t_change(k), 4)//" s"
             if (choice%product(k) > 0.0_wp) words = words//": h lambda = "//real_text(choice%product(k), 2)
          end do
-         if (choice%n_change > most_told) words = words//", "//to_text(choice%n_change)//" changes in all"
+         if (choice%n_change > most_changes) words = words//", "//to_text(choice%n_change)//" changes in all"
          words = words//")"
       end associate
    end procedure choice_in_words

@@ -13,7 +13,7 @@
 !> Source: E. Hairer, S. P. Norsett and G. Wanner, Solving Ordinary Differential Equations I, 2nd ed. (1993), section II.5 and II.6,
 !> with the coefficients of their code DOP853. Limits: not for stiff equations.
 module dop853
-   use dop853_stages, only: dop853_stages_t, dop853_stretch
+   use dop853_stages, only: dop853_stages_t, dop853_bound
    use interpolation, only: interpolate
    use kind_info, only: kind_info_t
    use kinds, only: wp
@@ -53,8 +53,8 @@ contains
       integer, intent(in) :: n                !! entries of the state
 
       self%order = 8
-      self%bends = .true.
-      self%stretch = dop853_stretch
+      self%pace%bends = .true.
+      self%stability%bound = dop853_bound
       call self%stages%open(n, self%n_new_stage)
    end subroutine dop853_prepare
 

@@ -11,7 +11,7 @@ module dop853_stages
    use wild_stages, only: evaluate_aside, judge_stage
    implicit none (type, external)
    private
-   public :: dop853_stages_t, dop853_stretch
+   public :: dop853_stages_t, dop853_bound
 
    real(wp), parameter :: c(2:12) = [0.05260015195876773_wp, 0.0789002279381516_wp, 0.1183503419072274_wp, &
       0.2816496580927726_wp, 1.0_wp/3.0_wp, 1.0_wp/4.0_wp, 4.0_wp/13.0_wp, 127.0_wp/195.0_wp, 3.0_wp/5.0_wp, 6.0_wp/7.0_wp, &
@@ -81,7 +81,7 @@ module dop853_stages
    integer, parameter :: n_new_stage = 11  !! evaluations of a trial step; the first stage is known
    integer, parameter :: n_early = 5       !! stages after the first up to this one are of use to later stages only
    integer, parameter :: n_term = 7        !! terms of the interpolant of order 7
-   real(wp), parameter :: dop853_stretch = 6.1_wp  !! stable up to -6.1 along the negative real axis [1]
+   real(wp), parameter :: dop853_bound = 6.1_wp  !! stable up to -6.1 along the negative real axis [1]
 
    !> Stages of a step.
    type :: dop853_stages_t

@@ -61,6 +61,9 @@ module ode_system
       procedure :: from_local => ode_from_local
       procedure :: free_directions => ode_free_directions
       procedure :: evaluate_unheld => ode_evaluate_unheld
+      procedure :: memory_size => ode_memory_size
+      procedure :: save => ode_save
+      procedure :: load => ode_load
    end type ode_system_t
 
    abstract interface
@@ -158,6 +161,27 @@ contains
 
       call self%hold(t, y, status)
    end subroutine ode_mend
+
+   !> Numbers that the system remembers beside its state.
+   integer function ode_memory_size(self) result(n)
+      class(ode_system_t), intent(in) :: self  !! the system
+
+      n = 0
+   end function ode_memory_size
+
+   !> Write them.
+   subroutine ode_save(self, row, place)
+      class(ode_system_t), intent(in) :: self  !! the system
+      real(wp), intent(inout) :: row(:)        !! (any) memory [any]
+      integer, intent(inout) :: place          !! last place used
+   end subroutine ode_save
+
+   !> Read them.
+   subroutine ode_load(self, row, place)
+      class(ode_system_t), intent(inout) :: self  !! the system
+      real(wp), intent(in) :: row(:)              !! (any) memory [any]
+      integer, intent(inout) :: place             !! last place used
+   end subroutine ode_load
 
    !> What event k, as things stand, is to a contact: its onset, its end, or nothing.
    integer function ode_contact_change(self, k) result(change)

@@ -33,9 +33,7 @@ module one_step
       type(step_control_t) :: pace     !! length of the steps
       integer :: order = 1             !! order of the method; the estimate falls as the step to this power
       integer :: n_new_stage = 0       !! evaluations of `make_stages`
-      logical :: bends = .false.       !! it knows how time goes as a square, see `step_course`
-      real(wp) :: stretch = 0.0_wp     !! h rho up to which it is stable, of an explicit method; 0: not known [1]
-      type(stability_limit_t) :: stability   !! whether that keeps its steps short
+      type(stability_limit_t) :: stability   !! whether stability keeps its steps short
    contains
       procedure(prepare_interface), deferred :: prepare
       procedure(stages_interface), deferred :: make_stages
@@ -53,7 +51,8 @@ module one_step
    end type one_step_t
 
    abstract interface
-      !> Room for the stages; sets `order`, `n_new_stage` and, if so, `bends`.
+      !> Room for the stages; sets `order`, `n_new_stage`, `pace%bends` if time may go as a square (`step_course`), and
+      !> `stability%bound` of an explicit method.
       subroutine prepare_interface(self, n)
          import :: one_step_t
          implicit none (type, external)
@@ -112,8 +111,9 @@ contains
       self%step%t0 = t
       self%step%h = 0.0_wp
       self%step%y1 = y
-      self%stability = stability_limit_t(is_watched=self%stretch > 0.0_wp .and. self%controls%fixed_step <= 0.0_wp)
-      self%pace = step_control_t(order=real(self%order, wp), bends=self%bends .and. self%controls%onset == onset_located)
+      self%stability = stability_limit_t(bound=self%stability%bound, &
+                                         is_watched=self%stability%bound > 0.0_wp .and. self%controls%fixed_step <= 0.0_wp)
+      self%pace = step_control_t(order=real(self%order, wp), bends=self%pace%bends .and. self%controls%onset == onset_located)
       call self%restart(system, 0.0_wp, status)
       if (status /= advance_step) return
       self%pace%h_next = self%controls%initial_step
@@ -170,8 +170,8 @@ contains
       if (status == advance_step) then
          ! before events are searched for, which takes the stages away
          if (self%stability%is_watched) then
-            if (self%stability%is_due()) call self%stability%note(self%step%h, self%fastest_rate(system%n - system%n_quadrature), &
-                                                                  self%stretch, self%t, self%count%n_evaluations)
+            if (self%stability%is_due()) &
+               call self%stability%note(self%step%h, self%fastest_rate(system%n - system%n_quadrature), self%t)
          end if
          call finish_step(self, system, status)
       else

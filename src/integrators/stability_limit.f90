@@ -6,6 +6,8 @@
 !> $$ \rho = \| f(y_1) - f(g_s) \| / \| y_1 - g_s \| $$
 !>
 !> over the error scales. Where h rho is near the bound of stability in step after step, the equations are stiff for the method.
+!> Steps of an error control may come no nearer than half of it: eigenvalues lie beside the real axis, or the error estimate grows
+!> first.
 !>
 !> Source: E. Hairer and G. Wanner, Solving Ordinary Differential Equations II, 2nd ed. (1996), section IV.2 (stiffness detection).
 !> Limits: an estimate from below where something slow makes up the difference.
@@ -20,18 +22,18 @@ module stability_limit
    integer, parameter :: enough = 25             !! looks near the bound that make the equations stiff
    integer, parameter :: calm = 6                !! looks in a row below, after which they are not
    integer, parameter :: most = 1000000          !! looks that are counted
-   integer, parameter :: n_stability_number = 11 !! numbers of a checkpoint
-   real(wp), parameter :: near = 0.6_wp          !! of the bound; eigenvalues beside the imaginary axis come no nearer [1]
+   integer, parameter :: n_stability_number = 10 !! numbers of a checkpoint
+   real(wp), parameter :: near = 0.5_wp          !! of the bound [1]
 
    !> What was seen of an explicit method's steps.
    type :: stability_limit_t
+      real(wp) :: bound = 0.0_wp             !! h rho up to which the method is stable; 0: it is not explicit [1]
       logical :: is_watched = .false.        !! whether steps are looked at
       logical :: is_stiff = .false.          !! whether stability keeps the steps short
       integer :: pause = look_every          !! steps until the next look
       integer :: n_near = 0                  !! looks near the bound in this stretch of steps
       integer :: n_below = 0                 !! looks below since the last of them
       real(wp) :: t_from = 0.0_wp            !! where the stretch began [s]
-      integer(i8) :: n_from = 0              !! evaluations until then
       real(wp) :: product = 0.0_wp           !! h rho at the last look [1]
       ! over the run
       integer(i8) :: n_step = 0              !! steps that stability kept short
@@ -50,11 +52,11 @@ contains
    !> Rate at which a difference of two states changes; zero where there is none.
    pure real(wp) function rate_between(n, y_a, f_a, y_b, f_b, scale) result(rate)
       integer, intent(in) :: n           !! entries that count
-      real(wp), intent(in) :: y_a(*)     !! (n or more) a state [any]
-      real(wp), intent(in) :: f_a(*)     !! (n or more) its derivative [any]
-      real(wp), intent(in) :: y_b(*)     !! (n or more) another state [any]
-      real(wp), intent(in) :: f_b(*)     !! (n or more) its derivative [any]
-      real(wp), intent(in) :: scale(*)   !! (n or more) what the entries are measured by [any]
+      real(wp), intent(in) :: y_a(:)     !! (n or more) a state [any]
+      real(wp), intent(in) :: f_a(:)     !! (n or more) its derivative [any]
+      real(wp), intent(in) :: y_b(:)     !! (n or more) another state [any]
+      real(wp), intent(in) :: f_b(:)     !! (n or more) its derivative [any]
+      real(wp), intent(in) :: scale(:)   !! (n or more) what the entries are measured by [any]
 
       real(wp) :: above, below
       integer :: i
@@ -78,20 +80,15 @@ contains
    end function is_due
 
    !> A look at a step.
-   pure subroutine note(self, h, rate, stretch, t, n_evaluation)
+   pure subroutine note(self, h, rate, t)
       class(stability_limit_t), intent(inout) :: self   !! what was seen
       real(wp), intent(in) :: h                   !! length of the step [s]
       real(wp), intent(in) :: rate                !! the fastest rate in it [1/s]
-      real(wp), intent(in) :: stretch             !! h rho at the bound of stability [1]
       real(wp), intent(in) :: t                   !! time at its end [s]
-      integer(i8), intent(in) :: n_evaluation     !! evaluations until then
 
       self%product = h*rate
-      if (self%product > near*stretch) then
-         if (self%n_near == 0) then
-            self%t_from = t
-            self%n_from = n_evaluation
-         end if
+      if (self%product > near*self%bound) then
+         if (self%n_near == 0) self%t_from = t
          self%n_near = min(self%n_near + 1, most)
          self%n_below = 0
          self%is_stiff = self%n_near >= enough
@@ -128,7 +125,6 @@ contains
       call put(row, place, self%n_near)
       call put(row, place, self%n_below)
       call put(row, place, self%t_from)
-      call put(row, place, self%n_from)
       call put(row, place, self%product)
       call put(row, place, self%n_step)
       call put(row, place, self%time)
@@ -147,7 +143,6 @@ contains
       call get(row, place, self%n_near)
       call get(row, place, self%n_below)
       call get(row, place, self%t_from)
-      call get(row, place, self%n_from)
       call get(row, place, self%product)
       call get(row, place, self%n_step)
       call get(row, place, self%time)

@@ -17,7 +17,7 @@ module verner
    use wild_stages, only: evaluate_aside, judge_stage
    implicit none (type, external)
    private
-   public :: verner_stages_t, verner_stretch, verner_t
+   public :: verner_stages_t, verner_bound, verner_t
 
    real(wp), parameter :: c2 = 1.0_wp/6.0_wp, c3 = 4.0_wp/15.0_wp, c4 = 2.0_wp/3.0_wp, c5 = 5.0_wp/6.0_wp, &
       c7 = 1.0_wp/15.0_wp  !! places of the stages; c6 = c8 = 1 [1]
@@ -36,7 +36,7 @@ module verner
       e5 = b5 - 12.0_wp/85.0_wp, e6 = -3.0_wp/44.0_wp, e7 = b7, e8 = b8  !! less those of order 5 [1]
 
    integer, parameter :: n_new_stage = 7  !! evaluations of a trial step; the first stage is known
-   real(wp), parameter :: verner_stretch = 4.07_wp  !! stable up to -4.07 along the negative real axis [1]
+   real(wp), parameter :: verner_bound = 4.07_wp  !! stable up to -4.07 along the negative real axis [1]
 
    !> Stages of a step.
    type :: verner_stages_t
@@ -77,7 +77,7 @@ contains
       integer, intent(in) :: n                !! entries of the state
 
       self%order = 6
-      self%stretch = verner_stretch
+      self%stability%bound = verner_bound
       call self%stages%open(n, self%n_new_stage)
    end subroutine verner_prepare
 

@@ -33,6 +33,10 @@ PARTS = (
     ("space_cost.csv", None, "The plane beside space",
      "The dry slider-crank, ledger off: as the deck of the plane has it (its crank is a known function of time), with all coordinates of the "
      "plane, and translated to space. Instructions of a right-hand side (callgrind); onsets of the first five impacts against the plane's."),
+    ("methods.csv", None, "The method that auto chooses, and the best named one",
+     "Every deck of inputs/ and inputs/hard with a dynamic analysis at a tolerance, and tests/bench/grip.deck. `error`: of positions or angles, the "
+     "maximum over their range, at the deck's tolerance by `method = auto`. `best_ms`: processor time of the best named method (verner, dop853, radau, "
+     "bdf, rock4, adams, ida) for the same error, between its tolerances by a power law. `auto`: the steps that were made, where the method changed, and h lambda there."),
     ("peers/peers_ratio.csv", None, "Other programs on the same scenes (`make bench-peers`)",
      "Time of Simbody (Runge-Kutta-Merson and -Fehlberg; Adams of CPODES for chains), MuJoCo (RK4, implicitfast) and Exudyn (kinematic "
      "tree with DOPRI5 for chains, index-2 trapezoidal rule for loops) over gudgeon's (verner, in space dop853 too, for the governor "

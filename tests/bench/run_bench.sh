@@ -1,7 +1,8 @@
 #!/usr/bin/env bash
 # Speed against error of the dry slider-crank beside a hand-coded program of the same scene (bench.py), time and memory of
 # large scenes (large_scenes.py), speed against error of each way of holding the constraints (holding.py), a small run from start to exit
-# (small_run.py), a sample beside an evaluation (sample_cost.py), the plane beside space (space_cost.py), an evaluation of each lubricant film (film_cost.f90). --docs: docs/performance.md from all of it (report.py).
+# (small_run.py), a sample beside an evaluation (sample_cost.py), the plane beside space (space_cost.py), the method that auto chooses
+# beside every named one on all decks (methods.py), an evaluation of each lubricant film (film_cost.f90). --docs: docs/performance.md from all of it (report.py).
 # Called by `make bench`, which builds the programs. Options go to all: --repeat N, --quick; --callgrind to the first.
 # Speed fails nothing: the exit code is 0 unless something could not be run at all.
 set -euo pipefail
@@ -30,4 +31,5 @@ set -- "${options[@]+"${options[@]}"}"
 "$python" tests/bench/large_scenes.py --build "$build" "$@"
 "$python" tests/bench/holding.py --build "$build" "$@"
 "$python" tests/bench/space_cost.py --build "$build" "$@"
+"$python" tests/bench/methods.py --build "$build" "$@"
 [ -z "$docs" ] || "$python" tests/bench/report.py --build "$build"
