@@ -1,5 +1,6 @@
 !> What the method that chooses remembers in a checkpoint: its choices, and the implicit part once it was chosen.
 submodule(auto) auto_memory
+   use checkpoint, only: add_piece
    use integrator, only: integrator_list_memory
    use memory, only: get, put
    use method_choice, only: n_choice_number
@@ -11,10 +12,11 @@ submodule(auto) auto_memory
 
 contains
 
-   !> List what the integrator saves.
+   !> List what the integrator saves, and the implicit part behind it.
    module procedure auto_list_memory
       call integrator_list_memory(self, pieces)
-      pieces(size(pieces))%is_fixed = .false.
+      pieces(size(pieces))%size = pieces(size(pieces))%size - size_of_part(self)
+      call add_piece(pieces, "implicit part of method = auto", 1, size_of_part(self), is_fixed=.false.)
    end procedure auto_list_memory
 
    !> Version of the form of what is saved.

@@ -34,6 +34,7 @@ contains
       call suite%test("pieces_fill_the_row", test_sizes)
       call suite%test("another_version", test_versions)
       call suite%test("another_size", test_other_size)
+      call suite%test("another_size_of_auto", test_size_of_auto)
       call suite%test("a_piece_more_or_less", test_other_list)
       call suite%test("another_law", test_other_law)
       call suite%test("another_method", test_other_method)
@@ -199,6 +200,31 @@ contains
                             " number", "another size", error)
       end do
    end subroutine test_other_size
+
+   !> The method that chooses remembers its implicit part in a piece of its own, whose size the motion decides; all else has one
+   !> size.
+   subroutine test_size_of_auto(error)
+      type(error_t), allocatable, intent(out) :: error  !! what failed
+
+      type(begun_t), target :: fresh, run
+      type(checkpoint_t) :: saved
+      integer :: k
+
+      call begin(run, error, method="auto")
+      call save_after(5, run, saved, error)
+      if (.not. allocated(error)) call begin(fresh, error, method="auto")
+      if (allocated(error)) return
+      do k = 1, size(saved%pieces)
+         if (saved%pieces(k)%name == "method = auto") exit
+      end do
+      call check_true(error, k < size(saved%pieces), "its piece is there")
+      if (allocated(error)) return
+      call check_equal(error, saved%pieces(k + 1)%name, "implicit part of method = auto", "the next piece")
+      call check_equal(error, saved%pieces(k + 1)%size, 0, "there is no such part yet")
+      saved%pieces(k)%size = saved%pieces(k)%size + 1
+      saved%row = [saved%row, 0.0_wp]
+      call check_refused(fresh, saved, "the memory of method = auto has ", "another size", error)
+   end subroutine test_size_of_auto
 
    !> The last piece is missing, or there is one that nothing has.
    subroutine test_other_list(error)
