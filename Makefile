@@ -115,6 +115,8 @@ stability:
 	@scripts/setup
 	$(inner)release binary
 	@$(PYTHON) -B tests/stability/stability.py --build $(abspath $(BUILD)) $(STABILITY)
+	@GUDGEON_ALL_DECKS=1 GUDGEON_BUILD=$(abspath $(BUILD)) PYTEST_DISABLE_PLUGIN_AUTOLOAD=1 \
+	  $(PYTHON) -B -m pytest -c tests/pytest.ini $(workers) $(PYTEST) tests/e2e/test_one_peak.py tests/e2e/test_unknown_numbers.py
 
 # runs killed at random moments: readable, and resumed bit for bit; KILL='--restarts 5 --kills 20 --seed 1' for options
 kill-test:
@@ -185,7 +187,7 @@ help:
 	@echo "make vtk-test   the file of a motion (motion = vtkhdf) read by VTK itself, from PyPI in a virtual environment"
 	@echo "make browser-test  pages of animations and of runs opened by Chromium: no error, another picture after a step"
 	@echo "make slurm-test    a sweep as a job array of a Slurm on this host, with tasks killed and out of time (as root)"
-	@echo "make stability  the hard cases of inputs/hard, each way of holding the constraints beside its limit"
+	@echo "make stability  the hard cases of inputs/hard, each way of holding the constraints beside its limit; extremes of all decks"
 	@echo "make kill-test  runs killed at random moments, read and resumed; KILL='--kills 20' for options"
 	@echo "make certify    intervals of 'run --accuracy' against the true errors of 200 random decks; CERTIFY='-n 50' for options"
 	@echo "make fuzz       N=1000 broken decks through check, explain and run in both builds; FUZZ='--run 0.5' for options"

@@ -8,6 +8,8 @@
     run["slider.velocity.x"]                      # an array, one number for each output instant
     run.units["slider.velocity.x"]                # "m/s"
     run["time"], run.events["impact_speed"]       # instants; the table of events
+    run.extremes["slider.velocity.x"].greatest    # located between the rows too; least, least_time, greatest_time
+    run.peak("slider.velocity.x")                 # the greatest magnitude and its time
     run.to_pandas(), run.to_xarray()              # where pandas or xarray are there
 
 Names are those of the deck's `channels`: item.quantity, item.quantity.component, and item.contact.quantity where a joint has several
@@ -21,6 +23,7 @@ Needs h5py and numpy. Format 2 of run.h5: docs/output.md.
 """
 
 import argparse
+import collections
 import csv
 import pathlib
 import sys
@@ -33,8 +36,11 @@ ROOMS = ("bodies", "joints", "drivers", "clearances", "forces", "points", "motio
 COMPONENTS = {2: "xy", 3: "xyz", 4: ("e0", "e1", "e2", "e3")}
 
 
+Extremes = collections.namedtuple("Extremes", "least least_time greatest greatest_time")
+
+
 class Run(dict):
-    """Channels of a run by name; `units` and `help` by the same names, `attributes` of the file and its summary, `events`."""
+    """Channels of a run by name; `units`, `help` and `extremes` by the same names, `attributes` of the file and its summary, `events`."""
 
     def __init__(self, path, rows="instants"):
         super().__init__()
@@ -42,7 +48,7 @@ class Run(dict):
             raise ValueError(f"rows = {rows!r}: it is 'instants' or 'all'")
         path = pathlib.Path(path)
         self.path = path / "run.h5" if path.is_dir() else path
-        self.units, self.help = {}, {}
+        self.units, self.help, self.extremes = {}, {}, {}
         with h5py.File(self.path, "r") as file:
             kind = file.attrs.get("filetype")
             if kind != "gudgeon run" or file.attrs["format_version"][0] != FORMAT:
@@ -54,6 +60,7 @@ class Run(dict):
             n = len(file["time"])  # grows last: a run that goes on, or was killed, may have more of the others
             kinds = file["row_kind"][:n]
             self._rows = np.ones(n, bool) if rows == "all" else kinds == 0
+            self._time = file["time"][:n]
             self._put("time", file["time"], file["time"][:n])
             if rows == "all":
                 self._put("row_kind", file["row_kind"], kinds)
@@ -67,12 +74,23 @@ class Run(dict):
             for room, word in (("energy", "energy"), ("requests", "request")):
                 for quantity, data in file.get(room, {}).items():
                     self._put(f"{word}.{quantity}", data, data[:n])
+            if "extremes/channels" in file:  # as the run located them; before it has ended those of its rows stand
+                of = file["extremes/channels"]
+                numbers = zip(*(of[name][()].tolist() for name in Extremes._fields))
+                for name, extremes in zip(map(plain, of["name"][()]), map(Extremes._make, numbers)):
+                    if name in self.extremes and np.isfinite(extremes.least):
+                        self.extremes[name] = extremes
 
     def _put(self, name, data, values):
         """Keep a channel; one without any number was not recorded of its item."""
         if values.dtype.kind == "f" and len(values) and np.isnan(values).all():
             return
         self[name] = values[self._rows] if len(values) == len(self._rows) else values
+        if values.dtype.kind == "f" and name != "time" and len(values) == len(self._time) > 0:
+            least, greatest = int(np.nanargmin(values)), int(np.nanargmax(values))
+            self.extremes[name] = Extremes(
+                float(values[least]), float(self._time[least]), float(values[greatest]), float(self._time[greatest])
+            )
         self.units[name] = plain(data.attrs["units"])
         self.help[name] = plain(data.attrs["long_name"])
 
@@ -89,6 +107,13 @@ class Run(dict):
                     continue
                 for component, letter in enumerate(COMPONENTS[values.shape[2]]):
                     self._put(f"{name}.{quantity}.{letter}", data, values[:, item, component])
+
+    def peak(self, name):
+        """The greatest magnitude of a channel, and when: that of the summary, `compare` and the statistics of the whole run."""
+        of = self.extremes[name]
+        if abs(of.least) > abs(of.greatest):
+            return abs(of.least), of.least_time
+        return abs(of.greatest), of.greatest_time
 
     def to_pandas(self):
         """A pandas.DataFrame with the time as index; units are in `attrs["units"]`."""
@@ -136,7 +161,10 @@ def main():
     if not asked.channels:
         width = max(map(len, run))
         for name in run:
-            print(f"{name:{width}}  [{run.units[name]}]  {run.help[name]}")
+            between = ""
+            if name in run.extremes:
+                between = f"  {run.extremes[name].least:.6g} to {run.extremes[name].greatest:.6g}"
+            print(f"{name:{width}}  [{run.units[name]}]  {run.help[name]}{between}")
         return
     names = ["time"]
     for word in asked.channels:

@@ -11,7 +11,7 @@ module contact_peaks
    private
    public :: add_peak, drop_peaks, find_force_peak, find_penetration_peak, has_peak_above, look, may_exceed, peak_t, trend_t
 
-   real(wp), parameter :: near_depth = 3.0e-5_wp  !! what a parabola may add to a maximum of the penetration, of it [1]
+   real(wp), parameter :: near_depth = 1.0e-8_wp  !! what may be missing to a maximum of the penetration, of it [1]
    real(wp), parameter :: near_force = 1.0e-8_wp  !! what may be missing to a maximum of the force, of it [1]
    real(wp), parameter :: close_by = 0.25_wp      !! rise above the ends of a step that are near a maximum, of them [1]
    integer, parameter :: n_search = 24            !! places looked at in search of a maximum
@@ -54,10 +54,10 @@ contains
                                              force%value, force%rate)
    end subroutine look
 
-   !> Maximum of the penetration within the last step, on its interpolant. What is still missing to the maximum of the parabola
-   !> through the place is added. Where it is far above the ends the step is long for the contact, as steps of stiff methods are at
-   !> rest, and the interpolant may be poor: then the penetration is that of a state that the method itself reaches there.
-   subroutine find_penetration_peak(system, method, slot, item, left, right, y, greatest, t)
+   !> Maximum of the penetration within the last step: the place is found on its interpolant, the value is that of a row there.
+   !> Where it is far above the ends the step is long for the contact, as steps of stiff methods are at rest, and the interpolant
+   !> may be poor: then the value is that of a state that the method itself reaches.
+   subroutine find_penetration_peak(system, method, slot, item, left, right, y, greatest, peak)
       type(mechanism_t), intent(inout) :: system    !! the system
       class(integrator_t), intent(inout) :: method      !! the integrator, after a step
       integer, intent(in) :: slot                       !! set of the contact
@@ -65,36 +65,44 @@ contains
       type(trend_t), intent(in) :: left                 !! penetration at the start of the step
       type(trend_t), intent(in) :: right                !! penetration at its end
       real(wp), intent(inout), contiguous :: y(:)       !! (n) scratch state [any]
-      real(wp), intent(out) :: greatest                 !! the greatest penetration found [m]
-      real(wp), intent(out) :: t                        !! when it is there [s]
+      real(wp), intent(out) :: greatest                 !! the greatest penetration found; 0: none [m]
+      type(peak_t), intent(inout) :: peak               !! time and state there, with the force
 
       type(bracket_t) :: bracket
       type(trend_t) :: force, here
       real(wp) :: place
+      integer(i8) :: n_output
       integer :: k, status
 
       greatest = 0.0_wp
-      t = method%step%t0
+      peak%t = method%step%t0
       bracket = bracket_t(h=method%step%h, a=left, b=right)
       do k = 1, n_search
          place = place_in(bracket, k)
          call method%within(system, place, y)
          call system%linkage%set_motion(method%step%t0 + place*method%step%h, y)
          call look(system, slot, item, force, here)
-         if (here%value + missing(here, bracket) > greatest) then
-            greatest = here%value + missing(here, bracket)
-            t = method%step%t0 + place*method%step%h
+         if (here%value > greatest) then
+            greatest = here%value
+            peak%t = method%step%t0 + place*method%step%h
          end if
          if (missing(here, bracket) <= near_depth*abs(here%value)) exit
          call narrow(place, here, bracket)
       end do
-      if (greatest <= (1.0_wp + close_by)*max(left%value, right%value)) return
-      call method%refine(system, (t - method%step%t0)/method%step%h, y, status)
-      greatest = max(left%value, right%value)
-      if (status /= 0) return
-      call system%linkage%set_motion(t, y)
+      if (greatest <= (1.0_wp + close_by)*max(left%value, right%value)) then
+         n_output = method%count%n_output_evaluations  ! these are made whether there is output or not
+         call method%reach(system, peak%t, y)
+         method%count%n_output_evaluations = n_output
+      else
+         greatest = 0.0_wp
+         call method%refine(system, (peak%t - method%step%t0)/method%step%h, y, status)
+         if (status /= 0) return
+      end if
+      call system%linkage%set_motion(peak%t, y)
       call look(system, slot, item, force, here)
-      greatest = max(greatest, here%value)
+      greatest = here%value
+      peak%force = force%value
+      peak%y = y
    end subroutine find_penetration_peak
 
    !> Whether a force has a maximum within a step that may be greater than a value. Where a contact ends its force may have no rate.

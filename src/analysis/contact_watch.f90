@@ -2,7 +2,8 @@
 !>
 !> The greatest force of a contact is one that the motion had at an instant that can be reported: a maximum within a step, which is
 !> told at once (`peaks`), or the force at the end of a step, of which a row is owed (`owes_row`) until one is written there or a
-!> greater force is found. What is greater by no more than the noise of an integration is not told anew.
+!> greater force is found. What is greater by no more than the noise of an integration is not told anew. Where rows at contacts are
+!> wanted (`tells_all`), every maximum of force and penetration is told that rises by more than `ripple` above the minimum before.
 module contact_watch
    use clearance_set, only: clearance_set_t, loss_contact, loss_friction
    use contact_peaks, only: drop_peaks, look, peak_t, trend_t
@@ -23,7 +24,8 @@ module contact_watch
 
    real(wp), parameter :: first_step = 0.01_wp   !! first step of a contact, of the duration of an elastic impact [1]
    real(wp), parameter :: noise = 1.0e-7_wp      !! of a force that a row has told: more than that is worth another row [1]
-   integer, parameter :: n_remembered = 6        !! numbers of a contact in a checkpoint
+   real(wp), parameter :: ripple = 1.0e-4_wp     !! rise to a maximum that is none, of the greatest value of the contact [1]
+   integer, parameter :: n_remembered = 8        !! numbers of a contact in a checkpoint
 
    !> What is known of each contact at the end of the last step.
    type :: contact_watch_t
@@ -31,6 +33,8 @@ module contact_watch
       integer :: n_peak = 0                          !! how many
       logical, allocatable :: owes_row(:)            !! (contacts) the present force is the greatest so far, and no row tells it
       real(wp), allocatable :: told(:)               !! (contacts) the greatest force of the contact that a row tells [N]
+      logical :: tells_all = .false.                 !! maxima are told that are not the greatest so far, too
+      real(wp), allocatable :: low(:, :)             !! (2, contacts) least force and penetration since the last maximum [N, m]
       real(wp) :: made = 0.0_wp                      !! energy that the contact of the last event began with, from nothing [J]
       real(wp) :: shift = 0.0_wp                     !! time from the last onset to where a force that jumps there is seen [s]
       type(trend_t), allocatable :: force(:)         !! (contacts) normal force
@@ -94,6 +98,7 @@ contains
       allocate (watch%peaks(1))
       allocate (watch%owes_row(system%loose%n_contact), source=.false.)
       allocate (watch%told(system%loose%n_contact), source=0.0_wp)
+      allocate (watch%low(2, system%loose%n_contact), source=0.0_wp)
       allocate (watch%force(system%loose%n_contact), watch%penetration(system%loose%n_contact))
       allocate (watch%y(system%n), watch%ydot(system%n), source=0.0_wp)
       allocate (watch%g(system%loose%n_contact), watch%g_rate(system%loose%n_contact), source=0.0_wp)
@@ -225,6 +230,7 @@ contains
          is_over = set%contact(i)%is_touching
          self%owes_row(number) = .false.
          self%told(number) = 0.0_wp
+         self%low(:, number) = 0.0_wp
          if (is_over) then
             loss = loss_of(system, method%step%y1, k, i)
             if (system%ledger%is_kept) then

@@ -18,6 +18,7 @@ contains
          call put(row, place, [self%force(k)%value, self%force(k)%rate, self%penetration(k)%value, self%penetration(k)%rate])
          call put(row, place, self%owes_row(k))
          call put(row, place, self%told(k))
+         call put(row, place, self%low(:, k))
       end do
    end procedure watch_save
 
@@ -32,6 +33,8 @@ contains
          call get(row, place, self%penetration(k)%rate)
          call get(row, place, self%owes_row(k))
          call get(row, place, self%told(k))
+         call get(row, place, self%low(1, k))
+         call get(row, place, self%low(2, k))
       end do
    end procedure watch_load
 

@@ -40,6 +40,7 @@ contains
          type(trend_t) :: force, penetration
          type(greatest_t) :: most
          real(wp) :: greatest   ! force before the step [N]
+         real(wp) :: least      ! force that a maximum worth telling has at least [N]
          integer :: number, place
          logical :: has_force_peak, has_peak, is_greatest
 
@@ -50,7 +51,9 @@ contains
             place = system%place_of_impulse(number)
             has_peak = self%penetration(number)%rate >= 0.0_wp .and. penetration%rate < 0.0_wp
             has_force_peak = self%force(number)%rate >= 0.0_wp .and. force%rate <= 0.0_wp
-            if (has_force_peak) has_force_peak = has_peak_above(self%force(number), force, penetration, method%step%h, greatest)
+            least = greatest
+            if (self%tells_all) least = min(greatest, self%low(1, number) + ripple*greatest)
+            if (has_force_peak) has_force_peak = has_peak_above(self%force(number), force, penetration, method%step%h, least)
             most = greatest_t(penetration%value, method%t, -1.0_wp, method%t)
             if (has_peak .or. has_force_peak) then
                call find_peaks(self, system, method, slot, item, has_peak, has_force_peak, force, penetration, most)
@@ -74,6 +77,7 @@ contains
          end associate
          self%force(number) = force
          self%penetration(number) = penetration
+         self%low(:, number) = min(self%low(:, number), [force%value, penetration%value])
       end subroutine see_contact
 
    end procedure after_step
@@ -92,25 +96,33 @@ contains
       type(greatest_t), intent(inout) :: most         !! what was at most, so far the end of the step
 
       type(peak_t) :: peak
-      real(wp) :: deepest, deepest_at
+      real(wp) :: deepest
       integer :: number
+      logical :: is_told
 
       associate (set => system%loose%sets(slot)%set)
          number = set%before%contacts + item
          if (has_peak) then
-            call find_penetration_peak(system, method, slot, item, self%penetration(number), penetration, self%y, deepest, &
-                                       deepest_at)
+            call find_penetration_peak(system, method, slot, item, self%penetration(number), penetration, self%y, deepest, peak)
             if (penetration%value <= deepest) then
                most%depth = deepest
-               most%depth_at = deepest_at
+               most%depth_at = peak%t
+               is_told = deepest > self%low(2, number) + ripple*max(deepest, set%contact(item)%peak_penetration)
+               if (self%tells_all .and. is_told) then
+                  call add_peak(peak, self%peaks, self%n_peak)
+                  self%low(2, number) = deepest
+               end if
             end if
          end if
          if (has_force_peak) then
             call find_force_peak(system, method, slot, item, self%force(number), force, self%y, self%ydot, peak)
             most%force = peak%force
             most%force_at = peak%t
-            if (peak%force > max(set%contact(item)%peak_force, force%value) &
-                .and. peak%force > (1.0_wp + noise)*self%told(number)) call tell(self, number, peak)
+            is_told = peak%force > max(set%contact(item)%peak_force, force%value) &
+                      .and. peak%force > (1.0_wp + noise)*self%told(number)
+            if (self%tells_all) is_told = is_told .or. (peak%force > force%value .and. &
+                                          peak%force > self%low(1, number) + ripple*max(peak%force, set%contact(item)%peak_force))
+            if (is_told) call tell(self, number, peak)
          end if
       end associate
       call system%linkage%set_state(method%t, method%step%y1, method%step%f1)
@@ -123,7 +135,8 @@ contains
       type(peak_t), intent(in) :: peak                !! the force and where it is
 
       call add_peak(peak, self%peaks, self%n_peak)
-      self%told(number) = peak%force
+      self%told(number) = max(self%told(number), peak%force)
+      self%low(1, number) = peak%force
    end subroutine tell
 
 end submodule contact_watch_steps

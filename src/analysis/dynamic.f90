@@ -100,7 +100,7 @@ contains
       allocate (run%waiting(size(run%whole%parts)))
       call new_sampler(system, plan, run%sampler, catalogue)
       call recorder%start(run%sampler%catalogue, error)
-      if (.not. allocated(error)) call run%sampler%ask(system, recorder, run%stop)
+      if (.not. allocated(error)) call run%sampler%ask(run%whole, recorder, run%stop)
       call run%tally%aside%begin(0.0_wp)
       call cpu_time(cpu_0)
       run%cpu_begin = cpu_0
@@ -158,10 +158,16 @@ contains
          if (run%whole%t >= run%sampler%due .or. run%whole%n_peak > 0) then
             call run%sampler%take(run%whole, plan, run%tally%residual, recorder, error)
          end if
+         if (run%sampler%follows_steps .and. .not. allocated(error)) then
+            call run%sampler%follow_step(run%whole, .false., plan, run%tally%residual, recorder)
+         end if
          if (.not. run%whole%is_smooth) then
             if (.not. allocated(error)) call look_at_guards(run, error)
             if (run%stop%met == 0 .and. .not. allocated(error)) call handle_events(run, plan, recorder, error)
             if (run%stop%met == 0 .and. .not. allocated(error)) call pass_instants(run, plan, recorder, error)
+            if (run%sampler%follows_steps .and. run%stop%met == 0 .and. .not. allocated(error)) then
+               call run%sampler%follow_step(run%whole, .true., plan, run%tally%residual, recorder)
+            end if
          end if
          n_since_progress = n_since_progress + 1
          if (n_since_progress == progress_every) then

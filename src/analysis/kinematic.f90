@@ -6,11 +6,15 @@
 !> than 0.05 rad, is divided, so that the mechanism stays on its branch. When no step however small gets on,
 !> a driver has met a dead centre (or jumps), and the run ends there.
 !>
+!> Where a driver or a load jumps or bends between two output instants, the values of both sides count among the extremes.
+!>
 !> Source: Flores et al. (2008), section 2.4, figure 2.5. Limits: all joints ideal; no integrated works.
 module kinematic
    use catalogue, only: catalogue_t
+   use channel_peaks, only: channel_peaks_t, tell_between
    use cpu_budget, only: cpu_budget_t
    use errors, only: error_t, exit_integration, set_error
+   use instants, only: instants_t
    use inverse_dynamics, only: find_reactions
    use kinds, only: i8, not_a_number, wp
    use linkage, only: linkage_t
@@ -106,10 +110,15 @@ contains
       type(summary_t), intent(inout) :: summary           !! cost and errors so far
       type(error_t), allocatable, intent(out) :: error    !! a dead centre, or a file could not be written
 
+      type(channel_peaks_t) :: peaks
+      type(instants_t) :: instants
       type(state_t) :: state
       integer(i8) :: k
       integer :: outcome
 
+      instants = plan%instants
+      if (instants%n > 0) call instants%begin(plan%end, system%linkage%piece)
+      if (allocated(recorder%located%place)) call peaks%begin(catalogue, recorder%located%place, recorder%located%from, 0)
       state%q = q
       allocate (state%v(size(system%linkage%mass)), state%a(size(system%linkage%mass)), source=0.0_wp)
       call solve_instant(system, newton, state, outcome)
@@ -118,11 +127,16 @@ contains
          return
       end if
       do k = 0, last_instant(plan)
+         do while (instants%next%at <= min(instant(plan, k), plan%end) .and. instants%next%at < plan%end)
+            call pass_instant(system, state, plan, newton, instants, peaks, recorder, catalogue, summary, error)
+            if (allocated(error)) return
+         end do
          call move_to(system, instant(plan, k), least_step*plan%every, newton, state, summary, error)
          if (allocated(error)) return
          call report(system, state, catalogue, summary)
          call recorder%sample(state%t, catalogue, error)
          if (allocated(error)) return
+         if (allocated(peaks%place)) call find_extremes(system, state, .true., newton, peaks, recorder, catalogue, summary)
          summary%count%samples = summary%count%samples + 1
          if (mod(k, progress_every) == 0_i8) call recorder%progress(state%t/plan%end)
          if (recorder%wish(.false.) == wish_stop .and. k < last_instant(plan)) then
@@ -137,6 +151,87 @@ contains
          end if
       end do
    end subroutine follow
+
+   !> Pass an instant at which functions of time are not smooth: values before and behind it count among the extremes.
+   subroutine pass_instant(system, state, plan, newton, instants, peaks, recorder, catalogue, summary, error)
+      type(mechanism_t), intent(inout) :: system      !! the system
+      type(state_t), intent(inout) :: state               !! the motion, moved to the instant
+      type(time_plan_t), intent(in) :: plan               !! times
+      type(newton_t), intent(inout) :: newton             !! controls and cost
+      type(instants_t), intent(inout) :: instants         !! the next one is passed
+      type(channel_peaks_t), intent(inout) :: peaks       !! begin anew
+      class(recorder_t), intent(inout) :: recorder        !! keeps the results
+      type(catalogue_t), intent(inout) :: catalogue       !! what is reported
+      type(summary_t), intent(inout) :: summary           !! cost and errors so far
+      type(error_t), allocatable, intent(out) :: error    !! there is no way on
+
+      type(state_t) :: behind
+      integer :: outcome
+
+      call move_to(system, instants%next%at, least_step*plan%every, newton, state, summary, error)
+      if (allocated(error)) return
+      call tell_side(state)
+      call instants%pass(system%linkage%piece)
+      call peaks%forget()
+      behind = state
+      call try(system, newton, behind, outcome)
+      if (outcome /= solved) then
+         call describe_failure(system, state, state%t, outcome, newton, error)
+         return
+      end if
+      state = behind
+      call tell_side(state)
+
+   contains
+
+      !> Values on one side of the instant.
+      subroutine tell_side(side)
+         type(state_t), intent(in) :: side   !! the motion there
+
+         if (side%t < plan%first_output) return
+         call report(system, side, catalogue, summary)
+         call recorder%between(side%t, catalogue)
+         if (allocated(peaks%place)) call find_extremes(system, side, .false., newton, peaks, recorder, catalogue, summary)
+      end subroutine tell_side
+
+   end subroutine pass_instant
+
+   !> Extremes between an instant and those before, each found by a solution there. The system comes back to the instant.
+   subroutine find_extremes(system, state, is_written, newton, peaks, recorder, catalogue, summary)
+      type(mechanism_t), intent(inout) :: system      !! the system
+      type(state_t), intent(in) :: state                  !! the motion at the instant
+      logical, intent(in) :: is_written                   !! the instant is an output instant
+      type(newton_t), intent(inout) :: newton             !! controls and cost
+      type(channel_peaks_t), intent(inout) :: peaks       !! the instants before, this one is added
+      class(recorder_t), intent(inout) :: recorder        !! keeps the results
+      type(catalogue_t), intent(inout) :: catalogue       !! values at the instant
+      type(summary_t), intent(inout) :: summary           !! maxima are raised
+
+      type(state_t) :: between
+      real(wp), parameter :: none(0) = 0.0_wp
+      integer :: outcome
+      logical :: counts, has_moved, is_there
+
+      call peaks%add_row(state%t, catalogue%values, none, none, is_written)
+      has_moved = .false.
+      do
+         call peaks%ask(between%t, is_there)
+         if (.not. is_there) exit
+         has_moved = .true.
+         between%q = state%q
+         between%v = state%v
+         between%a = state%a
+         associate (h => between%t - state%t)
+            call system%linkage%coordinates%add_change(system%linkage%bodies%n, h*(state%v + 0.5_wp*h*state%a), between%q)
+         end associate
+         call solve_instant(system, newton, between, outcome)
+         if (outcome /= solved) exit
+         call report(system, between, catalogue, summary)
+         call peaks%answer(catalogue%values, catalogue%values(peaks%asked_for()), counts)
+         if (counts) call tell_between(between%t, peaks%asked_for(), catalogue, recorder)
+      end do
+      if (has_moved) call evaluate_rows(system%linkage, state%t, state%q, state%v)
+   end subroutine find_extremes
 
    !> Move to a later time in as many steps as it takes to stay on the branch.
    subroutine move_to(system, t, shortest, newton, state, summary, error)
@@ -239,7 +334,7 @@ contains
       integer :: turn
 
       call evaluate_rows(system%linkage, state%t, state%q, state%v)
-      call system%evaluate_loads(state%t)
+      call system%evaluate_loads(system%linkage%piece%inside(state%t))
       call find_reactions(system%linkage, system%loading%g, state%a, unbalanced)
       do turn = 1, merge(most_turns, 0, system%friction%rubbing%n > 0)  ! friction in joints, by the reactions that it gives
          call system%rub_by_multipliers(.true., turn > 1, change)

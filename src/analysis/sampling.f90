@@ -5,6 +5,7 @@
 !> ended. Where a normal force jumps there are two rows of the same time, the limits from before and from after.
 module sampling
    use catalogue, only: catalogue_t
+   use channel_peaks, only: channel_peaks_t, tell_between, tell_sample
    use errors, only: error_t
    use film_moments, only: film_moments_t
    use integrator, only: advance_failed_evaluation
@@ -14,6 +15,7 @@ module sampling
    use mechanism, only: mechanism_t
    use recorder, only: n_row_kind, recorder_t, row_end, row_jump, row_onset, row_peak, row_stop
    use run_failure, only: describe_failure
+   use sample_stride, only: sample_stride_t
    use stop_condition, only: stop_t
    use tape, only: tape_t
    use time_aside, only: time_aside_t
@@ -21,7 +23,7 @@ module sampling
    use whole_motion, only: whole_motion_t
    implicit none (type, external)
    private
-   public :: new_sampler, sampler_t
+   public :: forget, new_sampler, put_row_here, report, sampler_t
 
    !> What is reported of a motion, and how far it is.
    type :: sampler_t
@@ -33,6 +35,9 @@ module sampling
       type(time_aside_t) :: aside                !! CPU time spent
       real(wp) :: until = huge(1.0_wp)           !! no later instant is reported [s]
       type(film_moments_t) :: films              !! films that are asked for
+      logical :: follows_steps = .false.         !! ends of steps are looked at for extremes
+      type(channel_peaks_t), private :: peaks    !! extremes between rows
+      type(sample_stride_t), private :: stride   !! which steps are looked at
       integer(i8), private :: n_last_sample = 0  !! number of the last output instant, from 0
       real(wp) :: due = -huge(1.0_wp)            !! only peaks are to be taken before that; early if it is not known [s]
       real(wp), private :: t_row = -1.0_wp       !! time of the last row [s]
@@ -44,6 +49,7 @@ module sampling
       procedure :: ask => ask_readers
       procedure :: take => take_samples
       procedure :: take_stop
+      procedure :: follow_step
       procedure :: before_events
       procedure :: after_events
       procedure :: before_instant
@@ -51,6 +57,88 @@ module sampling
       procedure :: save => save_samples
       procedure :: load => load_samples
    end type sampler_t
+
+   interface
+      !> The row that was just reported, and extremes between it and the rows before.
+      module subroutine find_extremes(self, whole, t, is_written, residual, recorder)
+         implicit none (type, external)
+         class(sampler_t), intent(inout) :: self             !! what is reported
+         type(whole_motion_t), intent(inout) :: whole        !! the motion, its state that of the row
+         real(wp), intent(in) :: t                           !! time of the row [s]
+         logical, intent(in) :: is_written                   !! not the end of a step only
+         real(wp), intent(in) :: residual                    !! of the ledger at the last step [J]
+         class(recorder_t), intent(inout) :: recorder        !! keeps the results
+      end subroutine find_extremes
+
+      !> The end of a step as a row that is not written, and extremes near it. Whether a step is looked at does not depend on rows.
+      module subroutine follow_step(self, whole, begins, plan, residual, recorder)
+         implicit none (type, external)
+         class(sampler_t), intent(inout) :: self             !! what is reported
+         type(whole_motion_t), intent(inout) :: whole        !! the motion, after a step and what is due of it
+         logical, intent(in) :: begins                       !! after events there: what comes does not continue what was before
+         type(time_plan_t), intent(in) :: plan               !! times
+         real(wp), intent(in) :: residual                    !! of the ledger at the last step [J]
+         class(recorder_t), intent(inout) :: recorder        !! keeps the results
+      end subroutine follow_step
+
+      !> All stroboscopic instants up to the time that all have reached.
+      module subroutine take_strobes(self, whole, plan, residual, recorder, error)
+         implicit none (type, external)
+         class(sampler_t), intent(inout) :: self             !! what is reported
+         type(whole_motion_t), intent(inout) :: whole        !! the motion
+         type(time_plan_t), intent(in) :: plan               !! times
+         real(wp), intent(in) :: residual                    !! of the ledger at the last step [J]
+         class(recorder_t), intent(inout) :: recorder        !! keeps the results
+         type(error_t), allocatable, intent(out) :: error    !! the equations cannot be solved there
+      end subroutine take_strobes
+
+      !> Films of all times up to that which all have reached.
+      module subroutine take_fields(self, whole, residual, recorder, error)
+         implicit none (type, external)
+         class(sampler_t), intent(inout) :: self             !! what is reported
+         type(whole_motion_t), intent(inout) :: whole        !! the motion
+         real(wp), intent(in) :: residual                    !! of the ledger at the last step [J]
+         class(recorder_t), intent(inout) :: recorder        !! keeps the results
+         type(error_t), allocatable, intent(out) :: error    !! the equations cannot be solved there
+      end subroutine take_fields
+   end interface
+
+   interface
+      !> The row before the events at the end of the last steps, where a contact ends or a force may jump.
+      module subroutine before_events(self, whole, parts, plan, residual, recorder, error)
+         implicit none (type, external)
+         class(sampler_t), intent(inout) :: self             !! what is reported
+         type(whole_motion_t), intent(inout) :: whole        !! the motion, at the events
+         integer, intent(in) :: parts(:)                     !! (any) parts that have some
+         type(time_plan_t), intent(in) :: plan               !! times
+         real(wp), intent(in) :: residual                    !! of the ledger at the last step [J]
+         class(recorder_t), intent(inout) :: recorder        !! keeps the results
+         type(error_t), allocatable, intent(out) :: error    !! a file could not be written
+      end subroutine before_events
+
+      !> The row before an instant at which functions of time are not smooth, if one is owed. What is due behind it is found anew.
+      module subroutine before_instant(self, whole, plan, residual, recorder, error)
+         implicit none (type, external)
+         class(sampler_t), intent(inout) :: self             !! what is reported
+         type(whole_motion_t), intent(inout) :: whole        !! the motion at the instant, functions of time those before it
+         type(time_plan_t), intent(in) :: plan               !! times
+         real(wp), intent(in) :: residual                    !! of the ledger at the last step [J]
+         class(recorder_t), intent(inout) :: recorder        !! keeps the results
+         type(error_t), allocatable, intent(out) :: error    !! a file could not be written
+      end subroutine before_instant
+
+      !> The row after the events, where a contact began or a force may have jumped.
+      module subroutine after_events(self, whole, parts, plan, residual, recorder, error)
+         implicit none (type, external)
+         class(sampler_t), intent(inout) :: self             !! what is reported
+         type(whole_motion_t), intent(inout) :: whole        !! the motion, its parts begun again
+         integer, intent(in) :: parts(:)                     !! (any) parts that had events
+         type(time_plan_t), intent(in) :: plan               !! times
+         real(wp), intent(in) :: residual                    !! of the ledger at the last step [J]
+         class(recorder_t), intent(inout) :: recorder        !! keeps the results
+         type(error_t), allocatable, intent(out) :: error    !! a file could not be written
+      end subroutine after_events
+   end interface
 
    interface
       !> Write how far the reports are.
@@ -88,9 +176,9 @@ contains
    end subroutine new_sampler
 
    !> Learn what is read of a report: nothing else is found.
-   subroutine ask_readers(self, system, recorder, stop)
+   subroutine ask_readers(self, whole, recorder, stop)
       class(sampler_t), intent(inout) :: self         !! what is reported
-      type(mechanism_t), intent(in) :: system         !! the system
+      type(whole_motion_t), intent(inout) :: whole    !! the motion
       class(recorder_t), intent(in) :: recorder       !! keeps the results, started
       type(stop_t), intent(in) :: stop                !! conditions that end the run
 
@@ -101,8 +189,13 @@ contains
             is_wanted = [(recorder%wants(k, i) .or. stop%wants(k, i), i=1, size(is_wanted))]
          end associate
       end do
-      call bind_channels(system, self%catalogue)
-      call self%films%begin(system, recorder)
+      call bind_channels(whole%system, self%catalogue)
+      call self%films%begin(whole%system, recorder)
+      whole%parts(:)%watch%tells_all = recorder%wants_contact_rows
+      if (.not. allocated(recorder%located%place)) return
+      call self%peaks%begin(self%catalogue, recorder%located%place, recorder%located%from, size(self%y))
+      call self%stride%begin(whole%system%linkage%n_rate)
+      self%follows_steps = size(whole%parts) == 1
    end subroutine ask_readers
 
    !> All output instants and peaks of contacts up to the time that all parts have reached; an output instant at which functions of
@@ -156,6 +249,7 @@ contains
             call report(self, whole, t, .false., 0.0_wp, residual, error)
             if (.not. allocated(error)) call recorder%sample(t, self%catalogue, error)
             if (allocated(error)) return
+            if (allocated(self%peaks%place)) call find_extremes(self, whole, t, .true., residual, recorder)
             self%t_row = t
             self%n_sample = self%n_sample + 1
             t = next_instant(self, whole%system, plan)
@@ -191,67 +285,13 @@ contains
       if (t >= system%linkage%piece%end) t = huge(1.0_wp)
    end function next_instant
 
-   !> The row before the events at the end of the last steps, where a contact ends or a force may jump.
-   subroutine before_events(self, whole, parts, plan, residual, recorder, error)
-      class(sampler_t), intent(inout) :: self             !! what is reported
-      type(whole_motion_t), intent(inout) :: whole        !! the motion, at the events
-      integer, intent(in) :: parts(:)                     !! (any) parts that have some
-      type(time_plan_t), intent(in) :: plan               !! times
-      real(wp), intent(in) :: residual                    !! of the ledger at the last step [J]
-      class(recorder_t), intent(inout) :: recorder        !! keeps the results
-      type(error_t), allocatable, intent(out) :: error    !! a file could not be written
+   !> What comes does not continue what was before.
+   pure subroutine forget(self)
+      type(sampler_t), intent(inout) :: self   !! what is reported
 
-      integer :: k, kind
-      logical :: begins, ends, has_end, jumps
-
-      has_end = .false.
-      self%has_onset = .false.
-      self%has_jump = .false.
-      do k = 1, size(parts)
-         associate (part => whole%parts(parts(k)))
-            call part%watch%foresee(part%system, part%method, ends, begins, jumps)
-         end associate
-         has_end = has_end .or. ends
-         self%has_onset = self%has_onset .or. begins
-         self%has_jump = self%has_jump .or. jumps
-      end do
-      if (.not. (has_end .or. self%has_jump)) return
-      kind = merge(row_peak, row_jump, whole%owes_row())
-      if (has_end) kind = row_end
-      if (self%t_row < whole%t) call put_row_here(self, whole, plan, kind, 0.0_wp, residual, recorder, error)
-      call whole%note_row()
-   end subroutine before_events
-
-   !> The row before an instant at which functions of time are not smooth, if one is owed. What is due behind it is found anew.
-   subroutine before_instant(self, whole, plan, residual, recorder, error)
-      class(sampler_t), intent(inout) :: self             !! what is reported
-      type(whole_motion_t), intent(inout) :: whole        !! the motion at the instant, functions of time those before it
-      type(time_plan_t), intent(in) :: plan               !! times
-      real(wp), intent(in) :: residual                    !! of the ledger at the last step [J]
-      class(recorder_t), intent(inout) :: recorder        !! keeps the results
-      type(error_t), allocatable, intent(out) :: error    !! a file could not be written
-
-      self%due = -huge(1.0_wp)
-      if (.not. whole%owes_row() .or. self%t_row >= whole%t) return
-      call put_row_here(self, whole, plan, row_peak, 0.0_wp, residual, recorder, error)
-      call whole%note_row()
-   end subroutine before_instant
-
-   !> The row after the events, where a contact began or a force may have jumped.
-   subroutine after_events(self, whole, parts, plan, residual, recorder, error)
-      class(sampler_t), intent(inout) :: self             !! what is reported
-      type(whole_motion_t), intent(inout) :: whole        !! the motion, its parts begun again
-      integer, intent(in) :: parts(:)                     !! (any) parts that had events
-      type(time_plan_t), intent(in) :: plan               !! times
-      real(wp), intent(in) :: residual                    !! of the ledger at the last step [J]
-      class(recorder_t), intent(inout) :: recorder        !! keeps the results
-      type(error_t), allocatable, intent(out) :: error    !! a file could not be written
-
-      if (.not. (self%has_onset .or. self%has_jump)) return
-      call put_row_here(self, whole, plan, merge(row_onset, row_jump, self%has_onset), maxval(whole%parts(parts)%watch%shift), &
-                        residual, recorder, error)
-      call whole%note_row()
-   end subroutine after_events
+      call self%peaks%forget()
+      call self%stride%forget()
+   end subroutine forget
 
    !> The end of the run: the row of a contact whose greatest force is that of the last instant, and films.
    subroutine finish_samples(self, whole, plan, residual, recorder, error)
@@ -315,6 +355,7 @@ contains
       if (allocated(error)) return
       call recorder%further_row(t, kind, self%catalogue, error)
       if (allocated(error)) return
+      if (allocated(self%peaks%place) .and. later <= 0.0_wp) call find_extremes(self, whole, t, .true., residual, recorder)
       self%t_row = t
       self%n_row(kind) = self%n_row(kind) + 1
    end subroutine put_row
@@ -328,51 +369,6 @@ contains
 
       wants_row = t >= plan%first_output .and. (recorder%wants_contact_rows .or. kind == row_stop)
    end function wants_row
-
-   !> All stroboscopic instants up to the time that all have reached.
-   subroutine take_strobes(self, whole, plan, residual, recorder, error)
-      class(sampler_t), intent(inout) :: self             !! what is reported
-      type(whole_motion_t), intent(inout) :: whole        !! the motion
-      type(time_plan_t), intent(in) :: plan               !! times
-      real(wp), intent(in) :: residual                    !! of the ledger at the last step [J]
-      class(recorder_t), intent(inout) :: recorder        !! keeps the results
-      type(error_t), allocatable, intent(out) :: error    !! the equations cannot be solved there
-
-      real(wp) :: reached, t
-
-      reached = min(whole%t, self%until)
-      call self%aside%leave()
-      do while (self%n_strobe < size(plan%strobes))
-         t = plan%strobes(self%n_strobe + 1)
-         if (t > reached .or. t >= whole%system%linkage%piece%end) exit
-         call report(self, whole, t, .false., 0.0_wp, residual, error)
-         if (allocated(error)) return
-         call recorder%strobe(t, self%catalogue)
-         self%n_strobe = self%n_strobe + 1
-      end do
-      call self%aside%come_back()
-   end subroutine take_strobes
-
-   !> Films of all times up to that which all have reached.
-   subroutine take_fields(self, whole, residual, recorder, error)
-      class(sampler_t), intent(inout) :: self             !! what is reported
-      type(whole_motion_t), intent(inout) :: whole        !! the motion
-      real(wp), intent(in) :: residual                    !! of the ledger at the last step [J]
-      class(recorder_t), intent(inout) :: recorder        !! keeps the results
-      type(error_t), allocatable, intent(out) :: error    !! the equations cannot be solved there
-
-      real(wp) :: t
-
-      call self%aside%leave()
-      do
-         t = self%films%next()
-         if (t > min(whole%t, self%until)) exit
-         call report(self, whole, t, .false., 0.0_wp, residual, error)
-         if (allocated(error)) return
-         call self%films%tell_at(whole%system, t, recorder)
-      end do
-      call self%aside%come_back()
-   end subroutine take_fields
 
    !> Fill the catalogue with the values at a time that the last steps hold.
    subroutine report(self, whole, t, at_peak, shift, residual, error)

@@ -12,6 +12,8 @@ contains
       call tape%put(self%n_reports)
       call tape%put([self%t_row, self%aside%seconds()])
       call self%films%save(tape)
+      call self%peaks%save(tape)
+      call self%stride%save(tape)
    end procedure save_samples
 
    !> Take it back.
@@ -26,6 +28,8 @@ contains
       call tape%get(aside)
       call self%aside%begin(aside)
       call self%films%load(tape)
+      call self%peaks%load(tape)
+      call self%stride%load(tape)
       self%due = -huge(1.0_wp)
    end procedure load_samples
 

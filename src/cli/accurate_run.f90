@@ -112,7 +112,6 @@ contains
       job%cpu = job%settings%number("limit_cpu")
       job%stop = limits%stop
       job%start = options%change%member
-      job%with_contact_rows = plan%with%contact_rows
       asked = reshape([(scalars(k)%group, scalars(k)%component, scalars(k)%item, k=1, size(scalars))], [3, size(scalars)])
       stride = ceiling(real(last_instant(loaded%plan) + 1, wp)*real(count_kept(catalogue) + 3*size(scalars), wp)/most_kept)
       plan%accuracy%asked = options%digits%accuracy

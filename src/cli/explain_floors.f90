@@ -1,5 +1,6 @@
 !> What counts as nothing in a scene: every number of the module `floors`, in the scene's own measure.
 module explain_floors
+   use channel_noise, only: noise_words
    use console, only: say
    use floors, only: all_floors, floor_t, of_acceleration, of_contact, of_mobility, of_pace, of_run, of_speed, of_step, of_time
    use kinds, only: wp
@@ -43,6 +44,7 @@ contains
             call say(trim(list(k)%meaning)//": "//real_text(list(k)%part, 3)//" "//measure(list(k)%of), 2)
          end select
       end do
+      call say(noise_words(), 2)
    end subroutine floors_of_scene
 
    !> For the manual: all of them, and what they are parts of.

@@ -208,6 +208,10 @@ contains
       do k = 1, size(history%impacts)
          history%impacts(k)%time = time%scale*history%impacts(k)%time + time%offset
       end do
+      do k = 1, size(history%list)
+         if (.not. allocated(history%list(k)%extreme_at)) cycle
+         history%list(k)%extreme_at = time%scale*history%list(k)%extreme_at + time%offset
+      end do
    end subroutine shift_time
 
    !> Scale, shift and turn the channels of a run as asked for.
@@ -233,19 +237,33 @@ contains
             if (.not. (history%list(k)%name == specs(s)%channel .or. &
                        starts_with(history%list(k)%name, specs(s)%channel//"."))) cycle
             history%list(k)%x = specs(s)%scale*history%list(k)%x + specs(s)%offset
+            if (allocated(history%list(k)%extreme)) then
+               history%list(k)%extreme = specs(s)%scale*history%list(k)%extreme + specs(s)%offset
+            end if
          end do
-         if (any(place(:2) == 0)) cycle
+         if (any(place(:2) == 0) .or. .not. is_turned(specs(s)%turn)) cycle
          allocate (x(size(history%time), 3), source=0.0_wp)
          do c = 1, 3
             if (place(c) > 0) x(:, c) = history%list(place(c))%x
          end do
          x = matmul(x, transpose(specs(s)%turn))
          do c = 1, 3
-            if (place(c) > 0) history%list(place(c))%x = x(:, c)
+            if (place(c) == 0) cycle
+            history%list(place(c))%x = x(:, c)
+            if (allocated(history%list(place(c))%extreme)) deallocate (history%list(place(c))%extreme)
          end do
          deallocate (x)
       end do
    end subroutine adapt
+
+   !> Whether axes are turned at all.
+   pure logical function is_turned(turn)
+      real(wp), intent(in) :: turn(3, 3)       !! (3, 3) the turn [1]
+
+      real(wp), parameter :: unit(3, 3) = reshape([1.0_wp, 0.0_wp, 0.0_wp, 0.0_wp, 1.0_wp, 0.0_wp, 0.0_wp, 0.0_wp, 1.0_wp], [3, 3])
+
+      is_turned = any(abs(turn - unit) > 0.0_wp)
+   end function is_turned
 
    !> Files, figures, and what is said.
    subroutine write_results(options, found, first, second, notes, error)

@@ -3,13 +3,14 @@
 !> Channels are compared at the output instants of the second (`differences_of_series`), where both have some. A channel differs
 !> if the
 !> greatest difference is more than what is allowed: the larger of `absolute` and `relative` times its greatest magnitude in the
-!> first; or if at some instant only one of both has a number.
+!> first; or if at some instant only one of both has a number. What is round-off in the first (`channel_noise`) makes no difference.
 !> By statistics, it differs if its mean or its mean square is further apart than that (for the square: of the magnitudes'
 !> product) and
 !> the significance, times the number of channels, is below 5 %: of a hundred equal channels not one is to be found different.
 !>
 !> Limits: impacts are paired in their order, joint by joint.
 module comparison
+   use channel_noise, only: noise_of_channels
    use channel_spec, only: spec_t
    use differences_of_series, only: compare_values, difference_t, find_peak
    use errors, only: error_t, exit_usage, set_error
@@ -61,7 +62,7 @@ contains
       type(comparison_t), intent(out) :: found              !! what was found
       type(error_t), allocatable, intent(out) :: error      !! nothing to compare
 
-      real(wp), allocatable :: own(:)
+      real(wp), allocatable :: noise(:), own(:)
       logical, allocatable :: is_inside(:)
       type(difference_t), allocatable :: list(:)
       type(name_table_t) :: in_a, in_b
@@ -87,6 +88,7 @@ contains
       call enter_names(a%list, in_a)
       call enter_names(b%list, in_b)
       allocate (list(size(b%list)))
+      noise = noise_of(a, own(size(own)) - own(1))
       n = 0
       do k = 1, size(b%list)
          i = in_a%find(b%list(k)%name)
@@ -100,6 +102,9 @@ contains
          found%b(:, n) = pack(b%list(k)%x, is_inside)
          call compare_channel(a, a%list(i), turn_of(specs, s, a%list(i)), found%t, found%a(:, n), found%b(:, n), found%d(:, n), &
                               list(n))
+         call peak_of(a, a%list(i), found%t(1), found%t(size(found%t)), list(n)%peak(1), list(n)%peak_at(1))
+         call peak_of(b, b%list(k), found%t(1), found%t(size(found%t)), list(n)%peak(2), list(n)%peak_at(2))
+         list(n)%noise = noise(i)
          call judge(list(n), allowance(specs, s, absolute, .true.), allowance(specs, s, relative, .false.), by_statistics, &
                     size(b%list))
       end do
@@ -127,16 +132,11 @@ contains
 
       real(wp) :: time(count(run%is_output)), x(count(run%is_output))
       logical :: is_settled(size(t))
-      integer :: first, last
 
       difference%name = channel%name
       difference%unit = channel%unit
       time = pack(run%time, run%is_output)
       x = pack(channel%x, run%is_output)
-      first = max(1, count(time <= t(1)))
-      last = min(size(time), count(time < t(size(t))) + 1)
-      call find_peak(time(first:last), x(first:last), difference%peak(1), difference%peak_at(1))
-      call find_peak(t, b, difference%peak(2), difference%peak_at(2))
       if (channel%is_state) then
          call state_at(run%time, channel%x, t, a, is_settled)
       else
@@ -145,6 +145,51 @@ contains
       end if
       call compare_values(t, a, b, is_settled, turn, d, difference)
    end subroutine compare_channel
+
+   !> What is round-off in the channels of a run.
+   function noise_of(run, duration) result(noise)
+      type(history_t), intent(in) :: run         !! the run
+      real(wp), intent(in) :: duration           !! its time [s]
+      real(wp) :: noise(size(run%list))          !! (channels) [any]
+
+      type(text_t) :: units(size(run%list))
+      real(wp) :: greatest(size(run%list))
+      integer :: k
+
+      do k = 1, size(run%list)
+         units(k)%s = run%list(k)%unit
+         greatest(k) = maxval(abs(run%list(k)%x), mask=ieee_is_finite(run%list(k)%x))
+         if (allocated(run%list(k)%extreme)) greatest(k) = max(greatest(k), maxval(abs(run%list(k)%extreme)))
+         greatest(k) = max(greatest(k), 0.0_wp)
+      end do
+      noise = noise_of_channels(units, greatest, duration)
+   end function noise_of
+
+   !> The greatest magnitude of a channel in the time of both: of all rows, those at contacts too, and of the extremes between them.
+   pure subroutine peak_of(run, channel, from, until, peak, at)
+      type(history_t), intent(in) :: run         !! a run, or columns
+      type(series_t), intent(in) :: channel      !! its channel
+      real(wp), intent(in) :: from               !! first instant of the second [s]
+      real(wp), intent(in) :: until              !! last one [s]
+      real(wp), intent(out) :: peak              !! the greatest magnitude; NaN: there is no number [any]
+      real(wp), intent(out) :: at                !! its first instant; NaN: there is none [s]
+
+      real(wp) :: begin, end
+      logical :: is_inside(size(run%time))
+      integer :: k
+
+      begin = maxval(run%time, mask=run%is_output .and. run%time <= from)
+      end = minval(run%time, mask=run%is_output .and. run%time >= until)
+      is_inside = run%time >= begin .and. run%time <= end
+      call find_peak(pack(run%time, is_inside), pack(channel%x, is_inside), peak, at)
+      if (.not. allocated(channel%extreme)) return
+      do k = 1, 2
+         if (channel%extreme_at(k) < begin .or. channel%extreme_at(k) > end) cycle
+         if (abs(channel%extreme(k)) <= peak) cycle
+         peak = abs(channel%extreme(k))
+         at = channel%extreme_at(k)
+      end do
+   end subroutine peak_of
 
    !> What differences of a channel are taken up to multiples of: as asked for, else as the run says; 0: they are not.
    pure real(wp) function turn_of(specs, s, channel) result(turn)
@@ -193,7 +238,8 @@ contains
 
       associate (d => difference)
          d%allowed = absolute
-         if (ieee_is_finite(d%peak(1))) d%allowed = max(absolute, relative*d%peak(1))
+         if (max(absolute, relative) > 0.0_wp) d%allowed = max(absolute, d%noise)  ! none: bit for bit
+         if (ieee_is_finite(d%peak(1))) d%allowed = max(d%allowed, relative*d%peak(1))
          d%is_different = d%n == 0 .and. sum(d%only) + d%unsettled > 0
          if (d%n == 0) return
          d%is_different = any(d%only > 0) .or. d%greatest > d%allowed

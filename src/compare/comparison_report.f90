@@ -1,5 +1,6 @@
 !> A comparison as text for people, as rows, and as an object of JSON.
 module comparison_report
+   use channel_noise, only: shown
    use comparison, only: comparison_t
    use differences_of_series, only: difference_t, moments_t
    use, intrinsic :: ieee_arithmetic, only: ieee_is_finite
@@ -56,8 +57,9 @@ contains
                       "peak B", "lag [s]"], cell_width)//trim(heads([character(5) :: "magn.", "phase"], short_width)))
       do k = 1, size(found%list)
          associate (d => found%list(k))
-            call lines%line(trim(padded(d%name//" ["//d%unit//"]", width)//cell(d%rms)//cell(d%greatest)//cell(d%at)// &
-                            cell(d%allowed)//cell(d%peak(1))//cell(d%peak(2))//cell(d%lag)//short(d%magnitude)//short(d%phase)// &
+            call lines%line(trim(padded(d%name//" ["//d%unit//"]", width)//cell(shown(d%rms, d%noise))// &
+                            cell(shown(d%greatest, d%noise))//cell(d%at)//cell(d%allowed)//cell(shown(d%peak(1), d%noise))// &
+                            cell(shown(d%peak(2), d%noise))//cell(d%lag)//short(d%magnitude)//short(d%phase)// &
                             trim(merge("differs  ", "         ", d%is_different))//of_instants(d)//of_interpolation(d)))
          end associate
       end do
@@ -197,7 +199,7 @@ contains
       text = lines%get()
    end function comparison_rows
 
-   !> Numbers with a comma before each.
+   !> Numbers with a comma before each; nothing stands for one that is not known.
    pure function joined(x) result(s)
       real(wp), intent(in) :: x(:)         !! (n) numbers [any]
       character(:), allocatable :: s       !! the row
@@ -206,7 +208,8 @@ contains
 
       s = ""
       do k = 1, size(x)
-         s = s//","//exact_text(x(k))
+         s = s//","
+         if (ieee_is_finite(x(k))) s = s//exact_text(x(k))
       end do
    end function joined
 

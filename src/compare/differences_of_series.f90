@@ -4,7 +4,7 @@
 !> them has one is told. With d = b - a:
 !>
 !>     rms        sqrt(mean d^2)                     greatest   max |d|, and when
-!>     peaks      max |a|, max |b|, of the own rows  lag        shift tau of b(t) = a(t - tau) with the least mean square
+!>     peaks      max |a|, max |b|, located          lag        shift tau of b(t) = a(t - tau) with the least mean square
 !>     magnitude  sqrt(sum b^2/sum a^2) - 1          phase      acos(sum a b/sqrt(sum a^2 sum b^2))/pi
 !>
 !> The last two are measures of Sprague and Geers: the error of the size alone and that of the phase alone.
@@ -53,6 +53,7 @@ module differences_of_series
       real(wp) :: phase = 0.0_wp                  !! [1]
       type(moments_t) :: mean                     !! of the values [any]
       type(moments_t) :: square                   !! of their squares [any]
+      real(wp) :: noise = 0.0_wp                  !! less is round-off [any]
       real(wp) :: allowed = 0.0_wp                !! difference that is allowed [any]
       logical :: is_different = .false.           !! the verdict
    end type difference_t

@@ -12,6 +12,8 @@ module series
       character(:), allocatable :: unit   !! SI; blank: not known
       real(wp), allocatable :: x(:)       !! (n) values; NaN: none [any]
       logical :: is_state = .false.       !! one of a few whole numbers, which it keeps until it changes
+      real(wp), allocatable :: extreme(:)     !! (2) least and greatest value of the run; unallocated: those of the rows [any]
+      real(wp), allocatable :: extreme_at(:)  !! (2) when, between rows too [s]
       real(wp) :: turn = 0.0_wp           !! what it jumps by, as an angle from -pi to pi does; 0: it does not [any]
    end type series_t
 

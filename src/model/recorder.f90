@@ -12,7 +12,7 @@ module recorder
    use text, only: text_t
    implicit none (type, external)
    private
-   public :: event_t, recorder_t, run_quality_t, summary_t
+   public :: event_t, located_t, recorder_t, run_quality_t, summary_t
    public :: n_row_kind, row_end, row_instant, row_jump, row_kinds, row_onset, row_peak, row_stop
    public :: status_complete, status_failed, status_running, status_stopped
 
@@ -97,15 +97,23 @@ module recorder
       real(wp) :: wall_seconds = 0.0_wp            !! of the whole analysis [s]
    end type summary_t
 
+   !> Numbers whose extremes are located between rows.
+   type :: located_t
+      integer, allocatable :: place(:)             !! (n) places in the values of the catalogue; unallocated: none
+      real(wp) :: from = -huge(1.0_wp)             !! extremes since then count, besides those since the start [s]
+   end type located_t
+
    !> Whatever keeps the results of an analysis.
    type, abstract :: recorder_t
       logical :: wants_contact_rows = .false.      !! whether `further_row` is to be called at contacts
       type(field_request_t), allocatable :: wants_fields(:)  !! (any) films that `field` is to be called with; unallocated: none
+      type(located_t) :: located                   !! numbers whose extremes between rows `between` is to be called with
    contains
       procedure(start_interface), deferred :: start
       procedure(sample_interface), deferred :: sample
       procedure :: wants => wants_all
       procedure :: further_row => skip_further_row
+      procedure :: between => skip_between
       procedure :: strobe => skip_strobe
       procedure :: field => skip_field
       procedure(event_interface), deferred :: event
@@ -184,6 +192,14 @@ contains
       type(catalogue_t), intent(in) :: catalogue         !! values at t
       type(error_t), allocatable, intent(out) :: error   !! a file cannot be written
    end subroutine skip_further_row
+
+   !> The catalogue's current values are those of an instant between the last rows, at which a number has an extreme: unless a
+   !> recorder has `located` set, it is not called.
+   subroutine skip_between(self, t, catalogue)
+      class(recorder_t), intent(inout) :: self           !! the recorder
+      real(wp), intent(in) :: t                          !! time [s]
+      type(catalogue_t), intent(in) :: catalogue         !! values at t
+   end subroutine skip_between
 
    !> Keep the catalogue's current values as those of an instant once per period of the drive: unless a recorder asks for
    !> them, nothing.

@@ -1,7 +1,7 @@
 !> Time histories and events as comma-separated values: each `.dat` file once more, for programs that read nothing else.
 !>
 !> The first line has the names of the columns, `channel[unit]`; the other lines of the heading are left out. Numbers and words
-!> are those of the `.dat` file, character by character. Source: RFC 4180; no name or word has a comma, a quote or a blank.
+!> are those of the `.dat` file, character by character; a cell of what is not known (`NaN`) is empty. Source: RFC 4180; no name or word has a comma, a quote or a blank.
 module csv_files
    use errors, only: error_t
    use kinds, only: i8
@@ -21,6 +21,7 @@ module csv_files
       logical :: is_heading = .false.  !! it begins with `#`
       logical :: has_word = .false.    !! a word of it has been taken
       logical :: is_between = .false.  !! blanks have been read since
+      integer :: n_missing = 0         !! characters of `NaN` that were read and wait; negative: the word is another
    end type place_t
 
 contains
@@ -92,11 +93,12 @@ contains
       character(:), allocatable :: line
       integer :: k, n
 
-      allocate (character(len(store) + 1) :: line)
+      allocate (character(2*len(store) + 4) :: line)
       n = 0
       do k = 1, len(store)
          associate (c => store(k:k))
             if (c == new_line("a")) then
+               call end_word()
                if (place%has_word) call put(c)
                place = place_t(line=place%line + 1)
             else if (place%is_at_start .and. c == "#") then
@@ -105,11 +107,12 @@ contains
             else if (place%is_heading) then
                cycle
             else if (c == " ") then
+               call end_word()
                place%is_at_start = .false.
                place%is_between = place%has_word
             else
                if (place%is_between) call put(",")
-               call put(c)
+               call take_character(c)
                place%is_at_start = .false.
                place%has_word = .true.
                place%is_between = .false.
@@ -119,6 +122,41 @@ contains
       text = line(:n)
 
    contains
+
+      !> A character of a word; one that may be `NaN` waits.
+      subroutine take_character(c)
+         character, intent(in) :: c   !! the character
+
+         character(*), parameter :: missing = "NaN"
+         integer :: i
+
+         associate (waiting => place%n_missing)
+            if (waiting >= 0 .and. waiting < len(missing)) then
+               if (c == missing(waiting + 1:waiting + 1)) then
+                  waiting = waiting + 1
+                  return
+               end if
+            end if
+            do i = 1, waiting
+               call put(missing(i:i))
+            end do
+            waiting = -1
+            call put(c)
+         end associate
+      end subroutine take_character
+
+      !> The end of a word: `NaN` leaves nothing, what only began like it is told.
+      subroutine end_word()
+         character(*), parameter :: missing = "NaN"
+         integer :: i
+
+         if (place%n_missing > 0 .and. place%n_missing < len(missing)) then
+            do i = 1, place%n_missing
+               call put(missing(i:i))
+            end do
+         end if
+         place%n_missing = 0
+      end subroutine end_word
 
       !> One more character.
       subroutine put(c)

@@ -45,9 +45,9 @@ contains
          end do
          call text_dataset(file, "extremes/channels/name", names, .false., "names of the numbers", status)
          call text_dataset(file, "extremes/channels/unit", units, .false., "their units", status)
-         call put("channels/least", one%least, "list", "least value of all rows")
+         call put("channels/least", one%least, "list", "least value, located between rows too")
          call put("channels/least_time", one%least_time, "s", "when it was first there")
-         call put("channels/greatest", one%greatest, "list", "greatest value of all rows")
+         call put("channels/greatest", one%greatest, "list", "greatest value, located between rows too")
          call put("channels/greatest_time", one%greatest_time, "s", "when it was first there")
          call put("channels/mean", [(extremes%mean(k), k=1, n)], "list", "mean over the time")
          call put("channels/rms", [(extremes%rms(k), k=1, n)], "list", "root mean square over the time")

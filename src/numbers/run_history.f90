@@ -12,6 +12,7 @@ module run_history
    use hdf5_attributes, only: string_type, word_type
    use hdf5_calls, only: open_library
    use hdf5_read, only: has_dataset, read_reals, read_texts
+   use history_extremes, only: read_extremes
    use, intrinsic :: ieee_arithmetic, only: ieee_is_nan
    use, intrinsic :: iso_c_binding, only: c_associated, c_char, c_f_pointer, c_loc, c_null_char, c_ptr
    use kinds, only: pi, wp
@@ -125,6 +126,7 @@ contains
          do k = 1, size(rooms)
             if (has_top(file, trim(rooms(k)))) call read_room(file, trim(rooms(k)), history, status)
          end do
+         if (has_top(file, "extremes")) call read_extremes(file, history, status)
          if (has_top(file, "events")) call read_impacts(file, history, status)
          if (status < 0) call set_error(error, exit_file, "cannot read '"//path//"': the file is damaged, or of another format")
       end if

@@ -1,6 +1,7 @@
 !> What a run whose accuracy was asked for knows of its errors, in words and for scripts.
 module accuracy_text
    use accuracy_results, only: accuracy_t, claim_none, claim_reached, claim_whole, claim_window, claim_words
+   use channel_noise, only: known_text
    use, intrinsic :: ieee_arithmetic, only: ieee_is_finite
    use json_text, only: json_object_t
    use kinds, only: i8, wp
@@ -81,17 +82,20 @@ contains
       n = size(accuracy%extremes)
       if (n == 0) return
       call lines%line("")
-      name = "of output instants"  ! beside the extremes of all rows
+      name = "extremes"  ! located: those of the run
       if (accuracy%claim == claim_window) name = name//" up to t = "//real_text(accuracy%until, 6)//" s"
       call lines%line(padded(name, 42)//right("least", 20)//right("greatest", 20)//right("+-", 11))
       do k = 1, min(n, most_extremes)
          associate (extreme => accuracy%extremes(k))
             name = "  "//extreme%name
             if (extreme%unit /= "1") name = name//" ["//extreme%unit//"]"
-            call lines%line(padded(name, 42)//right(real_text(extreme%least, 12), 20)//right(real_text(extreme%most, 12), 20)// &
+            call lines%line(padded(name, 42)//right(known_text(extreme%least, 12), 20)//right(known_text(extreme%most, 12), 20)// &
                             right(short(extreme%error), 11))
          end associate
       end do
+      if (.not. all(ieee_is_finite(accuracy%extremes%least))) then
+         call lines%line("  -: never a number up to there; where a contact acts is one while it touches only")
+      end if
       if (n > most_extremes) call lines%line("  and "//to_text(n - most_extremes)//" more in summary.json and run.h5")
    end subroutine extreme_lines
 

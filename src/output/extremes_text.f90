@@ -2,11 +2,12 @@
 module extremes_text
    use catalogue, only: catalogue_t
    use channel_names, only: scalar_name
+   use channel_noise, only: known_text
    use extremes, only: extremes_t, joint_extremes_t
    use, intrinsic :: ieee_arithmetic, only: ieee_is_finite
    use json_text, only: json_object_t
    use kinds, only: i8, wp
-   use text, only: append_text, real_text, text_t, to_text
+   use text, only: append_text, text_t, to_text
    use text_buffer, only: buffer_t
    implicit none (type, external)
    private
@@ -47,17 +48,19 @@ contains
       do i = 1, size(list)
          k = list(i)
          name = full_name(extremes, catalogue, k)
-         associate (one => extremes%of(k))
-            call lines%add("           "//name//repeat(" ", max(width - len(name), 0))//right(real_text(one%least, 5)))
-            if (extremes%has_course()) call lines%add(right(real_text(one%least_time, 6))//right(real_text(one%greatest, 5))// &
-                                                    right(real_text(one%greatest_time, 6))// &
-                                                    right(real_text(extremes%shown_mean(k), 5))// &
-                                                    right(real_text(extremes%rms(k), 5)))
+         associate (one => extremes%shown_extreme(k))
+            call lines%add("           "//name//repeat(" ", max(width - len(name), 0))//right(known_text(one%least, 5)))
+            if (extremes%has_course()) call lines%add(right(known_text(one%least_time, 6))//right(known_text(one%greatest, 5))// &
+                                                    right(known_text(one%greatest_time, 6))// &
+                                                    right(known_text(extremes%shown_mean(k), 5))// &
+                                                    right(known_text(extremes%shown_rms(k), 5)))
             call lines%line("")
          end associate
       end do
+      if (extremes%has_course() .and. .not. extremes%has_time()) call lines%line( &
+         "           -: there is no mean of one output instant")
       if (n > size(list)) call lines%line("           "//to_text(n - size(list))//" more in summary.json and in run.h5, /extremes")
-      call rest(count([(extremes%is_nothing(k), k=1, size(extremes%channels))]), "that are always zero")
+      call rest(count([(extremes%is_nothing(k), k=1, size(extremes%channels))]), "that are always zero, or round-off")
       call rest(count([(.not. extremes%has_values(k), k=1, size(extremes%channels))]), "without a number")
 
    contains
@@ -85,13 +88,13 @@ contains
       do k = 1, min(size(joints), most_lines)
          associate (joint => joints(k))
             call lines%add("           "//joint%name//": "//to_text(joint%impacts)//" impacts, "// &
-                           real_text(100.0_wp*joint%contact_fraction, 4)//" % of the time in contact")
+                           known_text(100.0_wp*joint%contact_fraction, 4)//" % of the time in contact")
             if (joint%impacts > 0) then
-               call lines%add("; at most "//real_text(joint%speed, 5)//" m/s at "//real_text(joint%speed_onset, 6)//" s, "// &
-                              real_text(joint%force, 6)//" N at "//real_text(joint%force_time, 6)//" s, depth "// &
-                              real_text(joint%penetration, 5)//" m at "//real_text(joint%penetration_time, 6)//" s; impulse "// &
-                              real_text(joint%impulse, 5)//" N.s")
-               if (ieee_is_finite(joint%energy_lost)) call lines%add("; lost "//real_text(joint%energy_lost, 5)//" J")
+               call lines%add("; at most "//known_text(joint%speed, 5)//" m/s at "//known_text(joint%speed_onset, 6)//" s, "// &
+                              known_text(joint%force, 6)//" N at "//known_text(joint%force_time, 6)//" s, depth "// &
+                              known_text(joint%penetration, 5)//" m at "//known_text(joint%penetration_time, 6)//" s; impulse "// &
+                              known_text(joint%impulse, 5)//" N.s")
+               if (ieee_is_finite(joint%energy_lost)) call lines%add("; lost "//known_text(joint%energy_lost, 5)//" J")
             end if
             call lines%line("")
          end associate

@@ -1,6 +1,7 @@
 !> Tables of report.html: extremes, loose joints, impacts, statistics, cost and error. Numbers are in units that read well.
 module report_tables
    use catalogue, only: catalogue_t
+   use channel_noise, only: shown_value => shown
    use channel_names, only: scalar_name
    use display_units, only: choose_unit, display_unit_t
    use event_list, only: event_list_t, number_units
@@ -111,11 +112,12 @@ contains
       call begin_table(lines, [character(16) :: "channel", "unit", "least", "at ["//time%symbol//"]", "greatest", &
                                "at ["//time%symbol//"]", "mean", "rms"])
       do k = 1, n
-         associate (one => extremes%told(k))
+         associate (one => extremes%shown_extreme(k))
             unit = choose_unit(catalogue%groups(extremes%channels(k)%group)%channel%unit, extremes%size_of(k))
             call lines%line("<tr><td>"//escaped(scalar_name(catalogue, extremes%channels(k)), .true.)//"</td><td>"// &
                             unit%symbol//"</td>"//cell(one%least, unit)//cell(one%least_time, time)//cell(one%greatest, unit)// &
-                            cell(one%greatest_time, time)//cell(extremes%shown_mean(k), unit)//cell(extremes%rms(k), unit)//"</tr>")
+                            cell(one%greatest_time, time)//cell(extremes%shown_mean(k), unit)// &
+                            cell(extremes%shown_rms(k), unit)//"</tr>")
          end associate
       end do
       call end_table(lines, size(extremes%channels) - n, "run.h5, /extremes/channels")
@@ -134,7 +136,7 @@ contains
       call head(lines, "extremes", "Values of the channels")
       call begin_table(lines, [character(7) :: "channel", "unit", "value"])
       do k = 1, n
-         associate (one => extremes%told(k))
+         associate (one => extremes%shown_extreme(k))
             unit = choose_unit(catalogue%groups(extremes%channels(k)%group)%channel%unit, extremes%size_of(k))
             call lines%line("<tr><td>"//escaped(scalar_name(catalogue, extremes%channels(k)), .true.)//"</td><td>"// &
                             unit%symbol//"</td>"//cell(one%least, unit)//"</tr>")
@@ -221,7 +223,7 @@ contains
       call begin_table(lines, [character(8) :: "number", "value"])
       do k = 1, size(numbers)
          call lines%line("<tr><td>"//escaped(numbers(k)%name, .true.)//"</td>"// &
-                         own_cell(numbers(k)%value, numbers(k)%unit)//"</tr>")
+                         own_cell(shown_value(numbers(k)%value, numbers(k)%noise), numbers(k)%unit)//"</tr>")
       end do
       call end_table(lines, 0, "")
    end subroutine number_table

@@ -12,7 +12,6 @@ module run_recorder
    use event_list, only: event_list_t
    use extremes, only: extremes_t, joints_at_extremes
    use figure_words, only: figure_t
-   use figures, only: make_figures
    use film_fields, only: append_field, film_field_t
    use film_words, only: missing_films
    use frames, only: frame_keeper_t
@@ -24,20 +23,17 @@ module run_recorder
    use missing_statistics, only: statistics_without_numbers
    use motion_writer, only: motion_name, motion_writer_t
    use output_plan, only: output_plan_t
-   use plot_table, only: plot_table_t
    use progress, only: progress_t
-   use recorder, only: event_t, recorder_t, row_instant, status_complete, status_stopped, summary_t
+   use recorder, only: event_t, recorder_t, row_instant, row_jump, row_onset, row_stop, status_complete, status_stopped, summary_t
    use saved_run, only: saved_run_t
    use scene_poses, only: pose_reader_t
    use statistics, only: statistics_t
-   use statistics_plots, only: statistics_table
    use summary_writer, only: complete_summary, outcome_t
    use text, only: append_text, text_t, to_text
-   use text_table, only: file_heading
    use text_writer, only: text_writer_t
    implicit none (type, external)
    private
-   public :: join_errors, run_recorder_t
+   public :: append_all, join_errors, run_recorder_t
 
    !> When a run was looked after, and how long it takes from one instant at which it can be saved to the next.
    type :: pace_t
@@ -76,6 +72,7 @@ module run_recorder
       procedure :: wants => run_wants
       procedure :: sample => sample_run
       procedure :: further_row => further_row_run
+      procedure :: between => between_rows
       procedure :: strobe => strobe_run
       procedure :: field => field_run
       procedure :: event => event_run
@@ -125,6 +122,13 @@ module run_recorder
          class(run_recorder_t), intent(inout) :: self       !! the recorder, its run finished
          type(error_t), allocatable, intent(out) :: error   !! a file cannot be written
       end subroutine write_summary
+
+      !> Make the figures.
+      module subroutine draw_figures(self, error)
+         implicit none (type, external)
+         class(run_recorder_t), intent(inout) :: self       !! the recorder
+         type(error_t), allocatable, intent(out) :: error   !! a file cannot be written
+      end subroutine draw_figures
 
       !> The summaries of a run that ends while its figures are made: they are replaced when those are there.
       module subroutine write_without_figures(self, error)
@@ -183,11 +187,23 @@ contains
       type(catalogue_t), intent(in) :: catalogue         !! values at t
       type(error_t), allocatable, intent(out) :: error   !! a file cannot be written
 
-      call keep_row(self, t, kind, catalogue, error)
-      if (self%keeper%is_wanted) call self%keeper%follow(t, catalogue)
+      if (self%plan%with%contact_rows .or. kind == row_stop) then
+         call keep_row(self, t, kind, catalogue, error)
+         if (self%keeper%is_wanted) call self%keeper%follow(t, catalogue)
+      end if
       call self%extremes%note(t, catalogue)
       call self%statistics%note_extremes(t, catalogue)
    end subroutine further_row_run
+
+   !> Note the extremes of an instant between rows.
+   subroutine between_rows(self, t, catalogue)
+      class(run_recorder_t), intent(inout) :: self       !! the recorder
+      real(wp), intent(in) :: t                          !! time [s]
+      type(catalogue_t), intent(in) :: catalogue         !! values at t
+
+      call self%extremes%note(t, catalogue)
+      call self%statistics%note_extremes(t, catalogue)
+   end subroutine between_rows
 
    !> A row of the time histories.
    subroutine keep_row(self, t, kind, catalogue, error)
@@ -267,14 +283,20 @@ contains
 
       type(error_t), allocatable :: second
       type(text_t), allocatable :: files(:)
+      integer :: k
 
       call self%display%finish()
       if (.not. self%has_started) return
       call memory_is_for("the statistics and the sorted list of "//to_text(self%events%n)//" events")
       self%summary = complete_summary(summary)
+      if (.not. self%plan%with%contact_rows) self%summary%count%rows(row_onset:row_jump) = 0
       call self%keeper%finish()
       associate (outcome => self%outcome, full => self%summary)
          outcome%numbers = self%statistics%numbers(self%items, self%events, full%time_end)
+         call self%extremes%find_noise(self%items)
+         do k = 1, size(outcome%numbers)
+            outcome%numbers(k)%noise = self%extremes%noise_in(outcome%numbers(k)%unit)
+         end do
          outcome%extremes = self%extremes
          call joints_at_extremes(self%items, self%events, full%time_start, full%time_end, outcome%joints)
          allocate (outcome%pictures(0), outcome%warnings(0), outcome%files(0), outcome%csv(0))
@@ -334,26 +356,6 @@ contains
       if (self%summary%status == status_complete .and. .not. allocated(error)) call self%forget()
       self%has_started = .false.
    end subroutine conclude_run
-
-   !> Make the figures.
-   subroutine draw_figures(self, error)
-      class(run_recorder_t), intent(inout) :: self       !! the recorder
-      type(error_t), allocatable, intent(out) :: error   !! a file cannot be written
-
-      type(plot_table_t), allocatable :: tables(:)
-      type(text_t), allocatable :: missing(:)
-      integer :: k
-
-      call memory_is_for("the figures")
-      allocate (tables(size(self%figures)))
-      do k = 1, size(tables)
-         call statistics_table(self%figures(k), self%statistics, self%items, self%events, self%summary%time_end, &
-                               file_heading(self%plan), tables(k))
-      end do
-      call make_figures(self%plan%directory, self%plan%title, self%figures, self%items, tables, self%fields, &
-                        self%plan%looks%drawing, self%keeper, self%outcome%pictures, missing, error)
-      call append_all(self%outcome%warnings, missing)
-   end subroutine draw_figures
 
    !> What a sweep wants to know of the run; of one that never began, nothing.
    subroutine result_of_run(self, member)

@@ -43,8 +43,12 @@ contains
          call self%texts%start(self%plan, catalogue, self%selection, extra_tables(self%figures, catalogue), error)
          if (allocated(error)) return
       end if
-      ! histories want them, and the extremes of the statistics
-      self%wants_contact_rows = self%plan%with%contact_rows .and. (self%plan%with%histories .or. self%statistics%plan%is_wanted)
+      ! histories may want them, extremes do
+      self%wants_contact_rows = self%plan%with%histories .or. self%statistics%plan%is_wanted
+      if (size(self%extremes%channels) + size(self%statistics%channels) > 0) then
+         self%located%place = [self%extremes%places(), self%statistics%places(catalogue)]
+         if (self%statistics%plan%is_wanted) self%located%from = self%statistics%plan%after
+      end if
       self%has_started = .true.
       call self%display%start(self%plan%with%progress)
       call memory_is_for("the motion")

@@ -1,12 +1,16 @@
 !> The summaries of a run, and what is shown of them.
 submodule(run_recorder) run_recorder_summary
+   use figures, only: make_figures
    use output_plan, only: show_json, show_nothing, show_summary
+   use plot_table, only: plot_table_t
    use posix, only: write_error
    use recorder, only: status_failed
    use report_page, only: report_name, report_text
    use standard_output, only: print_text
+   use statistics_plots, only: statistics_table
    use summary_writer, only: summary_json, summary_lines
    use text_file, only: replace_file
+   use text_table, only: file_heading
    implicit none (type, external)
 
 contains
@@ -61,5 +65,22 @@ contains
       call replace_file(self%plan%directory//"/summary.txt", lines, error)
       if (.not. allocated(error)) call replace_file(self%plan%directory//"/summary.json", json, error)
    end subroutine replace_summaries
+
+   !> Make the figures.
+   module procedure draw_figures
+      type(plot_table_t), allocatable :: tables(:)
+      type(text_t), allocatable :: missing(:)
+      integer :: k
+
+      call memory_is_for("the figures")
+      allocate (tables(size(self%figures)))
+      do k = 1, size(tables)
+         call statistics_table(self%figures(k), self%statistics, self%items, self%events, self%summary%time_end, &
+                               file_heading(self%plan), tables(k))
+      end do
+      call make_figures(self%plan%directory, self%plan%title, self%figures, self%items, self%extremes, tables, self%fields, &
+                        self%plan%looks%drawing, self%keeper, self%outcome%pictures, missing, error)
+      call append_all(self%outcome%warnings, missing)
+   end procedure draw_figures
 
 end submodule run_recorder_summary

@@ -2,6 +2,7 @@
 module summary_writer
    use accuracy_text, only: accuracy_json, asked_lines, extreme_lines
    use catalogue, only: catalogue_t
+   use channel_noise, only: known_text, shown
    use display_units, only: choose_unit, display_unit_t
    use event_list, only: event_list_t, number_names
    use extremes, only: extremes_t, joint_extremes_t
@@ -218,8 +219,8 @@ contains
          item = events%word(list(k), 2)
          if (len_trim(events%word(list(k), 3)) > 0) item = item//"."//events%word(list(k), 3)
          associate (numbers => events%numbers(:, list(k)))
-            call lines%line(right(real_text(numbers(1), 9), 27)//right(real_text(numbers(2), 7), 14)// &
-                            right(real_text(numbers(3), 8), 17)//right(ended(numbers(5)), 15)//"   "//item)
+            call lines%line(right(known_text(numbers(1), 9), 27)//right(known_text(numbers(2), 7), 14)// &
+                            right(known_text(numbers(3), 8), 17)//right(ended(numbers(5)), 15)//"   "//item)
          end associate
       end do
    end subroutine impact_lines
@@ -239,7 +240,8 @@ contains
       do k = 1, size(numbers)
          name = numbers(k)%name
          if (numbers(k)%unit /= "1") name = name//" ["//numbers(k)%unit//"]"
-         call lines%line("           "//name//right(real_text(numbers(k)%value, 9), max(58 - len(name), 2)))
+         call lines%line("           "//name//right(known_text(shown(numbers(k)%value, numbers(k)%noise), 9), &
+                                                    max(58 - len(name), 2)))
       end do
    end subroutine number_lines
 

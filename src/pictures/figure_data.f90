@@ -2,6 +2,7 @@
 module figure_data
    use, intrinsic :: ieee_arithmetic, only: ieee_is_nan
    use catalogue, only: catalogue_t
+   use extremes, only: extremes_t
    use channel_names, only: item_name, scalar_name, scalar_t
    use figure_words, only: figure_portrait, figure_t
    use kinds, only: wp
@@ -151,9 +152,10 @@ contains
    end subroutine read_line
 
    !> The curves of a figure that a run with a given suffix left behind, as many as there are.
-   subroutine find_curves(figure, catalogue, directory, suffix, files, curves)
+   subroutine find_curves(figure, catalogue, extremes, directory, suffix, files, curves)
       type(figure_t), intent(in) :: figure                      !! the figure
       type(catalogue_t), intent(in) :: catalogue                !! what was recorded
+      type(extremes_t), intent(in) :: extremes                  !! what is round-off
       character(*), intent(in) :: directory                     !! of the run
       character(*), intent(in) :: suffix                        !! blank, or `.ideal`
       type(data_files_t), intent(inout) :: files                !! files looked at so far
@@ -164,7 +166,7 @@ contains
 
       allocate (curves(0))
       if (figure%kind == figure_portrait) then
-         call find_curve(figure%scalars(2), catalogue, directory, suffix, files, curve, &
+         call find_curve(figure%scalars(2), catalogue, extremes, directory, suffix, files, curve, &
                          over=figure%scalars(1), apart=figure%name)
          if (curve%y > 0 .and. curve%x > 0) call append_curve(curves, curve)
          return
@@ -172,10 +174,10 @@ contains
       do k = 1, size(figure%scalars)
          if (k == figure%curves%abscissa) cycle
          if (figure%curves%abscissa > 0) then
-            call find_curve(figure%scalars(k), catalogue, directory, suffix, files, curve, &
+            call find_curve(figure%scalars(k), catalogue, extremes, directory, suffix, files, curve, &
                             over=figure%scalars(figure%curves%abscissa), apart=figure%name)
          else
-            call find_curve(figure%scalars(k), catalogue, directory, suffix, files, curve)
+            call find_curve(figure%scalars(k), catalogue, extremes, directory, suffix, files, curve)
          end if
          curve%number = k
          if (curve%y > 0 .and. curve%x > 0) call append_curve(curves, curve)
@@ -199,9 +201,10 @@ contains
    end subroutine append_curve
 
    !> One curve; its column is 0 if it is not there or holds no numbers.
-   subroutine find_curve(scalar, catalogue, directory, suffix, files, curve, over, apart)
+   subroutine find_curve(scalar, catalogue, extremes, directory, suffix, files, curve, over, apart)
       type(scalar_t), intent(in) :: scalar              !! the ordinate
       type(catalogue_t), intent(in) :: catalogue        !! what was recorded
+      type(extremes_t), intent(in) :: extremes          !! what is round-off
       character(*), intent(in) :: directory             !! of the run
       character(*), intent(in) :: suffix                !! blank, or `.ideal`
       type(data_files_t), intent(inout) :: files        !! files looked at so far
@@ -225,14 +228,25 @@ contains
       if (number == 0) return
       associate (this => files%files(number))
          curve%y = column_of(this, column_label(catalogue, scalar))
-         if (curve%y > 0) call get_range(this, curve%y, curve%y_range)
+         if (curve%y > 0) call get_range(this, curve%y, noise_of(scalar), curve%y_range)
          if (present(over)) curve%x = column_of(this, column_label(catalogue, over))
          if (curve%y > 0) curve%turns = this%turns(curve%y)
          curve%n_row = this%n_row
          if (curve%x == 0 .or. curve%y == 0) return
-         call get_range(this, curve%x, curve%x_range)
+         call get_range(this, curve%x, noise_of(over), curve%x_range)
          curve%is_function = .not. this%falls(curve%x)
       end associate
+
+   contains
+
+      !> What is round-off in a number.
+      pure real(wp) function noise_of(one)
+         type(scalar_t), intent(in), optional :: one   !! the number; absent: time
+
+         noise_of = 0.0_wp
+         if (present(one)) noise_of = extremes%noise_in(catalogue%groups(one%group)%channel%unit)
+      end function noise_of
+
    end subroutine find_curve
 
    !> The column with a given label that holds at least one number, 0 if there is none.
@@ -248,13 +262,15 @@ contains
       end do
    end function column_of
 
-   !> Least and greatest value of a column.
-   subroutine get_range(file, column, range)
+   !> Least and greatest value of a column; zero if all is round-off.
+   subroutine get_range(file, column, noise, range)
       type(data_file_t), intent(in) :: file  !! the file
       integer, intent(in) :: column          !! number of the column
+      real(wp), intent(in) :: noise          !! less is round-off, SI [any]
       real(wp), intent(out) :: range(2)      !! (2) least, greatest, SI [any]
 
       range = [file%lowest(column), file%highest(column)]
+      if (all(abs(range) <= noise)) range = 0.0_wp
    end subroutine get_range
 
    !> Which curves are not so small beside the others that nobody would see them.

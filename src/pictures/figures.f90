@@ -12,10 +12,12 @@ module figures
    use drawing, only: drawing_t
    use envelope_data, only: count_turns, envelope_t, make_envelope
    use errors, only: error_t
+   use extremes, only: extremes_t
    use field_plot, only: write_field_plot
    use figure_data, only: curve_t, data_files_t, find_curves
    use figure_script, only: figure_text
-   use figure_words, only: draws_mechanism, figure_animation, figure_film, figure_history, figure_portrait, figure_t
+   use figure_words, only: draws_mechanism, figure_animation, figure_film, figure_histogram, figure_history, figure_portrait, &
+      figure_section, figure_spectrum, figure_t
    use frames, only: frame_keeper_t
    use gnuplot_runs, only: draw_figures, moving
    use film_fields, only: film_field_t
@@ -37,11 +39,12 @@ module figures
 contains
 
    !> Write the scripts of all figures and draw them.
-   subroutine make_figures(directory, title, list, catalogue, tables, fields, drawing, keeper, pictures, warnings, error)
+   subroutine make_figures(directory, title, list, catalogue, extremes, tables, fields, drawing, keeper, pictures, warnings, error)
       character(*), intent(in) :: directory                        !! of the run
       character(*), intent(in) :: title                            !! of the scene, any text
       type(figure_t), intent(in) :: list(:)                        !! (n) figures
       type(catalogue_t), intent(in) :: catalogue                   !! what was recorded
+      type(extremes_t), intent(in) :: extremes                     !! what is round-off
       type(plot_table_t), intent(in) :: tables(:)                  !! (n) numbers of those that are no histories
       type(film_field_t), intent(in) :: fields(:)                  !! (any) films
       type(drawing_t), intent(in) :: drawing                       !! what the scene looks like
@@ -73,13 +76,13 @@ contains
             call write_plot(directory//"/figures", title, tables(k), is_written, error, empty)
             call tell_empty(list(k)%word, empty, warnings)
          else
-            call write_curves(directory, title, tables(k)%heading, list(k), catalogue, files, is_written, warnings, error)
+            call write_curves(directory, title, tables(k)%heading, list(k), catalogue, extremes, files, is_written, warnings, error)
          end if
          if (allocated(error)) return
          if (is_written) then
             call append_text(names, file_of(list(k)))
          else if (list(k)%kind /= figure_film) then  ! of a film that is missing the recorder tells
-            call append_text(warnings, "figure "//list(k)%word//": no numbers to draw")
+            call append_text(warnings, "figure "//list(k)%word//": no numbers to draw: "//why_nothing(list(k)))
          end if
       end do
       call draw_figures(directory//"/figures", names, pictures, warnings)
@@ -87,6 +90,23 @@ contains
          call append_text(pictures, pages(k)%s)
       end do
    end subroutine make_figures
+
+   !> Why a figure has nothing to draw.
+   pure function why_nothing(figure) result(reason)
+      type(figure_t), intent(in) :: figure     !! the figure
+      character(:), allocatable :: reason      !! a few words
+
+      select case (figure%kind)
+      case (figure_section)
+         reason = "no whole period of the drive passes after the transient (`after` and `period` in [statistics])"
+      case (figure_spectrum)
+         reason = "it needs two output instants after the transient (`after` in [statistics]), with a number at each"
+      case (figure_histogram)
+         reason = "no contact begins after the transient (`after` in [statistics])"
+      case default
+         reason = "no output instant that it shows has a number (`from` and `last` in [output], the end of the run)"
+      end select
+   end function why_nothing
 
    !> What a figure is called among the pictures: those that move by the name of their file.
    pure function file_of(figure) result(name)
@@ -98,12 +118,13 @@ contains
    end function file_of
 
    !> Time histories, orbits and portraits.
-   subroutine write_curves(directory, title, heading, figure, catalogue, files, is_written, warnings, error)
+   subroutine write_curves(directory, title, heading, figure, catalogue, extremes, files, is_written, warnings, error)
       character(*), intent(in) :: directory               !! of the run
       character(*), intent(in) :: title                   !! of the scene, any text
       character(*), intent(in) :: heading                 !! lines with `#` for a table
       type(figure_t), intent(in) :: figure                !! the figure
       type(catalogue_t), intent(in) :: catalogue          !! what was recorded
+      type(extremes_t), intent(in) :: extremes            !! what is round-off
       type(data_files_t), intent(inout) :: files          !! files of numbers looked at so far
       logical, intent(out) :: is_written                  !! there are numbers to draw
       type(text_t), allocatable, intent(inout) :: warnings(:)  !! (any) what is not drawn, and why
@@ -117,8 +138,8 @@ contains
       integer :: n_turn
 
       is_written = .false.
-      call find_curves(figure, catalogue, directory, "", files, curves)
-      call find_curves(figure, catalogue, directory, ideal_suffix, files, ideal)
+      call find_curves(figure, catalogue, extremes, directory, "", files, curves)
+      call find_curves(figure, catalogue, extremes, directory, ideal_suffix, files, ideal)
       if (figure%kind == figure_history .and. size(curves) > 0) then
          window = window_of(figure, curves, ideal)
          call make_envelope(directory//"/figures", figure%name, heading, curves, window, envelope, error)

@@ -110,7 +110,9 @@ contains
       real(wp), intent(in) :: range(2)         !! (2) least and greatest value [the unit shown]
       character(:), allocatable :: words       !! as `[0:*]`
 
-      if (range(2) - range(1) <= constant*largest(range) .and. largest(range) > 0.0_wp) then
+      if (.not. largest(range) > 0.0_wp) then
+         words = "[-1:1]"   ! what is zero, or round-off, does not fill its panel
+      else if (range(2) - range(1) <= constant*largest(range)) then
          words = "["//real_text(range(1) - 0.1_wp*abs(range(1)), 6)//":"//real_text(range(2) + 0.1_wp*abs(range(2)), 6)//"]"
       else
          words = open_range(range)

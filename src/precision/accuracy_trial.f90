@@ -58,7 +58,7 @@ contains
       trial%run%asked = search%asked
       trial%run%stride = search%stride
       trial%run%arm = arms_of(job)
-      trial%run%wants_contact_rows = job%with_contact_rows
+      trial%run%wants_contact_rows = .true.  ! extremes are those of all rows
       job%clock = budget%clock_left(until)
       call run_setting(job, setting, tolerance, trial%run, outcome)
       trial%what%wall = budget%elapsed() - begun

@@ -1,8 +1,7 @@
 !> A recorder that keeps channels in memory besides what a kept run has, with their extremes so far.
 !>
-!> Extremes are those of the output instants, and of the row at which a condition ends the run; of normal forces those of all
-!> rows, whose peaks are located (which other rows a contact has depends on the steps). Values are kept at the output instants,
-!> or at each of a whole number of them. Every channel has a kind, by which its differences are measured (`channel_difference`):
+!> Extremes are those of all rows, and those located between rows. Values are kept at the output instants, or at each of a whole
+!> number of them. Every channel has a kind, by which its differences are measured (`channel_difference`):
 !> what has the same unit in the same room; of requests that are no lengths, rates, forces or energies each is a kind of its own.
 !> Where a contact would act is kept while its bodies touch only, else it is no number: a pin in the middle of its bearing, or of
 !> its film, would act anywhere.
@@ -14,7 +13,7 @@ module kept_channels
    use, intrinsic :: ieee_arithmetic, only: ieee_is_finite
    use kept_run, only: kept_run_t, n_sort, sort_of, sort_positions
    use kinds, only: i8, not_a_number, wp
-   use recorder, only: row_stop, summary_t
+   use recorder, only: summary_t
    use states_of_contacts, only: state_contact, state_mixed
    implicit none (type, external)
    private
@@ -62,13 +61,13 @@ module kept_channels
       type(summary_t) :: summary                  !! how the run went
       integer(i8), private :: n_sample = 0        !! output instants so far
       integer, allocatable, private :: kind_of(:) !! (groups) kind of all values of a group, 0: they scale nothing
-      logical, allocatable, private :: is_peaked(:)  !! (n) a normal force
       integer, allocatable :: state_of(:)         !! (n) group of the states of contacts, of a channel of their places; else 0
    contains
       procedure :: start => start_channels
       procedure :: wants => wants_channels
       procedure :: sample => sample_channels
       procedure :: further_row => row_of_channels
+      procedure :: between => between_rows_of_channels
       procedure :: finish => finish_channels
    end type kept_channels_t
 
@@ -91,7 +90,7 @@ contains
       allocate (self%series%least(n), source=huge(1.0_wp))
       allocate (self%series%most(n), source=-huge(1.0_wp))
       allocate (self%kind_of(size(catalogue%groups)), source=0)
-      allocate (self%is_peaked(n), self%goes_round(n), source=.false.)
+      allocate (self%goes_round(n), source=.false.)
       do g = 1, size(catalogue%groups)
          self%kind_of(g) = sort_of(catalogue%groups(g)%room, catalogue%groups(g)%channel%name)
       end do
@@ -101,7 +100,6 @@ contains
             if (self%kind_of(g) == 0) self%kind_of(g) = n_sort + number_of_kind(self, group, g)
             self%kind(k) = self%kind_of(g)
             self%factor_of(k) = factor_to(self, group, self%asked(3, k))
-            self%is_peaked(k) = group%room == room_contacts .and. group%channel%name == "normal_force"
             if (group%room == room_contacts .and. index(places, " "//group%channel%name//" ") > 0) then
                self%state_of(k) = catalogue%find_group(room_contacts, "state")
             end if
@@ -110,6 +108,7 @@ contains
          end associate
       end do
       allocate (self%magnitude(n_sort + size(self%further)), source=0.0_wp)
+      self%located%place = [(catalogue%place(self%asked(1, k), self%asked(2, k), self%asked(3, k)), k=1, n)]
    end subroutine start_channels
 
    !> Whether a value is read: the channels, what scales them, and what every kept run has.
@@ -208,22 +207,42 @@ contains
       type(catalogue_t), intent(in) :: catalogue         !! values at t
       type(error_t), allocatable, intent(out) :: error   !! never set
 
-      call note(self, catalogue, kind == row_stop)
+      call note(self, catalogue, .false.)
    end subroutine row_of_channels
 
-   !> Extremes and magnitudes.
-   subroutine note(self, catalogue, is_of_all)
+   !> Note the extremes of an instant between the last rows.
+   subroutine between_rows_of_channels(self, t, catalogue)
+      class(kept_channels_t), intent(inout) :: self      !! the recorder
+      real(wp), intent(in) :: t                          !! time [s]
+      type(catalogue_t), intent(in) :: catalogue         !! values at t
+
+      real(wp) :: x
+      integer :: i, k
+
+      call note(self, catalogue, .false.)
+      do i = self%n, 1, -1   ! instants that were kept before this one was looked at
+         if (self%t(i) < t) exit
+         do k = 1, size(self%kind)
+            x = value_of(self, catalogue, k)
+            if (self%goes_round(k) .or. .not. ieee_is_finite(x)) cycle
+            self%series%low(k, i) = min(self%series%low(k, i), x)
+            self%series%high(k, i) = max(self%series%high(k, i), x)
+         end do
+      end do
+   end subroutine between_rows_of_channels
+
+   !> Extremes and magnitudes. Those of an angle that jumps by a turn are of output instants: what is nearest to the jump is chance.
+   subroutine note(self, catalogue, is_output)
       class(kept_channels_t), intent(inout) :: self      !! the recorder
       type(catalogue_t), intent(in) :: catalogue         !! values
-      logical, intent(in) :: is_of_all                   !! not of normal forces only
+      logical, intent(in) :: is_output                   !! of an output instant
 
       real(wp) :: x
       integer :: g, i, j, k
 
       do k = 1, size(self%kind)
-         if (.not. (is_of_all .or. self%is_peaked(k))) cycle
          x = value_of(self, catalogue, k)
-         if (.not. ieee_is_finite(x)) cycle
+         if (.not. ieee_is_finite(x) .or. (self%goes_round(k) .and. .not. is_output)) cycle
          if (x < self%series%least(k)) self%series%least(k) = x
          if (x > self%series%most(k)) self%series%most(k) = x
       end do
@@ -248,12 +267,15 @@ contains
       type(catalogue_t), intent(in) :: catalogue         !! values
       integer, intent(in) :: k                           !! number of the channel
 
-      integer :: state
+      real(wp) :: state
 
       value_of = catalogue%values(catalogue%place(self%asked(1, k), self%asked(2, k), self%asked(3, k)))
       if (self%state_of(k) == 0) return
-      state = nint(catalogue%values(catalogue%place(self%state_of(k), 1, self%asked(3, k))))
-      if (state /= state_contact .and. state /= state_mixed) value_of = not_a_number()
+      state = catalogue%values(catalogue%place(self%state_of(k), 1, self%asked(3, k)))
+      if (ieee_is_finite(state)) then
+         if (nint(state) == state_contact .or. nint(state) == state_mixed) return
+      end if
+      value_of = not_a_number()
    end function value_of
 
    !> Make columns for more instants.

@@ -36,7 +36,6 @@ module setting_run
       type(item_t) :: settings              !! those of the deck
       type(time_plan_t) :: plan             !! times of the motion and of the instants compared
       type(stop_t) :: stop                  !! conditions of the deck that end the motion
-      logical :: with_contact_rows = .false.  !! runs are kept with their rows at contacts
       real(wp) :: cpu = 0.0_wp              !! processor time that a run may take, 0: no limit [s]
       real(wp) :: clock = 0.0_wp            !! time that it may take by the clock on the wall, 0: no limit [s]
       integer :: start = 0                  !! number of the start in the deck's ensemble, 0: the start as it is

@@ -18,6 +18,7 @@ module contact_statistics
       real(wp) :: contact_fraction = 0.0_wp             !! of the time [1]
       real(wp), allocatable :: speeds(:)                !! (impacts) impact speeds [m/s]
       real(wp), allocatable :: forces(:)                !! (impacts) peak forces [N]
+      real(wp) :: greatest_force = -huge(1.0_wp)        !! greatest peak force in the window, whenever its contact began [N]
    end type joint_statistics_t
 
 contains
@@ -77,6 +78,9 @@ contains
                   if (pass == 2) joints(j)%speeds(n(j)) = numbers(2)
                   if (pass == 2) joints(j)%forces(n(j)) = numbers(3)
                end if
+            end associate
+            associate (force => events%numbers(3, order(k)), at => events%numbers(9, order(k)))
+               if (at >= from .and. at <= until) joints(j)%greatest_force = max(joints(j)%greatest_force, force)
             end associate
             ! contacts come in the order of their onsets: what reaches beyond those before is new
             closed(j) = closed(j) + max(0.0_wp, end - max(begin, covered(j)))

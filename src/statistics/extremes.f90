@@ -1,11 +1,13 @@
 !> Least and greatest values of the channels of a run with their times, their means, and what loose joints went through.
 !>
-!> Least and greatest are those of all rows, output instants and instants of contacts; mean and root mean square are integrals over
-!> the time by the trapezoidal rule on the output instants. What is no number counts nowhere: means are over the time between output
-!> instants that both have one, and a channel that never has one has no extremes. Impacts are read from the list of events.
+!> Least and greatest are those of all rows, output instants and instants of contacts, and of the extremes located between them;
+!> mean and root mean square are integrals over the time by the trapezoidal rule on the output instants. NaN is skipped: means are
+!> over the time between output instants that both have a number, and a channel that never has one has no extremes. Impacts are
+!> read from the list of events.
 module extremes
    use catalogue, only: catalogue_t
    use channel_names, only: scalar_t
+   use channel_noise, only: noise_of_channels, shown
    use contact_statistics, only: joint_statistics_t, joints_of, statistics_of_joints
    use event_list, only: event_list_t
    use, intrinsic :: ieee_arithmetic, only: ieee_is_finite
@@ -35,6 +37,9 @@ module extremes
    type :: extremes_t
       type(scalar_t), allocatable :: channels(:)       !! (n) the numbers
       type(extreme_t), allocatable :: of(:)            !! (n) what they went through
+      real(wp), allocatable :: noise(:)                !! (n) less is round-off, found by `find_noise` [any]
+      type(text_t), allocatable, private :: units(:)   !! (m) units that the numbers have, each once
+      integer, allocatable, private :: with_unit(:)    !! (m) the first number with each
       integer, allocatable, private :: place(:)        !! (n) where they stand in the values of the catalogue
       integer, private :: n_sample = 0                 !! output instants so far
       real(wp), private :: t_first = 0.0_wp            !! the first of them [s]
@@ -43,6 +48,7 @@ module extremes
       real(wp), private :: last_row = -huge(1.0_wp)    !! of the last [s]
    contains
       procedure :: start => start_extremes
+      procedure :: places
       procedure :: sample => sample_extremes
       procedure :: note => note_extremes
       procedure :: has_time
@@ -51,6 +57,10 @@ module extremes
       procedure :: mean => mean_of
       procedure :: shown_mean
       procedure :: told
+      procedure :: find_noise
+      procedure :: noise_in
+      procedure :: shown_extreme
+      procedure :: shown_rms
       procedure :: has_values
       procedure :: size_of
       procedure :: is_nothing
@@ -76,6 +86,34 @@ module extremes
       real(wp) :: energy_lost = 0.0_wp                 !! in all contacts; NaN without ledger [J]
    end type joint_extremes_t
 
+   interface
+
+      !> Write what was gathered.
+      module subroutine save_extremes(self, tape)
+         implicit none (type, external)
+         class(extremes_t), intent(in) :: self  !! what was gathered
+         type(tape_t), intent(inout) :: tape    !! receives it
+      end subroutine save_extremes
+
+      !> Take it back.
+      module subroutine load_extremes(self, tape)
+         implicit none (type, external)
+         class(extremes_t), intent(inout) :: self  !! started
+         type(tape_t), intent(inout) :: tape       !! holds it
+      end subroutine load_extremes
+
+      !> What the contacts of all loose joints went through between two instants.
+      module subroutine joints_at_extremes(catalogue, events, from, until, joints)
+         implicit none (type, external)
+         type(catalogue_t), intent(in) :: catalogue                      !! what can be recorded
+         type(event_list_t), intent(in) :: events                        !! all events
+         real(wp), intent(in) :: from                                    !! begin of the run [s]
+         real(wp), intent(in) :: until                                   !! its end [s]
+         type(joint_extremes_t), allocatable, intent(out) :: joints(:)   !! (n) the joints with contacts
+      end subroutine joints_at_extremes
+
+   end interface
+
 contains
 
    !> Begin with some numbers.
@@ -94,6 +132,14 @@ contains
       self%first_row = huge(1.0_wp)
       self%last_row = -huge(1.0_wp)
    end subroutine start_extremes
+
+   !> Where the numbers stand in the values of the catalogue.
+   pure function places(self)
+      class(extremes_t), intent(in) :: self   !! what is gathered
+      integer, allocatable :: places(:)       !! (n) places
+
+      places = self%place
+   end function places
 
    !> An output instant.
    subroutine sample_extremes(self, t, catalogue)
@@ -182,6 +228,58 @@ contains
       told%greatest_time = not_a_number()
    end function told
 
+   !> What is round-off in the channels, once the run has ended.
+   pure subroutine find_noise(self, catalogue)
+      class(extremes_t), intent(inout) :: self      !! what was gathered
+      type(catalogue_t), intent(in) :: catalogue    !! what can be recorded
+
+      type(text_t), allocatable :: units(:)
+      integer :: i, k, n
+
+      n = size(self%channels)
+      allocate (units(n))
+      self%with_unit = [integer ::]
+      do k = 1, n
+         units(k)%s = catalogue%groups(self%channels(k)%group)%channel%unit
+         if (any([(units(self%with_unit(i))%s == units(k)%s, i=1, size(self%with_unit))])) cycle
+         self%with_unit = [self%with_unit, k]
+      end do
+      self%units = units(self%with_unit)
+      self%noise = noise_of_channels(units, [(self%size_of(k), k=1, n)], max(self%last_row - self%first_row, 0.0_wp))
+   end subroutine find_noise
+
+   !> What is round-off in numbers of a unit; 0 if none is recorded.
+   pure real(wp) function noise_in(self, unit) result(noise)
+      class(extremes_t), intent(in) :: self   !! what was gathered, its noise found
+      character(*), intent(in) :: unit        !! SI
+
+      integer :: i
+
+      noise = 0.0_wp
+      if (.not. allocated(self%units)) return
+      do i = 1, size(self%units)
+         if (self%units(i)%s == unit) noise = self%noise(self%with_unit(i))
+      end do
+   end function noise_in
+
+   !> What a number went through, for people: round-off is zero.
+   pure type(extreme_t) function shown_extreme(self, k) result(one)
+      class(extremes_t), intent(in) :: self   !! what was gathered, its noise found
+      integer, intent(in) :: k                !! which number
+
+      one = self%told(k)
+      one%least = shown(one%least, self%noise(k))
+      one%greatest = shown(one%greatest, self%noise(k))
+   end function shown_extreme
+
+   !> Root mean square for people: round-off is zero.
+   pure real(wp) function shown_rms(self, k) result(rms)
+      class(extremes_t), intent(in) :: self   !! what was gathered, its noise found
+      integer, intent(in) :: k                !! which number
+
+      rms = shown(self%rms(k), self%noise(k))
+   end function shown_rms
+
    !> Whether a channel ever had a number.
    pure logical function has_values(self, k)
       class(extremes_t), intent(in) :: self   !! what was gathered
@@ -255,14 +353,15 @@ contains
       mean = self%mean(k)
       if (.not. span_of(self, k) > 0.0_wp) return
       if (abs(mean) < round_off*self%rms(k)) mean = 0.0_wp
+      mean = shown(mean, self%noise(k))
    end function shown_mean
 
-   !> Whether a number was zero all the time.
+   !> Whether a number was zero, or round-off, all the time.
    pure logical function is_nothing(self, k)
       class(extremes_t), intent(in) :: self   !! what was gathered
       integer, intent(in) :: k                !! which number
 
-      is_nothing = self%has_values(k) .and. self%size_of(k) <= 0.0_wp
+      is_nothing = self%has_values(k) .and. self%size_of(k) <= self%noise(k)
    end function is_nothing
 
    !> Root mean square of a number over the time; NaN: there is no time, or no number.
@@ -276,105 +375,5 @@ contains
       span = span_of(self, k)
       if (span > 0.0_wp) rms_of = sqrt(self%of(k)%integral_2/span)
    end function rms_of
-
-   !> What the contacts of all loose joints went through between two instants.
-   subroutine joints_at_extremes(catalogue, events, from, until, joints)
-      type(catalogue_t), intent(in) :: catalogue                      !! what can be recorded
-      type(event_list_t), intent(in) :: events                        !! all events
-      real(wp), intent(in) :: from                                    !! begin of the run [s]
-      real(wp), intent(in) :: until                                   !! its end [s]
-      type(joint_extremes_t), allocatable, intent(out) :: joints(:)   !! (n) the joints with contacts
-
-      type(joint_statistics_t), allocatable :: found(:)
-      type(name_table_t) :: table
-      type(text_t), allocatable :: names(:)
-      integer :: j, k
-
-      names = joints_of(catalogue)
-      call statistics_of_joints(names, events, from, until, found)
-      call table%list(names)
-      allocate (joints(size(names)))
-      do j = 1, size(joints)
-         joints(j)%name = names(j)%s
-         joints(j)%contact_fraction = found(j)%contact_fraction
-      end do
-      do k = 1, events%n
-         if (events%word(k, 1) /= "contact") cycle
-         j = table%find(events%word(k, 2))
-         if (j > 0) call add_contact(events%numbers(:, k), joints(j))
-      end do
-   end subroutine joints_at_extremes
-
-   !> Add a contact to what a joint went through.
-   pure subroutine add_contact(numbers, joint)
-      real(wp), intent(in) :: numbers(:)              !! (10) of the event, see `event_list` [any]
-      type(joint_extremes_t), intent(inout) :: joint  !! the joint
-
-      real(wp) :: at
-
-      at = 0.0_wp
-      joint%impacts = joint%impacts + 1
-      call raise(numbers(2), numbers(1), joint%speed, joint%speed_onset, at)
-      call raise(numbers(3), numbers(9), joint%force, joint%force_onset, joint%force_time)
-      call raise(numbers(4), numbers(10), joint%penetration, joint%penetration_onset, joint%penetration_time)
-      joint%impulse = joint%impulse + numbers(8)
-      if (.not. ieee_is_finite(joint%energy_lost)) return
-      if (ieee_is_finite(numbers(7))) then
-         joint%energy_lost = joint%energy_lost + numbers(7)
-      else
-         joint%energy_lost = not_a_number()
-      end if
-
-   contains
-
-      !> Take a value that is greater than those before.
-      pure subroutine raise(x, t, greatest, onset, when)
-         real(wp), intent(in) :: x            !! the value [any]
-         real(wp), intent(in) :: t            !! when it was there [s]
-         real(wp), intent(inout) :: greatest  !! the greatest so far [any]
-         real(wp), intent(inout) :: onset     !! of its contact [s]
-         real(wp), intent(inout) :: when      !! when it was there [s]
-
-         if (.not. ieee_is_finite(x)) return
-         if (joint%impacts > 1 .and. x <= greatest) return
-         greatest = x
-         onset = numbers(1)
-         when = t
-      end subroutine raise
-
-   end subroutine add_contact
-
-   !> Write what was gathered.
-   subroutine save_extremes(self, tape)
-      class(extremes_t), intent(in) :: self  !! what was gathered
-      type(tape_t), intent(inout) :: tape    !! receives it
-
-      integer :: k
-
-      call tape%put(self%n_sample)
-      call tape%put([self%t_first, self%t_last, self%first_row, self%last_row])
-      do k = 1, size(self%of)
-         call tape%put(transfer(self%of(k), [0.0_wp]))
-      end do
-   end subroutine save_extremes
-
-   !> Take it back.
-   subroutine load_extremes(self, tape)
-      class(extremes_t), intent(inout) :: self  !! started
-      type(tape_t), intent(inout) :: tape       !! holds it
-
-      real(wp) :: numbers(size(transfer(extreme_t(), [0.0_wp])))
-      integer :: k
-
-      call tape%get(self%n_sample)
-      call tape%get(self%t_first)
-      call tape%get(self%t_last)
-      call tape%get(self%first_row)
-      call tape%get(self%last_row)
-      do k = 1, size(self%of)
-         call tape%get(numbers)
-         self%of(k) = transfer(numbers, self%of(k))
-      end do
-   end subroutine load_extremes
 
 end module extremes

@@ -6,10 +6,12 @@ module missing_statistics
    use, intrinsic :: ieee_arithmetic, only: ieee_is_finite
    use kinds, only: wp
    use statistics, only: statistics_t
-   use text, only: append_text, real_text, text_t
+   use text, only: append_text, real_text, text_t, to_text
    implicit none (type, external)
    private
    public :: statistics_without_numbers
+
+   integer, parameter :: most_named = 5   !! channels that a warning names
 
 contains
 
@@ -30,6 +32,7 @@ contains
                           real_text(statistics%plan%after, 6)//" s")
          return
       end if
+      call add_missing(statistics, catalogue, warnings)
       do k = 1, size(statistics%spectra)
          call statistics%spectrum_of(k, frequency, amplitude)
          if (all(ieee_is_finite(amplitude))) cycle
@@ -37,5 +40,33 @@ contains
                           "': it is not a number at every output instant of the statistics")
       end do
    end function statistics_without_numbers
+
+   !> Lines for means that are not known, and why: no time, or no channel with a number.
+   subroutine add_missing(statistics, catalogue, warnings)
+      type(statistics_t), intent(in) :: statistics              !! what was gathered
+      type(catalogue_t), intent(in) :: catalogue                !! what can be recorded
+      type(text_t), allocatable, intent(inout) :: warnings(:)   !! (any) grown
+
+      character(:), allocatable :: names
+      integer :: k, n
+
+      if (size(statistics%channels) == 0) return
+      if (.not. statistics%has_time()) then
+         call append_text(warnings, "statistics have no mean and no RMS: less than two output instants lie in their window; "// &
+                          "a shorter `every` in [output] gives more")
+         return
+      end if
+      names = ""
+      n = 0
+      do k = 1, size(statistics%channels)
+         if (statistics%has_mean(k)) cycle
+         n = n + 1
+         if (n <= most_named) names = names//", '"//scalar_name(catalogue, statistics%channels(k))//"'"
+      end do
+      if (n == 0) return
+      if (n > most_named) names = names//" and "//to_text(n - most_named)//" more"
+      call append_text(warnings, "no mean and no RMS of "//names(3:)//": no two output instants of the statistics, "// &
+                       "one after the other, have a number of it")
+   end subroutine add_missing
 
 end module missing_statistics

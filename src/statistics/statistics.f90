@@ -20,7 +20,7 @@ module statistics
    implicit none (type, external)
    private
    public :: names_of_numbers, number_t, statistics_plan_t
-   public :: statistics_t
+   public :: make_room, make_room_for_strobe, statistics_t
 
    integer, parameter :: n_of_channel = 5  !! numbers of a channel
    !> Their names.
@@ -48,6 +48,7 @@ module statistics
       character(:), allocatable :: name      !! as `motor.moment.rms`
       character(:), allocatable :: unit      !! SI, `1` if none
       real(wp) :: value = 0.0_wp             !! NaN: not known [any]
+      real(wp) :: noise = 0.0_wp             !! less is round-off [any]
    end type number_t
 
    !> What is gathered during a run.
@@ -70,14 +71,45 @@ module statistics
       real(wp), allocatable, private :: series(:, :)      !! (m, n_sample or more) channels of the spectra, SI [any]
    contains
       procedure :: start => start_statistics
+      procedure :: places => places_of_channels
       procedure :: sample => sample_statistics
       procedure :: note_extremes
       procedure :: strobe => strobe_statistics
       procedure :: numbers => numbers_of_run
       procedure :: spectrum_of
+      procedure :: has_time
+      procedure :: has_mean
+      procedure, private :: span_of
       procedure :: save => save_statistics
       procedure :: load => load_statistics
    end type statistics_t
+
+   interface
+
+      !> Write what was gathered.
+      module subroutine save_statistics(self, tape)
+         implicit none (type, external)
+         class(statistics_t), intent(in) :: self  !! what was gathered
+         type(tape_t), intent(inout) :: tape      !! receives it
+      end subroutine save_statistics
+
+      !> Take it back.
+      module subroutine load_statistics(self, tape)
+         implicit none (type, external)
+         class(statistics_t), intent(inout) :: self  !! started
+         type(tape_t), intent(inout) :: tape         !! holds it
+      end subroutine load_statistics
+
+      !> The numbers that words name, then further ones, each once.
+      module subroutine take_words(words, catalogue, more, list)
+         implicit none (type, external)
+         type(text_t), allocatable, intent(in) :: words(:)        !! (any) words of the deck; unallocated: none
+         type(catalogue_t), intent(in) :: catalogue               !! what can be recorded
+         type(scalar_t), intent(in) :: more(:)                    !! (any) further numbers
+         type(scalar_t), allocatable, intent(out) :: list(:)      !! (n) all
+      end subroutine take_words
+
+   end interface
 
 contains
 
@@ -107,57 +139,17 @@ contains
       allocate (self%strobe_times(64), self%strobes(n, 64), self%series(size(self%spectra), 1024))
    end subroutine start_statistics
 
-   !> The numbers that words name, then further ones, each once.
-   subroutine take_words(words, catalogue, more, list)
-      type(text_t), allocatable, intent(in) :: words(:)        !! (any) words of the deck; unallocated: none
-      type(catalogue_t), intent(in) :: catalogue               !! what can be recorded
-      type(scalar_t), intent(in) :: more(:)                    !! (any) further numbers
-      type(scalar_t), allocatable, intent(out) :: list(:)      !! (n) all
+   !> Where the channels stand in the values of the catalogue.
+   pure function places_of_channels(self, catalogue) result(places)
+      class(statistics_t), intent(in) :: self      !! what is gathered
+      type(catalogue_t), intent(in) :: catalogue   !! what can be recorded
+      integer, allocatable :: places(:)            !! (n) places
 
-      type(item_finder_t) :: finder
-      type(scalar_t), allocatable :: scalars(:)
-      type(selection_t) :: taken
-      character(:), allocatable :: hint, message
-      integer :: k, n
+      integer :: k
 
-      allocate (list(64))
-      n = 0
-      call taken%clear(catalogue)
-      if (allocated(words)) then
-         call finder%start(catalogue)
-         do k = 1, size(words)
-            call find_scalars(words(k)%s, catalogue, finder, scalars, message, hint)
-            call add_scalars(scalars)
-         end do
-      end if
-      call add_scalars(more)
-      list = list(:n)
-
-   contains
-
-      !> Append numbers that are not in the list yet; it grows by doubling.
-      subroutine add_scalars(scalars)
-         type(scalar_t), intent(in) :: scalars(:)  !! (any) numbers
-
-         type(scalar_t), allocatable :: larger(:)
-         integer :: i
-
-         do i = 1, size(scalars)
-            associate (is_taken => taken%groups(scalars(i)%group)%mask(scalars(i)%component, scalars(i)%item))
-               if (is_taken) cycle
-               is_taken = .true.
-            end associate
-            if (n == size(list)) then
-               allocate (larger(2*n))
-               larger(:n) = list
-               call move_alloc(larger, list)
-            end if
-            n = n + 1
-            list(n) = scalars(i)
-         end do
-      end subroutine add_scalars
-
-   end subroutine take_words
+      places = [(catalogue%place(self%channels(k)%group, self%channels(k)%component, self%channels(k)%item), &
+                 k=1, size(self%channels))]
+   end function places_of_channels
 
    !> An output instant.
    subroutine sample_statistics(self, t, catalogue)
@@ -273,6 +265,32 @@ contains
                               (self%t_last - self%t_first)/real(self%n_sample - 1, wp), frequency, amplitude)
    end subroutine spectrum_of
 
+   !> Whether there are two output instants in the window.
+   pure logical function has_time(self)
+      class(statistics_t), intent(in) :: self   !! what was gathered
+
+      has_time = self%n_sample > 1 .and. self%t_last > self%t_first
+   end function has_time
+
+   !> Whether a channel has a mean.
+   pure logical function has_mean(self, k)
+      class(statistics_t), intent(in) :: self   !! what was gathered
+      integer, intent(in) :: k                  !! number of the channel
+
+      has_mean = self%has_time() .and. self%lowest(k) <= self%highest(k) .and. self%span_of(k) > 0.0_wp
+   end function has_mean
+
+   !> Time over which a channel is averaged; 0: none.
+   pure real(wp) function span_of(self, k) result(span)
+      class(statistics_t), intent(in) :: self   !! what was gathered
+      integer, intent(in) :: k                  !! number of the channel
+
+      real(wp), parameter :: round_off = 1.0e-12_wp  ! of the time [1]
+
+      span = self%t_last - self%t_first - self%gap(k)
+      if (span <= round_off*(self%t_last - self%t_first)) span = 0.0_wp
+   end function span_of
+
    !> All numbers of the run.
    function numbers_of_run(self, catalogue, events, t_end) result(list)
       class(statistics_t), intent(in) :: self        !! what was gathered
@@ -283,7 +301,6 @@ contains
 
       type(joint_statistics_t), allocatable :: contacts(:)
       type(text_t), allocatable :: joints(:)
-      real(wp), parameter :: round_off = 1.0e-12_wp  ! of the time [1]
       real(wp) :: span, values(n_of_joint)
       integer :: k
 
@@ -292,10 +309,10 @@ contains
       call names_of_numbers(self%channels, catalogue, list)
       do k = 1, size(self%channels)
          if (self%lowest(k) > self%highest(k)) cycle
-         span = self%t_last - self%t_first - self%gap(k)
+         span = self%span_of(k)
          associate (low => self%lowest(k), high => self%highest(k), first => n_of_channel*(k - 1))
             list(first + 3:first + 5)%value = [max(abs(low), abs(high)), low, high]
-            if (span <= round_off*(self%t_last - self%t_first)) cycle
+            if (span <= 0.0_wp) cycle
             list(first + 1:first + 2)%value = [self%integral(k)/span, sqrt(self%integral_2(k)/span)]
          end associate
       end do
@@ -310,8 +327,9 @@ contains
             if (span > 0.0_wp .and. self%plan%period > 0.0_wp) values(4) = values(2)*self%plan%period/span
             if (size(joint%speeds) > 0) then
                values(5:6) = [sum(joint%speeds)/real(size(joint%speeds), wp), maxval(joint%speeds)]
-               values(7:8) = [sum(joint%forces)/real(size(joint%forces), wp), maxval(joint%forces)]
+               values(7) = sum(joint%forces)/real(size(joint%forces), wp)
             end if
+            if (joint%greatest_force >= 0.0_wp) values(8) = joint%greatest_force
          end associate
          associate (first => n_of_channel*size(self%channels) + n_of_joint*(k - 1))
             list(first + 1:first + n_of_joint)%value = values
@@ -348,53 +366,5 @@ contains
          end do
       end do
    end subroutine names_of_numbers
-
-   !> Write what was gathered.
-   subroutine save_statistics(self, tape)
-      class(statistics_t), intent(in) :: self  !! what was gathered
-      type(tape_t), intent(inout) :: tape      !! receives it
-
-      integer :: k
-
-      if (.not. self%plan%is_wanted) return
-      call tape%put([self%n_strobe, self%n_sample])
-      call tape%put([self%t_first, self%t_last, self%x_last, self%integral, self%integral_2, self%gap, self%lowest, self%highest])
-      do k = 1, self%n_strobe
-         call tape%put([self%strobe_times(k), self%strobes(:, k)])
-      end do
-      do k = 1, merge(self%n_sample, 0, size(self%spectra) > 0)
-         call tape%put(self%series(:, k))
-      end do
-   end subroutine save_statistics
-
-   !> Take it back.
-   subroutine load_statistics(self, tape)
-      class(statistics_t), intent(inout) :: self  !! started
-      type(tape_t), intent(inout) :: tape         !! holds it
-
-      integer :: k, n
-
-      if (.not. self%plan%is_wanted) return
-      call tape%get(n)
-      call tape%get(self%n_sample)
-      call tape%get(self%t_first)
-      call tape%get(self%t_last)
-      call tape%get(self%x_last)
-      call tape%get(self%integral)
-      call tape%get(self%integral_2)
-      call tape%get(self%gap)
-      call tape%get(self%lowest)
-      call tape%get(self%highest)
-      self%n_strobe = 0
-      do k = 1, n
-         call make_room_for_strobe(self)
-         call tape%get(self%strobe_times(k))
-         call tape%get(self%strobes(:, k))
-      end do
-      do k = 1, merge(self%n_sample, 0, size(self%spectra) > 0)
-         call make_room(self%series, k)
-         call tape%get(self%series(:, k))
-      end do
-   end subroutine load_statistics
 
 end module statistics

@@ -60,14 +60,15 @@ def test_interval_holds_the_closed_form(gudgeon, accuracy):
     run = accurate(gudgeon, SPRING, "--accuracy", accuracy, "--quiet")
     found = run.summary["accuracy"]
     assert found["claim"] == "end" and found["claimed_until"] == END and found["error"] <= float(accuracy)
-    for quantity, truth in zip(("position", "velocity"), true_motion(run.time)):
+    between = true_motion(np.linspace(0.0, END, 4000001))  # extremes are located between output instants too
+    for quantity, truth, fine in zip(("position", "velocity"), true_motion(run.time), between):
         row = extremes(run)[f"mass.{quantity}.x"]
         assert row["error"] <= float(accuracy)*row["scale"]
-        scale = np.ptp(truth) if quantity == "position" else np.abs(truth).max()
+        scale = np.ptp(truth) if quantity == "position" else np.abs(fine).max()
         assert abs(row["scale"] - scale) <= 2.0*float(accuracy)*scale
         error = np.abs(run.item(f"bodies/{quantity}", "mass")[:, 0] - truth).max()
         assert error <= row["error"], f"{quantity}: {error:.2e} is outside of {row['error']:.2e}"
-        assert abs(row["min"] - truth.min()) <= row["error"] and abs(row["max"] - truth.max()) <= row["error"]
+        assert abs(row["min"] - fine.min()) <= row["error"] and abs(row["max"] - fine.max()) <= row["error"]
 
 
 def test_finer_accuracy_takes_a_finer_tolerance(gudgeon):
@@ -105,7 +106,7 @@ def test_run_is_that_of_its_tolerance(gudgeon):
 
 
 def test_extremes_are_those_of_the_rows(gudgeon):
-    """Of channels those of the output instants, of normal forces the located peaks; the file and both summaries say the same."""
+    """Those of the run, located at contacts too; the file and both summaries say the same."""
     run = accurate(gudgeon, plain_deck([("analysis.dynamic", "end", "1 ms"), ("output", "channels", "slider.velocity gudgeon.normal_force")]),
                    "--accuracy", "1e-5")
     found = extremes(run)
@@ -117,7 +118,7 @@ def test_extremes_are_those_of_the_rows(gudgeon):
         assert list(run.read(f"accuracy/{key}")) == [row[key] for row in found.values()]
     assert list(run.read("accuracy/names")) == list(found)
     head, line = next(pair for pair in pairwise(run.done.stdout.splitlines()) if "slider.velocity.x [m/s]" in pair[1])
-    assert head.split()[:3] == ["of", "output", "instants"]  # the table of all rows, `extremes`, is another one
+    assert head.split() == ["extremes", "least", "greatest", "+-"]  # the table of the accuracy comes first
     assert_close(float(line.split()[2]), velocity.min(), relative=1e-9, what=line)
 
 
@@ -213,7 +214,7 @@ def test_every_unit_has_a_scale_of_its_own(gudgeon):
     for word in words.split():
         name = word.split(".")[1]
         greatest = np.nanmax(np.abs(run.item(f"clearances/{name}", "gudgeon")))  # no rise without flow
-        assert_close(extremes(run)[word]["scale"], greatest, relative=1e-3, what=name)
+        assert greatest*(1.0 - 1e-3) <= extremes(run)[word]["scale"] <= 1.01*greatest, name  # located between output instants
         assert extremes(run)[word]["error"] <= 1e-5*extremes(run)[word]["scale"]
 
 
@@ -225,7 +226,7 @@ def test_members_of_an_ensemble(gudgeon):
     assert np.array_equal(run.read("bodies/position"), again.read("bodies/position"))
     assert not np.array_equal(run.read("bodies/position"), first.read("bodies/position"))
     x = run.item("bodies/position", "mass")[:, 0]
-    assert extremes(run)["mass.position.x"]["max"] == x.max()
+    assert x.max() <= extremes(run)["mass.position.x"]["max"] <= x.max() + 1e-6*np.ptp(x)
 
 
 def test_spin_that_round_off_makes(gudgeon):
@@ -251,7 +252,8 @@ def test_pin_in_the_middle(gudgeon):
     assert not touches[0] and touches.any()
     for k, name in enumerate("xy"):
         claimed, column = extremes(run)[f"gudgeon.contact_point.{name}"], run.read("clearances/contacts/contact_point")[:, 0, k]
-        assert (claimed["min"], claimed["max"]) == (column[touches].min(), column[touches].max())
+        rise = 0.01*np.ptp(column[touches])  # what is between the rows
+        assert 0.0 <= column[touches].min() - claimed["min"] <= rise and 0.0 <= claimed["max"] - column[touches].max() <= rise
         assert 0 < claimed["error"] < 1e-3*claimed["scale"]
 
 

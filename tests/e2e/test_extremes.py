@@ -94,13 +94,14 @@ def test_what_is_no_number(gudgeon):
 
 
 def test_extremes_of_rows(gudgeon):
-    """Least and greatest of all rows, mean and RMS of the output instants."""
+    """Least and greatest of all rows and between them, mean and RMS of the output instants."""
     run = crank(gudgeon)
     found = extremes_of(run)["motor.moment"]
     t, x = run.rows("time"), run.rows("drivers/moment")[:, 0]
     assert found["unit"] == "N.m"
-    assert (found["least"], found["greatest"]) == (x.min(), x.max())
-    assert (found["least_time"], found["greatest_time"]) == (t[x.argmin()], t[x.argmax()])
+    rise, apart = 2e-3 * np.abs(x).max(), 2 * np.diff(t).max()  # what may be between rows, and how far from the greatest of them
+    assert x.min() - rise <= found["least"] <= x.min() and x.max() <= found["greatest"] <= x.max() + rise
+    assert abs(found["least_time"] - t[x.argmin()]) <= apart and abs(found["greatest_time"] - t[x.argmax()]) <= apart
     t, x = run.read("time"), run.read("drivers/moment")[:, 0]
     assert_close(found["mean"], trapezoid(x, t) / (t[-1] - t[0]), 1e-12 * np.abs(x).max())
     assert_close(found["rms"], math.sqrt(trapezoid(x**2, t) / (t[-1] - t[0])), relative=1e-12)

@@ -54,9 +54,10 @@ def test_numbers_of_channels(gudgeon):
         assert_close(numbers[f"{channel}.mean"], mean, 1e-9 * rms, what=channel)
         assert_close(numbers[f"{channel}.rms"], rms, relative=1e-12, what=channel)
         x = windowed(run, channel, rows=True)[1]
-        assert numbers[f"{channel}.peak"] == np.abs(x).max()
-        assert numbers[f"{channel}.min"] == x.min()
-        assert numbers[f"{channel}.max"] == x.max()
+        rise = 2e-3 * np.abs(x).max()  # what extremes between rows may add
+        assert x.min() - rise <= numbers[f"{channel}.min"] <= x.min()
+        assert x.max() <= numbers[f"{channel}.max"] <= x.max() + rise
+        assert numbers[f"{channel}.peak"] == max(abs(numbers[f"{channel}.min"]), abs(numbers[f"{channel}.max"]))
 
 
 def test_contacts_are_counted_from_the_events(gudgeon):

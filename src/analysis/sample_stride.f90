@@ -1,0 +1,140 @@
+!> How many steps of an integration lie between two samples of its motion.
+!>
+!> Steps are followed one by one where accelerations bend; where they are nearly straight between samples the stride doubles. The
+!> bend is the distance of the middle one of three samples from the chord through the others, of the largest of the three.
+!> The stride depends on the steps and the accelerations only, not on output instants or on what is recorded.
+!>
+!> Limits: at most `longest` steps.
+module sample_stride
+   use kinds, only: wp
+   use tape, only: tape_t
+   implicit none (type, external)
+   private
+   public :: sample_stride_t
+
+   integer, parameter :: longest = 8               !! steps of the longest stride
+   real(wp), parameter :: straight = 1.0e-3_wp     !! bend below which the stride doubles [1]
+   real(wp), parameter :: bent = 4.0e-3_wp         !! bend above which it halves [1]
+   real(wp), parameter :: round_off = 1.0e-9_wp    !! accelerations below this part of the largest are not judged [1]
+   real(wp), parameter :: faded = 1.0e-2_wp        !! accelerations below this part of their own largest count as that [1]
+
+   !> The stride.
+   type :: sample_stride_t
+      private
+      integer :: length = 1                !! steps from one sample to the next
+      integer :: n_step = 0                !! steps since the last sample
+      integer :: n = 0                     !! samples since the last event, at most 3
+      real(wp) :: t(3) = 0.0_wp            !! (3) times of the last samples [s]
+      real(wp), allocatable :: a(:, :)     !! (m, 3) accelerations there [any]
+      real(wp), allocatable :: most(:)     !! (m) their greatest magnitudes so far [any]
+   contains
+      procedure :: begin => begin_stride
+      procedure :: forget => forget_samples
+      procedure :: is_first
+      procedure :: count_step
+      procedure :: add_sample
+      procedure :: save => save_stride
+      procedure :: load => load_stride
+   end type sample_stride_t
+
+contains
+
+   !> Begin with the first step.
+   subroutine begin_stride(self, m)
+      class(sample_stride_t), intent(inout) :: self  !! the stride
+      integer, intent(in) :: m                       !! accelerations
+
+      allocate (self%a(m, 3), self%most(m), source=0.0_wp)
+   end subroutine begin_stride
+
+   !> An event: each step is sampled again.
+   pure subroutine forget_samples(self)
+      class(sample_stride_t), intent(inout) :: self  !! the stride
+
+      self%length = 1
+      self%n_step = 0
+      self%n = 0
+   end subroutine forget_samples
+
+   !> Whether the step is the first one since an event.
+   pure logical function is_first(self)
+      class(sample_stride_t), intent(in) :: self  !! the stride
+
+      is_first = self%n <= 1
+   end function is_first
+
+   !> A step was made.
+   pure subroutine count_step(self, is_due)
+      class(sample_stride_t), intent(inout) :: self  !! the stride
+      logical, intent(out) :: is_due                 !! its end is to be sampled
+
+      self%n_step = self%n_step + 1
+      is_due = self%n_step >= self%length
+   end subroutine count_step
+
+   !> A sample; the next stride follows from the bend.
+   pure subroutine add_sample(self, t, a)
+      class(sample_stride_t), intent(inout) :: self  !! the stride
+      real(wp), intent(in) :: t                      !! time [s]
+      real(wp), intent(in) :: a(:)                   !! (m) accelerations [any]
+
+      real(wp) :: bend, part, scale
+      integer :: k
+
+      do k = 1, 2
+         self%t(k) = self%t(k + 1)
+         self%a(:, k) = self%a(:, k + 1)
+      end do
+      self%t(3) = t
+      self%a(:, 3) = a
+      self%most = max(self%most, abs(a))
+      self%n = min(self%n + 1, 3)
+      self%n_step = 0
+      if (self%n < 3 .or. .not. self%t(3) > self%t(1)) return
+      part = (self%t(2) - self%t(1))/(self%t(3) - self%t(1))
+      bend = 0.0_wp
+      associate (floor => round_off*maxval(self%most))
+         do k = 1, size(a)
+            if (self%most(k) <= floor) cycle
+            scale = max(maxval(abs(self%a(k, :))), faded*self%most(k))
+            bend = max(bend, abs(self%a(k, 2) - (1.0_wp - part)*self%a(k, 1) - part*self%a(k, 3))/scale)
+         end do
+      end associate
+      if (bend < straight) self%length = min(2*self%length, longest)
+      if (bend > bent) self%length = max(self%length/2, 1)
+   end subroutine add_sample
+
+   !> Write what is remembered.
+   subroutine save_stride(self, tape)
+      class(sample_stride_t), intent(in) :: self  !! the stride
+      type(tape_t), intent(inout) :: tape         !! receives it
+
+      integer :: k
+
+      if (.not. allocated(self%a)) return
+      call tape%put([self%length, self%n_step, self%n])
+      call tape%put([self%t, self%most])
+      do k = 1, 3
+         call tape%put(self%a(:, k))
+      end do
+   end subroutine save_stride
+
+   !> Take it back.
+   subroutine load_stride(self, tape)
+      class(sample_stride_t), intent(inout) :: self  !! the stride, begun
+      type(tape_t), intent(inout) :: tape            !! holds it
+
+      integer :: k
+
+      if (.not. allocated(self%a)) return
+      call tape%get(self%length)
+      call tape%get(self%n_step)
+      call tape%get(self%n)
+      call tape%get(self%t)
+      call tape%get(self%most)
+      do k = 1, 3
+         call tape%get(self%a(:, k))
+      end do
+   end subroutine load_stride
+
+end module sample_stride

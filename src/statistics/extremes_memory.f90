@@ -1,0 +1,34 @@
+!> What the extremes of a run remember in a checkpoint.
+submodule(extremes) extremes_memory
+   implicit none (type, external)
+
+contains
+
+   !> Write what was gathered.
+   module procedure save_extremes
+      integer :: k
+
+      call tape%put(self%n_sample)
+      call tape%put([self%t_first, self%t_last, self%first_row, self%last_row])
+      do k = 1, size(self%of)
+         call tape%put(transfer(self%of(k), [0.0_wp]))
+      end do
+   end procedure save_extremes
+
+   !> Take it back.
+   module procedure load_extremes
+      real(wp) :: numbers(size(transfer(extreme_t(), [0.0_wp])))
+      integer :: k
+
+      call tape%get(self%n_sample)
+      call tape%get(self%t_first)
+      call tape%get(self%t_last)
+      call tape%get(self%first_row)
+      call tape%get(self%last_row)
+      do k = 1, size(self%of)
+         call tape%get(numbers)
+         self%of(k) = transfer(numbers, self%of(k))
+      end do
+   end procedure load_extremes
+
+end submodule extremes_memory
