@@ -87,7 +87,7 @@ contains
          if (factor < worth) return
          words = "stiff for method = "//name_of(method)//": stability keeps its steps short, at "//real_text(h, 2)// &
                  " s; at the end of the motion radau takes about "//real_text(factor, 2)// &
-                 " times fewer evaluations: leave method out, or set method = radau"
+                 " times fewer evaluations: set method = auto or radau"
       end select
    end function stiffness_warning
 
