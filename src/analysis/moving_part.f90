@@ -102,6 +102,7 @@ contains
             return
          end if
          call part%guards%begin(system)
+         call system%scale_quadratures(0.0_wp)
          energy = energy_of(system, y)
          part%ledger%balance_0 = energy%balance()
          part%ledger%potential_0 = energy%potential
@@ -281,6 +282,7 @@ contains
 
       associate (linkage => part%system%linkage)
          call part%system%follow_pace(part%method%step%y1)
+         if (.not. part%system%ledger%is_kept) call part%system%scale_quadratures(0.0_wp)  ! impulses; else with the energy
          call part%instants%note_turning(part%system)
          if (linkage%rows%n_solve > 0) call look_at_rows(part, tally)
       end associate
@@ -323,6 +325,7 @@ contains
       tally%least_lost = min(tally%least_lost, tally%lost)
       tally%residual_max = max(tally%residual_max, abs(tally%residual))
       tally%energy_max = max(tally%energy_max, tally%level)
+      call part%system%scale_quadratures(max(part%ledger%level, energy%largest_work()))
       call part%guards%look_at_energy(tally%residual, tally%energy_max, tally%magnitude)
 
    contains

@@ -25,6 +25,7 @@ module auto
    use method_trial, only: run_trial, trial_t
    use ode_system, only: ode_system_t
    use one_step, only: one_step_advance, one_step_restart, one_step_t
+   use quadrature_error, only: counts_quadratures
    use radau, only: radau_t
    use step_control, only: step_control_t
    use verner, only: verner_bound, verner_stages_t, verner_t
@@ -250,12 +251,15 @@ contains
       real(wp), intent(in) :: h                  !! length of the step [s]
 
       call self%set_scales(system, self%trial)
-      if (self%is_eighth) then
-         norm = self%eight%norm(system%n - system%n_quadrature, self%scale, self%controls%norm)
-      else
-         norm = self%six%norm(system, self%step%f0, self%scale, self%controls%norm == norm_euclidean)
-      end if
-      norm = h*norm/self%controls%tolerance
+      associate (part => h/self%controls%tolerance)
+         if (self%is_eighth) then
+            norm = part*self%eight%norm(system%n - system%n_quadrature, self%scale, self%controls%norm)
+            if (counts_quadratures(system, norm)) norm = max(norm, self%eight%quadrature_norm(system, part))
+         else
+            norm = part*self%six%norm(system, self%step%f0, self%scale, self%controls%norm == norm_euclidean)
+            if (counts_quadratures(system, norm)) norm = max(norm, self%six%quadrature_norm(system, self%step%f0, part))
+         end if
+      end associate
    end function auto_error_norm
 
    !> Rate at which the last two states at the end of an explicit step make a difference of each other decay or swing.

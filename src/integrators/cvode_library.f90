@@ -19,14 +19,13 @@ module cvode_library
       fcvodesetminstep, fcvodesetnonlinconvcoef, fcvodesetnonlinearsolver, fcvodesetpreconditioner, fcvodesetprojerrest, &
       fcvodesetprojfn, fcvodesetstoptime, fcvodesetuserdata, fcvodewftolerances
    use dae_system, only: dae_system_t
-   use fnvector_serial_mod, only: fn_vnew_serial
    use fsunlinsol_dense_mod, only: fsunlinsol_dense
    use fsunlinsol_spgmr_mod, only: fsunlinsol_spgmr
    use fsunmatrix_dense_mod, only: fsundensematrix
    use fsunnonlinsol_fixedpoint_mod, only: fsunnonlinsol_fixedpoint
    use kinds, only: wp
    use sundials, only: fn_vgetarraypointer, fsunnonlinsolfree, n_vector, new_cvode, sunindextype, sunmatrix, sunnonlinearsolver
-   use sundials_library, only: dense_block, increments, library_t, most_failures, note, problem_t, weigh
+   use sundials_library, only: dense_block, increments, library_t, most_failures, new_vector, note, problem_t, weigh
    implicit none (type, external)
    private
    public :: cvode_library_t
@@ -100,8 +99,8 @@ contains
       integer(sunindextype) :: n
 
       n = int(self%problem%system%n, sunindextype)
-      self%state => fn_vnew_serial(n, self%context)
-      self%look => fn_vnew_serial(n, self%context)
+      self%state => new_vector(self%problem%system%n, self%context)
+      self%look => new_vector(self%problem%system%n, self%context)
       self%memory = new_cvode(merge(cv_bdf, cv_adams, self%is_stiff), self%context)
       status = merge(0, -1, associated(self%state) .and. associated(self%look) .and. c_associated(self%memory))
       if (status /= 0) return

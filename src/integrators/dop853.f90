@@ -19,6 +19,7 @@ module dop853
    use kinds, only: wp
    use ode_system, only: ode_system_t
    use one_step, only: one_step_t
+   use quadrature_error, only: counts_quadratures
    implicit none (type, external)
    private
    public :: dop853_t
@@ -77,6 +78,8 @@ contains
       call self%set_scales(system, self%trial)
       norm = self%stages%norm(system%n - system%n_quadrature, self%scale, self%controls%norm)
       norm = h*norm/self%controls%tolerance
+      if (counts_quadratures(system, norm)) &
+         norm = max(norm, self%stages%quadrature_norm(system, h/self%controls%tolerance))
    end function dop853_error_norm
 
    !> Rate at which the last two states at the end of the step make a difference of each other decay or swing.

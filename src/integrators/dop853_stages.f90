@@ -6,6 +6,7 @@ module dop853_stages
    use interpolation, only: step_t
    use kinds, only: i8, wp
    use ode_system, only: ode_system_t
+   use quadrature_error, only: by_one_step, greatest_error
    use stability_limit, only: rate_between
    use step_course, only: along, course_even, pace_at, parameter_of
    use wild_stages, only: evaluate_aside, judge_stage
@@ -93,6 +94,7 @@ module dop853_stages
       procedure :: open => stages_open
       procedure :: make => stages_make
       procedure :: norm => stages_norm
+      procedure :: quadrature_norm => stages_quadrature_norm
       procedure :: fastest_rate => stages_fastest_rate
       procedure :: are_of => stages_are_of
       procedure :: fit_output => stages_fit_output
@@ -260,6 +262,30 @@ contains
       end if
       if (norm > 0.0_wp) norm = norm*(norm/hypot(norm, 0.1_wp*norm_3))
    end function stages_norm
+
+   !> Norm of the error estimates of the quadratures, of each by itself.
+   real(wp) function stages_quadrature_norm(self, system, part) result(norm)
+      class(dop853_stages_t), intent(in) :: self   !! the stages
+      class(ode_system_t), intent(in) :: system    !! the system
+      real(wp), intent(in) :: part                 !! length of the step over the tolerance [s]
+
+      real(wp) :: estimate(system%n_quadrature), estimate_3, estimate_5
+      integer :: i, j, n
+
+      n = system%n - system%n_quadrature
+      do i = 1, system%n_quadrature
+         estimate_5 = e5(1)*self%k(n + i, 1)
+         estimate_3 = e3(1)*self%k(n + i, 1)
+         do j = 6, 12
+            estimate_5 = estimate_5 + e5(j)*self%k(n + i, j)
+            estimate_3 = estimate_3 + e3(j)*self%k(n + i, j)
+         end do
+         estimate_5 = abs(estimate_5)
+         if (estimate_5 > 0.0_wp) estimate_5 = estimate_5*(estimate_5/hypot(estimate_5, 0.1_wp*estimate_3))
+         estimate(i) = part*estimate_5
+      end do
+      norm = greatest_error(system%n_quadrature, estimate, system%traits%quadrature_scale, by_one_step)
+   end function stages_quadrature_norm
 
    !> Whether these are the stages of a step, and not of a part of it.
    pure logical function stages_are_of(self, step)

@@ -25,7 +25,6 @@ module ida_library
       fidainit, fidareinit, fidasetinitstep, fidasetjacfn, fidasetlinearsolver, fidasetmaxconvfails, &
       fidasetmaxerrtestfails, fidasetmaxstep, fidasetminstep, fidasetnonlinearsolver, fidasetstoptime, &
       fidasetuserdata, fidasolve, fidawftolerances, ida_one_step
-   use fnvector_serial_mod, only: fn_vnew_serial
    use fsunlinsol_dense_mod, only: fsunlinsol_dense
    use fsunlinsol_klu_mod, only: fsunlinsol_klu
    use fsunnonlinsol_newton_mod, only: fsunnonlinsol_newton
@@ -35,7 +34,7 @@ module ida_library
    use kinds, only: wp
    use sundials, only: fn_vdestroy, fn_vgetarraypointer, fsunnonlinsolfree, fsunnonlinsolsetconvtestfn, &
       n_vector, new_ida, sunindextype, sunmatrix, sunnonlinearsolver
-   use sundials_library, only: library_t, most_failures, note, problem_t, weigh
+   use sundials_library, only: library_t, most_failures, new_vector, note, problem_t, weigh
    implicit none (type, external)
    private
    public :: ida_library_t
@@ -141,9 +140,9 @@ contains
       integer(sunindextype) :: n
 
       n = int(self%problem%system%n + 2*rows_of(self%problem%system), sunindextype)
-      self%state => fn_vnew_serial(n, self%context)
-      self%rate => fn_vnew_serial(n, self%context)
-      self%look => fn_vnew_serial(n, self%context)
+      self%state => new_vector(int(n), self%context)
+      self%rate => new_vector(int(n), self%context)
+      self%look => new_vector(int(n), self%context)
       self%memory = new_ida(self%context)
       status = merge(0, -1, associated(self%state) .and. associated(self%rate) .and. associated(self%look) &
                      .and. c_associated(self%memory))

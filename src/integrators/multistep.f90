@@ -131,6 +131,7 @@ contains
       integer, intent(out) :: status                !! advance_step, or a failure
 
       self%is_fresh = .true.
+      self%library%problem%heeds_quadratures = .true.
       self%first_step = step_hint*sqrt(self%controls%tolerance)
       call self%evaluate_end(system, status)
       status = merge(advance_step, advance_failed_evaluation, status == 0)
@@ -190,6 +191,13 @@ contains
          t = t_stop
       else
          call step_by_library(self, system, t_stop, t, status)
+         if (status == advance_too_small .and. self%library%problem%heeds_quadratures) then
+            ! errors of quadratures that no shorter step lessens are noise
+            self%library%problem%heeds_quadratures = .false.
+            self%is_fresh = .true.
+            self%first_step = self%last%h_whole*sqrt(self%controls%tolerance)
+            call step_by_library(self, system, t_stop, t, status)
+         end if
          if (status /= advance_step) return
       end if
       if (system%holds) then
@@ -229,8 +237,7 @@ contains
       logical :: is_good
 
       t = self%t
-      self%library%problem%system => system
-      self%library%problem%method => self
+      call self%library%problem%attend(system, self)
       status = advance_step
       if (self%is_fresh) then
          self%n_rejected_before = int(self%count%n_rejected)
@@ -247,7 +254,7 @@ contains
          self%count%n_rejected = self%n_rejected_before + self%library%n_rejected()
       end if
       self%last%has_polynomial = status == advance_step
-      nullify (self%library%problem%system, self%library%problem%method)
+      call self%library%problem%attend()
    end subroutine step_by_library
 
    !> Take the trial state: gaps of the polynomial, derivative, events.

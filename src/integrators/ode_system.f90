@@ -3,7 +3,8 @@
 !> The first `n_position` entries of y are positions, then come their rates. Of `traits%n_turning` bodies that turn in space the
 !> positions are three coordinates and four Euler parameters each, the rates three velocities and the angular velocity in the
 !> body's frame; what follows them, in the plane all, are positions whose derivatives are the rates. The last `n_quadrature` entries
-!> are quadratures, which no derivative depends on and which stay out of the error norm. Between, there may be other states.
+!> are quadratures, which no derivative depends on. Their errors are measured by a scale of their own (`quadrature_scale`) and count
+!> only where they exceed those of the motion. Between, there may be other states.
 !> An event function is negative before its event and becomes positive at it. Its last digits are noise: `event_noise` says up to
 !> where, for systems whose event functions are small differences of large numbers.
 !>
@@ -36,6 +37,7 @@ module ode_system
       logical :: sees_wild = .false.        !! whether `evaluate` itself gives up derivatives that are wild, see `wild_stages`
       logical :: contact_begins = .false.   !! whether the last event was the onset of a contact
       logical :: with_quadratures = .true.  !! whether quadratures are wanted now: else they, or their rates, may be left
+      real(wp), allocatable :: quadrature_scale(:)  !! (n_quadrature) scales of their errors; without, no error control [any]
    end type ode_traits_t
 
    !> A system of ordinary differential equations.
@@ -84,7 +86,7 @@ module ode_system
          implicit none (type, external)
          class(ode_system_t), intent(in) :: self  !! the system
          real(wp), intent(in) :: y(self%n)        !! (n) state [any]
-         real(wp), intent(out) :: scale(self%n)   !! (n) positive scales; of quadratures not used [any]
+         real(wp), intent(out) :: scale(self%n)   !! (n) positive scales; those of quadratures are not set [any]
       end subroutine weights_interface
 
       !> Event functions and their rates at a state.

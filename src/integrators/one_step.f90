@@ -1,7 +1,7 @@
 !> One-step methods: step control, events by re-stepping, checkpoints. A method adds its stages.
 !>
-!> A step is accepted if the norm of the error estimate is at most TOL; its length is that of `step_control`. Fixed steps have no
-!> estimate; only the last one before a stop or an event is shorter.
+!> A step is accepted if the norm of the error estimate (of the quadratures where it is greater, see `quadrature_error`) is at most
+!> TOL; its length is that of `step_control`. Fixed steps have no estimate; only the last one before a stop or an event is shorter.
 !>
 !> Events: the bracket from the interpolant is closed in on by Newton's iteration on the length of
 !> the step, each time by the method itself or, for what little is left, by few stages, so that the event function is zero to

@@ -36,6 +36,7 @@ module radau
    use krylov_solver, only: krylov_solver_t
    use ode_system, only: ode_system_t
    use one_step, only: one_step_advance, one_step_load, one_step_memory_size, one_step_restart, one_step_save, one_step_t
+   use quadrature_error, only: counts_quadratures
    use radau_matrix, only: radau_matrix_t
    use radau_products, only: a, c, filter_product_t, stage_product_t
    use radau_stages, only: foresee, stages_t
@@ -118,6 +119,16 @@ module radau
          real(wp), intent(in) :: h                             !! length of the step [s]
          integer, intent(out) :: status                        !! of the evaluations
       end subroutine estimate_error
+
+      !> Norm of the error estimates of the quadratures by the embedded formula, which as sums of derivatives need no filter, over
+      !> TOL'.
+      module function quadrature_norm(self, system, h) result(norm)
+         implicit none (type, external)
+         class(radau_t), intent(inout) :: self      !! the integrator, stages found
+         class(ode_system_t), intent(in) :: system  !! the system
+         real(wp), intent(in) :: h                  !! length of the step [s]
+         real(wp) :: norm                           !! the norm [1]
+      end function quadrature_norm
 
       !> The right-hand side at the stages.
       module subroutine evaluate_stages(self, system, h, status)
@@ -379,6 +390,7 @@ contains
       real(wp), intent(in) :: h                  !! length of the step [s]
 
       norm = self%norm
+      if (counts_quadratures(system, norm)) norm = max(norm, quadrature_norm(self, system, h))
    end function radau_error_norm
 
 end module radau

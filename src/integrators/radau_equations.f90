@@ -1,6 +1,7 @@
 !> The equations of Radau IIA: Newton's iteration for the stages of a step, and the filtered estimate of its error.
 submodule(radau) radau_equations
    use integrator_controls, only: norm_euclidean
+   use quadrature_error, only: by_one_step, greatest_error
    use radau_products, only: real_eigenvalue
    implicit none (type, external)
 
@@ -310,5 +311,23 @@ contains
       end subroutine apply_filter
 
    end procedure estimate_error
+
+   !> Norm of the error estimates of the quadratures.
+   module procedure quadrature_norm
+      real(wp), parameter :: weight(3) = [e(1)*a(1, 1) + e(2)*a(2, 1) + e(3)*a(3, 1), &
+                                          e(1)*a(1, 2) + e(2)*a(2, 2) + e(3)*a(3, 2), &
+                                          e(1)*a(1, 3) + e(2)*a(2, 3) + e(3)*a(3, 3)]  ! of the derivatives at the stages [1]
+      real(wp) :: part
+      integer :: i, n
+
+      n = self%n
+      part = h/(real_eigenvalue*lenient(self%controls%tolerance))
+      associate (f0 => self%step%f0, f => self%stage%f)
+         do i = 1, system%n_quadrature
+            self%scratch(n + i) = part*(f0(n + i) + weight(1)*f(n + i, 1) + weight(2)*f(n + i, 2) + weight(3)*f(n + i, 3))
+         end do
+      end associate
+      norm = greatest_error(system%n_quadrature, self%scratch(n + 1:), system%traits%quadrature_scale, by_one_step)
+   end procedure quadrature_norm
 
 end submodule radau_equations

@@ -28,6 +28,7 @@ module rock4
    use ode_system, only: ode_system_t
    use one_step, only: one_step_advance, one_step_load, one_step_memory_size, one_step_restart, one_step_save, &
       one_step_t
+   use quadrature_error, only: by_one_step, counts_quadratures, greatest_error
    use rock4_stages, only: end_coefficients, estimate_coefficients, find_recurrence, least_degree, longest_stretch, most_stages, &
       n_recurrence, recurrence
    use spectral_radius, only: find_radius, most_iterations
@@ -277,7 +278,26 @@ contains
       end do
       if (self%controls%norm == norm_euclidean) norm = sqrt(norm)
       norm = h*norm/self%controls%tolerance
+      if (counts_quadratures(system, norm)) norm = max(norm, quadrature_norm(self, system, h))
    end function rock4_error_norm
+
+   !> Norm of the error estimates of the quadratures.
+   real(wp) function quadrature_norm(self, system, h) result(norm)
+      class(rock4_t), intent(inout) :: self      !! the integrator
+      class(ode_system_t), intent(in) :: system  !! the system
+      real(wp), intent(in) :: h                  !! length of the step [s]
+
+      real(wp) :: e(0:4)
+      integer :: i, n
+
+      n = system%n - system%n_quadrature
+      e = h/self%controls%tolerance*estimate_coefficients(self%degree)
+      do i = 1, system%n_quadrature
+         self%scratch(n + i) = e(0)*self%k(n + i, 0) + e(1)*self%k(n + i, 1) + e(2)*self%k(n + i, 2) + e(3)*self%k(n + i, 3) &
+                    + e(4)*self%k(n + i, 4)
+      end do
+      norm = greatest_error(system%n_quadrature, self%scratch(n + 1:), system%traits%quadrature_scale, by_one_step)
+   end function quadrature_norm
 
    !> No evaluations within the step.
    subroutine rock4_prepare_output(self, system, status)

@@ -15,7 +15,7 @@ module sundials
    use fsundials_core_mod, only: fn_vdestroy, fn_vgetarraypointer, fsuncontext_clearerrhandlers, fsuncontext_create, &
       fsuncontext_free, fsuncontext_setlogger, fsunlinsolfree, fsunlinsolinitialize, fsunlinsolsetatimes, &
       fsunlinsolsetscalingvectors, fsunlinsolsetzeroguess, fsunmatdestroy, fsunnonlinsolfree, fsunnonlinsolgetcuriter, &
-      fsunnonlinsolsetconvtestfn, n_vector, sun_comm_null, sunlinearsolver, sunmatrix, sunnonlinearsolver
+      fsunnonlinsolsetconvtestfn, n_vector, n_vector_ops, sun_comm_null, sunlinearsolver, sunmatrix, sunnonlinearsolver
 #else
    use fcvode_mod, only: fcvodecreate, fcvodeseterrfile
    use fida_mod, only: fidacreate, fidaseterrfile
@@ -26,13 +26,13 @@ module sundials
    use fsundials_matrix_mod, only: fsunmatdestroy, sunmatrix
    use fsundials_nonlinearsolver_mod, only: fsunnonlinsolfree, fsunnonlinsolgetcuriter, fsunnonlinsolsetconvtestfn, &
       sunnonlinearsolver
-   use fsundials_nvector_mod, only: fn_vdestroy, fn_vgetarraypointer, n_vector
+   use fsundials_nvector_mod, only: fn_vdestroy, fn_vgetarraypointer, n_vector, n_vector_ops
 #endif
    implicit none (type, external)
    private
    public :: fn_vdestroy, fn_vgetarraypointer, fsuncontext_free, fsunlinsolfree, fsunlinsolinitialize, fsunlinsolsetatimes, &
       fsunlinsolsetscalingvectors, fsunlinsolsetzeroguess, fsunmatdestroy, fsunnonlinsolfree, fsunnonlinsolgetcuriter, &
-      fsunnonlinsolsetconvtestfn, n_vector, sunlinearsolver, sunmatrix, sunnonlinearsolver
+      fsunnonlinsolsetconvtestfn, n_vector, n_vector_ops, sunlinearsolver, sunmatrix, sunnonlinearsolver
    public :: new_context, new_cvode, new_ida, new_kinsol, sunindextype
 
 #if SUNDIALS_INDEX == 64

@@ -6,20 +6,23 @@
 !> Norm: the libraries take the root of the mean square of error times weight over all entries. With
 !> the weights sqrt(n) / (TOL scale) that is the Euclidean norm of error over scale, which bounds the
 !> greatest entry: an accepted step satisfies every norm of the controls. Quadratures, and the
-!> multipliers of a constrained system, weigh next to nothing.
+!> multipliers of a constrained system, weigh next to nothing there; the vectors have a norm of their own, which is that of the
+!> greatest quadrature where that is more (`quadrature_error`).
 module sundials_library
-   use, intrinsic :: iso_c_binding, only: c_double, c_f_pointer, c_int, c_loc, c_null_ptr, c_ptr
+   use, intrinsic :: iso_c_binding, only: c_double, c_f_pointer, c_funloc, c_int, c_loc, c_null_ptr, c_ptr
+   use fnvector_serial_mod, only: fn_vnew_serial, fn_vwrmsnorm_serial
    use fsunmatrix_dense_mod, only: fsundensematrix_data
    use dae_system, only: dae_system_t
    use integrator, only: advance_failed_evaluation, advance_too_many_evaluations, advance_too_small, integrator_t
    use kinds, only: eps, wp
    use newton_matrix, only: newton_matrix_t
    use ode_system, only: ode_system_t
-   use sundials, only: fn_vdestroy, fn_vgetarraypointer, fsuncontext_free, fsunlinsolfree, fsunmatdestroy, n_vector, new_context, &
-      sunlinearsolver, sunmatrix
+   use quadrature_error, only: allowed_by_multistep, counts_quadratures, greatest_error
+   use sundials, only: fn_vdestroy, fn_vgetarraypointer, fsuncontext_free, fsunlinsolfree, fsunmatdestroy, n_vector, n_vector_ops, &
+      new_context, sunindextype, sunlinearsolver, sunmatrix
    implicit none (type, external)
    private
-   public :: dense_block, increments, library_t, most_failures, note, problem_t, weigh
+   public :: dense_block, increments, library_t, most_failures, new_vector, note, problem_t, weigh
 
    integer(c_int), parameter :: most_failures = 30  !! of a step: from a long one to those of a film that lets go, 7 are too few
    real(wp), parameter :: no_weight = 1.0e-30_wp  !! weight of what stays out of the norm; nought would be divided by [any]
@@ -31,6 +34,7 @@ module sundials_library
       logical :: holds_copies = .false.                  !! evaluate at a held copy of the state
       logical :: is_used_up = .false.                    !! no evaluation is left
       logical :: is_fatal = .false.                      !! an evaluation failed for good
+      logical :: heeds_quadratures = .true.              !! whether errors of quadratures limit steps
       logical :: lacks_memory = .false.                  !! there was no memory for the matrices
       real(wp) :: newton_norm = 0.0_wp                   !! of the first correction of Newton's iteration, over the weights [1]
       real(wp) :: newton_rest = 0.0_wp                   !! what is left after a correction, of that correction [1]
@@ -39,6 +43,7 @@ module sundials_library
       real(wp), allocatable :: held(:)                   !! (n) the copy [any]
    contains
       procedure :: evaluate => problem_evaluate
+      procedure :: attend => problem_attend
       procedure :: count_evaluation
       procedure :: set_weights
       procedure :: is_large => problem_is_large
@@ -113,7 +118,42 @@ module sundials_library
       end function rejected_interface
    end interface
 
+   type(problem_t), pointer :: at_work => null()   !! the problem of the step in hand: a norm is handed vectors only
+
 contains
+
+   !> A vector with the norm of motion and quadratures, which those that a library makes like it have too.
+   function new_vector(n, context) result(vector)
+      integer, intent(in) :: n              !! entries
+      type(c_ptr), intent(in) :: context    !! of the library's objects
+      type(n_vector), pointer :: vector     !! the vector; null if there is no memory
+
+      type(n_vector_ops), pointer :: operations
+
+      vector => fn_vnew_serial(int(n, sunindextype), context)
+      if (.not. associated(vector)) return
+      call c_f_pointer(vector%ops, operations)
+      operations%nvwrmsnorm = c_funloc(greatest_norm)
+   end function new_vector
+
+   !> The library's norm of errors times weights, or that of the quadratures if it is greater.
+   real(c_double) function greatest_norm(error, weight) bind(c, name="") result(norm)
+      type(n_vector), intent(inout) :: error    !! errors
+      type(n_vector), intent(inout) :: weight   !! their weights, next to nothing of quadratures
+
+      real(c_double), pointer :: errors(:)
+
+      norm = fn_vwrmsnorm_serial(error, weight)
+      if (.not. associated(at_work)) return
+      if (.not. at_work%heeds_quadratures) return
+      associate (system => at_work%system)
+         if (.not. counts_quadratures(system, 0.0_wp)) return
+         errors => fn_vgetarraypointer(error)
+         norm = max(norm, greatest_error(system%n_quadrature, errors(system%n - system%n_quadrature + 1:system%n), &
+                                         system%traits%quadrature_scale, &
+                                         allowed_by_multistep(norm)*at_work%method%controls%tolerance))
+      end associate
+   end function greatest_norm
 
    !> The right-hand side, at a held copy of the state if that is asked for.
    subroutine problem_evaluate(self, t, y, ydot, status)
@@ -134,6 +174,19 @@ contains
       end if
       self%is_fatal = self%is_fatal .or. status < 0
    end subroutine problem_evaluate
+
+   !> A step begins, or ends: the system and the integrator are the problem while it lasts.
+   subroutine problem_attend(self, system, method)
+      class(problem_t), intent(inout), target :: self            !! the problem
+      class(ode_system_t), intent(in), target, optional :: system   !! the system; left out: it ends
+      class(integrator_t), intent(in), target, optional :: method   !! the integrator
+
+      nullify (self%system, self%method, at_work)
+      if (.not. present(system) .or. .not. present(method)) return
+      self%system => system
+      self%method => method
+      at_work => self
+   end subroutine problem_attend
 
    !> One more evaluation, if one is left beside that of the end of the step.
    subroutine count_evaluation(self, status)

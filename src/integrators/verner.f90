@@ -13,6 +13,7 @@ module verner
    use kinds, only: i8, wp
    use ode_system, only: ode_system_t
    use one_step, only: one_step_t
+   use quadrature_error, only: by_one_step, counts_quadratures, greatest_error
    use stability_limit, only: rate_between
    use wild_stages, only: evaluate_aside, judge_stage
    implicit none (type, external)
@@ -46,6 +47,7 @@ module verner
       procedure :: open => stages_open
       procedure :: make => stages_make
       procedure :: norm => stages_norm
+      procedure :: quadrature_norm => stages_quadrature_norm
       procedure :: fastest_rate => stages_fastest_rate
    end type verner_stages_t
 
@@ -195,6 +197,8 @@ contains
       call self%set_scales(system, self%trial)
       norm = self%stages%norm(system, self%step%f0, self%scale, self%controls%norm == norm_euclidean)
       norm = h*norm/self%controls%tolerance
+      if (counts_quadratures(system, norm)) &
+         norm = max(norm, self%stages%quadrature_norm(system, self%step%f0, h/self%controls%tolerance))
    end function verner_error_norm
 
    !> Rate at which the last two states at the end of the step make a difference of each other decay or swing.
@@ -226,7 +230,28 @@ contains
       norm = estimate_norm(system%n - system%n_quadrature, system%n, is_euclidean, f0, self%k, scale)
    end function stages_norm
 
-   !> The same on plain arrays.
+   !> Norm of the error estimates of the quadratures. Stages 6 and 8 are both at the end of the step, where a power is the same to
+   !> the order of the estimate, and the first of them is evaluated without quadratures: the second stands for both.
+   real(wp) function stages_quadrature_norm(self, system, f0, part) result(norm)
+      class(verner_stages_t), intent(in) :: self !! the stages
+      class(ode_system_t), intent(in) :: system  !! the system
+      real(wp), intent(in) :: f0(:)              !! (n) derivative at the start of the step [any]
+      real(wp), intent(in) :: part               !! length of the step over the tolerance [s]
+
+      real(wp) :: estimate(system%n_quadrature)
+      integer :: i, n
+
+      n = system%n - system%n_quadrature
+      associate (k => self%k)
+         do i = 1, system%n_quadrature
+            estimate(i) = part*(e1*f0(n + i) + e3*k(n + i, 3) + e4*k(n + i, 4) + e5*k(n + i, 5) + e7*k(n + i, 7) &
+                                + (e6 + e8)*k(n + i, 8))
+         end do
+      end associate
+      norm = greatest_error(system%n_quadrature, estimate, system%traits%quadrature_scale, by_one_step)
+   end function stages_quadrature_norm
+
+   !> The norm of the motion on plain arrays.
    pure real(wp) function estimate_norm(n, n_all, is_euclidean, k1, k, scale) result(norm)
       integer, intent(in) :: n                !! entries that count
       integer, intent(in) :: n_all            !! entries of the state

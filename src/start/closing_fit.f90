@@ -3,10 +3,11 @@
 !>
 !> Rounding by e makes rows that should depend on one another independent, with singular values of the order of e: the loop does
 !> not close, or cannot move. Gauss-Newton's iteration without singular values below delta finds positions of the least misfit
-!> nearby; delta is raised until it is well above the misfit found. Then rows are taken one by one, each time that of which
-!> most is independent of those taken, those of drivers last; what depends on the others, to delta, is set aside. This counts as rounding if the misfit is within
-!> `closing_tolerance`, all drivers are independent, and no row set aside would bend by more than a tenth of its terms along the
-!> motions that the others leave free, see `second_order`: rows that do hold something to second order.
+!> nearby; delta is raised until it is well above the misfit found. Then rows are taken one by one, each time that of which most
+!> is independent of those taken, those of drivers last; what depends on the others, to delta, is set aside. This counts as
+!> rounding if the misfit is within `closing_tolerance`, all drivers are independent, and no row set aside would bend by more
+!> than a tenth of its terms along the motions that the others leave free, see `second_order`: rows that do hold something to
+!> second order.
 !>
 !> Source: Golub and Van Loan, Matrix Computations, sections 5.5 (rank-deficient least squares), 5.2 (Gram-Schmidt), 5.4 (pivoting).
 !> Limits: dense; rows set aside at the start are set aside for all of the motion.
@@ -162,8 +163,8 @@ contains
 
    end subroutine set_rows_aside
 
-   !> Independent rows by Gram and Schmidt with pivoting, each time the row of which most is left: first of those that are not solved
-   !> for, last of those of drivers. Rows so chosen stay independent over more of the motion than the first ones do.
+   !> Independent rows by Gram and Schmidt with pivoting, each time the row of which most is left: first of those that are not
+   !> solved for, last of those of drivers. Rows so chosen stay independent over more of the motion than the first ones do.
    pure subroutine keep_rows(jac, is_driver, n_solve, threshold, is_kept)
       real(wp), intent(in) :: jac(:, :)        !! (rows, n) scaled Jacobian [1]
       logical, intent(in) :: is_driver(:)      !! (rows) rows of drivers

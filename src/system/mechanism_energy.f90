@@ -29,6 +29,7 @@ module mechanism_energy
    contains
       procedure :: mechanical
       procedure :: balance
+      procedure :: largest_work
       procedure :: magnitude
    end type energy_t
 
@@ -48,6 +49,14 @@ contains
       balance = self%mechanical() - (self%drive_work + self%load_work + self%stabilisation_work) &
                 + self%dissipated_contact + self%dissipated_friction + self%dissipated_damper + self%dissipated_film
    end function balance
+
+   !> The largest work or loss.
+   pure real(wp) function largest_work(self)
+      class(energy_t), intent(in) :: self  !! energies
+
+      largest_work = max(abs(self%drive_work), abs(self%load_work), abs(self%stabilisation_work), abs(self%dissipated_contact), &
+                         abs(self%dissipated_friction), abs(self%dissipated_damper), abs(self%dissipated_film))
+   end function largest_work
 
    !> Size of what the balance adds up, for its round-off.
    pure real(wp) function magnitude(self)

@@ -7,16 +7,16 @@ submodule(mechanism_state) mechanism_memory
    implicit none (type, external)
 
    ! versions of the forms of what is saved: raised where that changes
-   integer, parameter :: equations_version = 1  !! of the counters, the pace and the stretch of smooth time
+   integer, parameter :: equations_version = 2  !! of the counters, the pace, the largest energy and the stretch of smooth time
    integer, parameter :: joint_version = 1      !! of sets of joints and drivers
    integer, parameter :: contact_version = 2    !! of sets of joints with clearance
    integer, parameter :: solver_version = 1     !! of solvers of the augmented equations
-   integer, parameter :: n_equations = 9        !! numbers of the first of them
+   integer, parameter :: n_equations = 10       !! numbers of the first of them
 
 contains
 
-   !> List what the system saves: the counters, the pace and the stretch of smooth time; the way of holding the constraints; the
-   !> solver of the augmented equations and the sets that remember something.
+   !> List what the system saves: the counters, the pace, the largest energy and the stretch of smooth time; the way of holding the
+   !> constraints; the solver of the augmented equations and the sets that remember something.
    module procedure mechanism_list_memory
       type(kind_info_t) :: info
       integer :: k
@@ -74,7 +74,8 @@ contains
 
       call put(row, place, self%n_evaluations)
       call put(row, place, self%linkage%solution%n_damped)
-      call put(row, place, [self%linkage%scales%pace, self%linkage%scales%late_rate, self%friction%grips%h])
+      call put(row, place, [self%linkage%scales%pace, self%linkage%scales%late_rate, self%friction%grips%h, &
+                            self%ledger%largest])
       call put(row, place, self%linkage%solution%solver%n_factorisations)
       call put(row, place, self%linkage%piece%low)
       call put(row, place, self%linkage%piece%high)
@@ -101,6 +102,8 @@ contains
       call get(row, place, self%linkage%scales%pace)
       call get(row, place, self%linkage%scales%late_rate)
       call get(row, place, self%friction%grips%h)
+      call get(row, place, self%ledger%largest)
+      if (self%ledger%largest > 0.0_wp) call self%scale_quadratures(self%ledger%largest)  ! 0: of a system not yet begun
       call get(row, place, self%linkage%solution%solver%n_factorisations)
       call get(row, place, self%linkage%piece%low)
       call get(row, place, self%linkage%piece%high)

@@ -31,6 +31,7 @@ module mechanism_parts
    type :: ledger_t
       logical :: is_kept = .true.         !! whether the ledger is kept
       logical :: has_energies = .true.    !! whether energies are reported, with or without a ledger
+      real(wp) :: largest = 0.0_wp        !! largest energy or work so far, which errors of the ledger are measured by [J]
    end type ledger_t
 
 end module mechanism_parts

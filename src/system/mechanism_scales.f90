@@ -257,6 +257,26 @@ contains
       end associate
    end procedure mechanism_begin_pace
 
+   !> Scales of the quadratures, where drivers prescribe motions.
+   module procedure mechanism_scale_quadratures
+      real(wp) :: momentum, speed
+      integer :: k
+
+      if (self%n_quadrature == 0) return
+      do k = 1, size(self%linkage%joints)
+         if (self%linkage%joints(k)%set%is_driver) exit
+      end do
+      if (k > size(self%linkage%joints)) return
+      associate (scales => self%linkage%scales, bodies => self%linkage%bodies, n_ledger => self%n_quadrature - self%n_impulse)
+         speed = scales%length*max(remembered*scales%pace, scales%late_rate)
+         self%ledger%largest = max(self%ledger%largest, energy, sum(bodies%mass)*speed**2)
+         momentum = sum(bodies%mass)*scales%length*max(scales%pace, scales%late_rate)
+         if (.not. allocated(self%traits%quadrature_scale)) allocate (self%traits%quadrature_scale(self%n_quadrature))
+         self%traits%quadrature_scale(:n_ledger) = self%ledger%largest
+         self%traits%quadrature_scale(n_ledger + 1:) = momentum
+      end associate
+   end procedure mechanism_scale_quadratures
+
    !> Part of the step in hand, but more than time is rounded by.
    module procedure time_of_difference
       time_of_difference = max(part*self%friction%grips%h, shortest_difference*epsilon(1.0_wp)*abs(t))

@@ -33,6 +33,7 @@ module mechanism_state
       integer(i8) :: n_evaluations = 0            !! evaluations made
    contains
       procedure :: begin_pace => mechanism_begin_pace, follow_pace => mechanism_follow_pace, time_of_difference
+      procedure :: scale_quadratures => mechanism_scale_quadratures
       procedure :: weights => mechanism_weights, event_noise => mechanism_event_noise
       procedure :: to_local => mechanism_to_local, from_local => mechanism_from_local
       procedure :: free_directions => mechanism_free_directions
@@ -61,6 +62,15 @@ module mechanism_state
          real(wp), intent(in) :: y(self%n)                !! (n) state [any]
          real(wp), intent(in), optional :: jump(self%n)   !! (n) jump of its derivative [any]
       end subroutine mechanism_follow_pace
+
+      !> Scales of the quadratures of a scene with drivers: of works and losses the largest energy or work so far; of
+      !> impulses the momentum of all bodies at the pace. What begins from rest is measured by the energy that the error
+      !> scales of rates allow for.
+      module subroutine mechanism_scale_quadratures(self, energy)
+         implicit none (type, external)
+         class(mechanism_state_t), intent(inout) :: self  !! the system, its pace begun
+         real(wp), intent(in) :: energy                   !! largest energy or work so far; raises that of before [J]
+      end subroutine mechanism_scale_quadratures
 
       !> Distance in time of differences along the motion that give rates.
       pure module real(wp) function time_of_difference(self, t)

@@ -61,11 +61,11 @@ contains
       type(keeper_t) :: keeper
       type(summary_t) :: summary
 
-      call run_text(wheel//settings//"end = 3 s"//nl//"maximum_steps = 12"//nl//"[output]"//nl//"every = 10 ms"//nl, &
+      call run_text(wheel//settings//"end = 3 s"//nl//"maximum_steps = 24"//nl//"[output]"//nl//"every = 10 ms"//nl, &
                     keeper, summary, mistake)
       call check_failure(error, mistake, keeper, summary, exit_integration, "maximum_steps")
       if (allocated(error)) return
-      call check_equal(error, int(summary%count%steps), 12, "steps")
+      call check_equal(error, int(summary%count%steps), 24, "steps")
       call check_true(error, summary%time_end < 3.0_wp, "not to the end")
       call check_equal(error, keeper%n_sample, 1 + floor(summary%time_end/0.01_wp), "samples up to where it came")
       call check_true(error, keeper%n_sample > 10, "some samples")
