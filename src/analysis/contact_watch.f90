@@ -201,7 +201,7 @@ contains
       type(mechanism_t), intent(inout) :: system    !! the system; the contact's state is changed
       class(integrator_t), intent(inout) :: method      !! the integrator, at the event; the ledger of its state may change
       integer, intent(in) :: number                     !! number of the event function
-      logical, intent(out) :: is_over                   !! there is something to tell: a contact ended, or its friction changed
+      logical, intent(out) :: is_over                   !! there is something to tell: a contact ended
       type(event_t), intent(out) :: row                 !! what there is to tell
       real(wp), intent(out) :: step_hint                !! step that suits what begins; 0: as before [s]
 
@@ -212,9 +212,9 @@ contains
       self%made = 0.0_wp
       call system%find_contact(number, k, i)
       if (system%loose%functions%kind_of(number) /= touch_function) then
-         is_over = system%loose%functions%kind_of(number) == slip_function
+         is_over = .false.
          select case (system%loose%functions%kind_of(number))
-         case (slip_function); call handle_slip(system, method%t, method%step%y1, k, i, is_over, row)
+         case (slip_function); call handle_slip(system, k, i)
          case (turn_function); call handle_turn(system, method%t, method%step%y1, k, i)
          case (transition_function); call system%loose%sets(k)%set%cross_transition(i)
          end select

@@ -17,7 +17,7 @@ module moving_part
    use recorder, only: event_t, recorder_t
    use run_failure, only: constraints_lost, describe_failure, events_without_end, film_ended, off_branch
    use run_tally, only: run_tally_t
-   use slip_watch, only: decide_next, find_reversal, note_jumps, sliding_way, unsettle
+   use slip_watch, only: find_change, find_reversal, note_jumps, sliding_way
    use step_follower, only: find_off_branch, follow_motion, has_branches, must_follow
    use velocity_jumps, only: velocity_jumps_t
    implicit none (type, external)
@@ -94,7 +94,7 @@ contains
          call part%instants%begin(end, system%linkage%piece)
          call system%begin_pace(0.0_wp, y, end)
          call system%linkage%set_motion(0.0_wp, y)
-         call decide_slips(part, 0.0_wp, y, recorder, error)
+         call decide_slips(part, 0.0_wp, y, .true., recorder, error)
          if (allocated(error)) return
          call method%start(system, 0.0_wp, y, end, status)
          if (status /= 0) then
@@ -222,7 +222,7 @@ contains
                tally%contacts = tally%contacts + 1
             end if
          end do
-         call decide_slips(part, method%t, method%step%y1, recorder, error)
+         call decide_slips(part, method%t, method%step%y1, .false., recorder, error)
          if (.not. allocated(error)) call tell_reversals(part, ways, recorder, error)
          if (allocated(error)) return
          call method%restart(system, step_hint, status)
@@ -255,7 +255,7 @@ contains
             call describe_failure(system, method, advance_failed_evaluation, error)
             return
          end if
-         call decide_slips(part, method%t, method%step%y1, recorder, error)
+         call decide_slips(part, method%t, method%step%y1, .true., recorder, error)
          if (allocated(error)) return
          call method%restart(system, 0.0_wp, status)
          if (status /= 0) then
@@ -346,33 +346,27 @@ contains
 
    end subroutine look_at_energy
 
-   !> Decide whether contacts that have just begun slip or stick. When one holds, those that it was too much for alone, and that
-   !> slide with no speed to speak of, are decided anew; this ends at the latest when every contact has held once.
-   subroutine decide_slips(part, t, y, recorder, error)
+   !> Decide which contacts slip or stick, and tell of those that begin to.
+   subroutine decide_slips(part, t, y, only_new, recorder, error)
       type(moving_part_t), intent(inout) :: part          !! the part, its motion that of the state
       real(wp), intent(in) :: t                           !! time [s]
       real(wp), intent(in) :: y(:)                        !! (n) state [any]
+      logical, intent(in) :: only_new                     !! only where a contact has begun
       class(recorder_t), intent(inout) :: recorder        !! keeps the results
       type(error_t), allocatable, intent(out) :: error    !! a file could not be written
 
       type(event_t) :: row
-      integer :: pass
-      logical :: any_holds, has_row, is_found
+      integer :: k, slot
+      logical :: has_row
 
       if (part%system%friction%grips%n_slip == 0) return
-      do pass = 1, part%system%loose%n_contact
-         any_holds = .false.
-         do
-            call decide_next(part%system, t, y, is_found, has_row, row)
-            if (.not. is_found) exit
-            if (.not. has_row) cycle
-            any_holds = .true.
-            call recorder%event(row, error)
+      call part%system%decide_slips(t, y, only_new)
+      do slot = 1, size(part%system%loose%sets)
+         do k = 1, part%system%loose%sets(slot)%set%n_contact
+            call find_change(part%system, t, slot, k, has_row, row)
+            if (has_row) call recorder%event(row, error)
             if (allocated(error)) return
          end do
-         if (.not. any_holds) return
-         if (pass < part%system%loose%n_contact) call unsettle(part%system, is_found)
-         if (.not. is_found) return
       end do
    end subroutine decide_slips
 

@@ -1,6 +1,6 @@
 !> Follows the friction of contacts that slip or stick: one row for each change.
 module slip_watch
-   use contact_grip, only: is_undecided, sticks
+   use contact_grip, only: gives_way, is_undecided, sticks
    use contact_places, only: slip_function, turn_function
    use floors, only: at_rest
    use friction_law, only: memory_slip
@@ -11,37 +11,23 @@ module slip_watch
    use states_of_contacts, only: state_free, state_name
    implicit none (type, external)
    private
-   public :: decide_next, find_reversal, handle_slip, note_jumps, sliding_way, unsettle
+   public :: find_change, find_reversal, handle_slip, note_jumps, sliding_way
 
    character(*), parameter :: word_slip = "slip"    !! kind of event, and state of a contact
    character(*), parameter :: word_stick = "stick"  !! kind of event, and state of a contact
 
 contains
 
-   !> A located event of friction: slip ended, or a contact that sticks gives way. It may go on slipping, the other way; that is
-   !> told by `find_reversal` when all contacts are decided. Where a slip ended, others that slide with no speed to speak of are to
-   !> be decided anew: they may have to hold their part of the load. Where a contact gives way they are not: it leaves more to
-   !> them, and they are at their limits already. Tried all the same, they would hold beside it by a last digit, be held by it
-   !> again, and give way at once, in turn and without end.
-   subroutine handle_slip(system, t, y, slot, k, has_row, row)
+   !> A located event of friction: slip ended, or a contact that sticks gives way. What comes of it is decided when all events of
+   !> the instant are known.
+   subroutine handle_slip(system, slot, k)
       type(mechanism_t), intent(inout) :: system   !! the system; the contact's state is changed
-      real(wp), intent(in) :: t                        !! time [s]
-      real(wp), intent(in) :: y(:)                     !! (n) state [any]
-      integer, intent(in) :: slot                      !! set of the contact
-      integer, intent(in) :: k                         !! contact of the set
-      logical, intent(out) :: has_row                  !! it sticks now, or does no more: `row` tells of it
-      type(event_t), intent(out) :: row                !! what happened
+      integer, intent(in) :: slot                  !! set of the contact
+      integer, intent(in) :: k                     !! contact of the set
 
-      integer :: slip
-      logical :: is_any, stuck
-
-      stuck = system%loose%sets(slot)%set%grip%slip(k) == sticks
-      call system%decide_slip(t, y, slot, k)
-      slip = system%loose%sets(slot)%set%grip%slip(k)
-      has_row = (slip == sticks) .neqv. stuck
-      if (.not. stuck) call unsettle(system, is_any)
-      call system%loose%sets(slot)%set%slip_as(k, slip)
-      if (has_row) call tell(system, t, slot, k, merge(word_stick//" ", word_slip//"  ", stuck), row)
+      associate (set => system%loose%sets(slot)%set)
+         call set%open_decision(k, merge(gives_way, is_undecided, set%grip%slip(k) == sticks))
+      end associate
    end subroutine handle_slip
 
    !> Where the contact of an event function slides to: a unit vector, in the plane its sign along x; zero if it does not slide, or
@@ -80,26 +66,6 @@ contains
       call tell(system, t, slot, k, word_slip, row)
    end subroutine find_reversal
 
-   !> Contacts that slide with no speed to speak of are not decided any more.
-   subroutine unsettle(system, is_any)
-      type(mechanism_t), intent(inout) :: system   !! the system; states of its contacts are changed
-      logical, intent(out) :: is_any               !! there were some
-
-      integer :: k, slot
-
-      is_any = .false.
-      do slot = 1, size(system%loose%sets)
-         associate (set => system%loose%sets(slot)%set)
-            if (set%grip%memory /= memory_slip .or. set%n_touching == 0) cycle
-            do k = 1, set%n_contact
-               if (.not. slides_slowly(system, slot, k)) cycle
-               is_any = .true.
-               call set%slip_as(k, is_undecided)
-            end do
-         end associate
-      end do
-   end subroutine unsettle
-
    !> Whether a contact slides with no speed to speak of.
    pure logical function slides_slowly(system, slot, k) result(is_slow)
       type(mechanism_t), intent(in) :: system   !! the system, its contacts laid
@@ -114,38 +80,33 @@ contains
       end associate
    end function slides_slowly
 
-   !> Decide about the first contact that has begun, or was unsettled, and is not decided. The row tells of it if it sticks.
-   subroutine decide_next(system, t, y, is_found, has_row, row)
-      type(mechanism_t), intent(inout) :: system   !! the system, its motion that of the state
-      real(wp), intent(in) :: t                        !! time [s]
-      real(wp), intent(in) :: y(:)                     !! (n) state [any]
-      logical, intent(out) :: is_found                 !! there was one
-      logical, intent(out) :: has_row                  !! it sticks: `row` tells of it
-      type(event_t), intent(out) :: row                !! what happened
+   !> Whether a contact began to stick in the last decision, or does so no more, at this instant.
+   subroutine find_change(system, t, slot, k, has_row, row)
+      type(mechanism_t), intent(in) :: system   !! the system, its contacts decided
+      real(wp), intent(in) :: t                 !! time [s]
+      integer, intent(in) :: slot               !! set of the contact
+      integer, intent(in) :: k                  !! contact of the set
+      logical, intent(out) :: has_row           !! it did: `row` tells of it
+      type(event_t), intent(out) :: row         !! what happened
 
-      integer :: k, slot
+      logical :: stuck
 
-      is_found = .false.
       has_row = .false.
-      do slot = 1, size(system%loose%sets)
-         associate (set => system%loose%sets(slot)%set)
-            if (set%grip%memory /= memory_slip .or. set%n_touching == 0) cycle
-            do k = 1, set%n_contact
-               if (.not. set%contact(k)%is_touching .or. set%grip%slip(k) /= is_undecided) cycle
-               is_found = .true.
-               call system%decide_slip(t, y, slot, k)
-               has_row = set%grip%slip(k) == sticks
-               if (.not. has_row) return
-               if (set%contact(k)%onset < t) then
-                  call tell(system, t, slot, k, word_slip, row)
-               else
-                  call tell(system, t, slot, k, state_name(state_free), row)
-               end if
-               return
-            end do
-         end associate
-      end do
-   end subroutine decide_next
+      associate (set => system%loose%sets(slot)%set)
+         if (set%grip%memory /= memory_slip) return
+         if (.not. set%contact(k)%is_touching) return
+         stuck = set%grip%was(k) == sticks .or. set%grip%was(k) == gives_way
+         has_row = stuck .neqv. set%grip%slip(k) == sticks
+         if (.not. has_row) return
+         if (stuck) then
+            call tell(system, t, slot, k, word_stick, row)
+         else if (set%contact(k)%onset < t) then
+            call tell(system, t, slot, k, word_slip, row)
+         else
+            call tell(system, t, slot, k, state_name(state_free), row)
+         end if
+      end associate
+   end subroutine find_change
 
    !> The row of a change.
    subroutine tell(system, t, slot, k, before, row)

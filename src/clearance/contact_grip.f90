@@ -23,10 +23,11 @@ module contact_grip
    use motion, only: cross
    implicit none (type, external)
    private
-   public :: grip_t, is_undecided, new_grip, slip_force, sticks, tangent_t
+   public :: gives_way, grip_t, is_undecided, new_grip, slip_force, sticks, tangent_t
 
    integer, parameter :: sticks = 0         !! value of slip: no sliding
-   integer, parameter :: is_undecided = 2   !! value of slip: not known since the onset
+   integer, parameter :: is_undecided = 2   !! value of slip: not known since the onset, or since its slip ended
+   integer, parameter :: gives_way = 3      !! value of slip: it stuck, and is to slip
 
    !> How a contact lies, at one motion.
    type :: tangent_t
@@ -49,6 +50,7 @@ module contact_grip
       integer :: n_tangent = 1                       !! tangents of a contact: 1 in the plane, 2 in space
       integer :: n_component = 1                     !! components of a deflection: 1 in the plane, 3 in space
       integer, allocatable :: slip(:)                !! (contacts) which way they slide, 0: they stick, 2: not decided
+      integer, allocatable :: was(:)                 !! (contacts) the same before the last decision
       real(wp), allocatable :: band(:)               !! (contacts) speed against the slip at which it ends [m/s]
       real(wp), allocatable :: since(:)              !! (contacts) time of the last decision [s]
       real(wp), allocatable :: still(:)              !! (contacts) in space: speed that is next to none [m/s]
@@ -75,7 +77,7 @@ contains
 
       grip%memory = law%memory
       if (grip%memory == memory_none) return
-      allocate (grip%slip(n), source=is_undecided)
+      allocate (grip%slip(n), grip%was(n), source=is_undecided)
       if (is_spatial) then
          grip%n_tangent = 2
          grip%n_component = 3
@@ -92,6 +94,7 @@ contains
 
       if (self%memory == memory_none) return
       self%slip(k) = is_undecided
+      self%was(k) = is_undecided
       self%band(k) = 0.0_wp
       self%since(k) = -huge(1.0_wp)
       self%still(k) = 0.0_wp

@@ -4,7 +4,7 @@
 !> A contact is free or touching; it changes only at located events, and only by the procedures below: the impact speed is stored
 !> at the onset, the greatest force and penetration as steps find them, and the end makes a row of the list of events.
 module contact_states
-   use contact_grip, only: grip_t
+   use contact_grip, only: gives_way, grip_t
    use contact_memory, only: contact_memory_t, n_contact_memory
    use kinds, only: i8, not_a_number, wp
    use recorder, only: event_t
@@ -48,6 +48,7 @@ module contact_states
       procedure :: note_step
       procedure :: set_course
       procedure :: cross_transition
+      procedure :: open_decision
       procedure :: slip_as
       procedure :: slip_toward
       procedure :: note_decision
@@ -270,6 +271,16 @@ contains
       self%evaluated_at = 0
       if (present(rest_speed)) self%contact(k)%rest_speed = rest_speed
    end subroutine set_course
+
+   !> It is to be decided anew whether a contact slides.
+   pure subroutine open_decision(self, k, slip)
+      class(contact_states_t), intent(inout) :: self  !! the set
+      integer, intent(in) :: k                        !! contact of the set
+      integer, intent(in) :: slip                     !! what it does until then
+
+      self%grip%was(k) = merge(gives_way, self%grip%slip(k), slip == gives_way)
+      self%grip%slip(k) = slip
+   end subroutine open_decision
 
    !> It is decided that a contact slides this way or sticks.
    pure subroutine slip_as(self, k, slip)

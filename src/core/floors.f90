@@ -10,8 +10,8 @@ module floors
    private
    public :: all_floors, floor_t
    public :: of_acceleration, of_contact, of_mobility, of_pace, of_run, of_speed, of_step, of_time
-   public :: at_rest, chatter_time, gentle, idle_part, late, least_band, least_hold, least_mobility, look_ahead, no_acceleration, &
-      remembered, settling, shortest_difference, standstill, torn, widest_band
+   public :: at_rest, captured, chatter_time, gentle, idle_part, late, least_band, least_hold, least_mobility, look_ahead, &
+      no_acceleration, remembered, settling, shortest_difference, standstill, torn, widest_band
 
    integer, parameter :: of_speed = 1         !! of the mechanism's own speed, pace times size
    integer, parameter :: of_pace = 2          !! of its pace
@@ -34,6 +34,7 @@ module floors
    ! friction that sticks
    real(wp), parameter :: at_rest = 1.0e-9_wp             !! sliding velocity that is none, of the speed [1]
    real(wp), parameter :: standstill = 1.0e-15_wp         !! sliding velocity at which slip ends, of the speed [1]
+   real(wp), parameter :: captured = 2.0_wp               !! in space: the same, of the error that the tolerance allows a speed [1]
    real(wp), parameter :: torn = 1.0e-4_wp                !! sliding velocity that ends sticking, of the speed [1]
    real(wp), parameter :: least_band = 1.0e-12_wp         !! first velocity the wrong way after a chatter, of the speed [1]
    real(wp), parameter :: widest_band = 1.0e-5_wp         !! last one, of the speed [1]

@@ -36,7 +36,7 @@ module mechanism
       procedure :: events => mechanism_events, last_events => mechanism_last_events, settle => mechanism_settle
       procedure :: set_step => mechanism_set_step
       procedure :: hold => mechanism_hold, mend => mechanism_mend, take_way => mechanism_take_way
-      procedure :: stick => mechanism_stick, decide_slip => mechanism_decide_slip
+      procedure :: stick => mechanism_stick, decide_slips => mechanism_decide_slips
       procedure :: rub => mechanism_rub, rub_by_multipliers => mechanism_rub_by_multipliers
       procedure :: friction_events => mechanism_friction_events, turns => mechanism_turns
       procedure :: evaluate_unheld => mechanism_evaluate_unheld
@@ -157,13 +157,13 @@ module mechanism
          real(wp), intent(out) :: rate(:), acceleration(:)  !! (n_contact) rates of the penetrations, and theirs [any]
       end subroutine mechanism_turns
 
-      !> Decide whether a contact slips, which way, or sticks, at a state.
-      module subroutine mechanism_decide_slip(self, t, y, slot, k)
+      !> Decide which contacts slip, which way, and which stick, at a state. The motion of the system is that of the state.
+      module subroutine mechanism_decide_slips(self, t, y, only_new)
          implicit none (type, external)
          class(mechanism_t), intent(inout) :: self  !! the system
          real(wp), intent(in) :: t, y(:)            !! time [s] and (n) state [any]
-         integer, intent(in) :: slot, k             !! set of the contact, and its number there
-      end subroutine mechanism_decide_slip
+         logical, intent(in) :: only_new            !! only where a contact is not decided
+      end subroutine mechanism_decide_slips
 
       !> Accelerations of the bodies without their joints.
       module subroutine mechanism_evaluate_unheld(self, t, y, ydot, status)

@@ -1,9 +1,13 @@
 !> Which contact an event function is of, what its event would be to it, and how round-off shows in these functions.
 submodule(mechanism_state) mechanism_contacts
-   use contact_places, only: touch_function, transition_function, turn_function
+   use contact_grip, only: sticks
+   use contact_places, only: slip_function, touch_function, transition_function, turn_function
+   use friction_law, only: memory_slip
    use gap_noise, only: find_gap_noise
    use ode_system, only: contact_end, contact_onset, no_contact_change
    implicit none (type, external)
+
+   real(wp), parameter :: of_forces = 100.0_wp   !! round-offs of a friction force that keeps a contact from sliding [1]
 
 contains
 
@@ -43,6 +47,7 @@ contains
             end associate
          end associate
       end do
+      if (self%loose%functions%has_slip) call find_slip_noise(self, noise, rate_noise)
       if (self%loose%functions%has_transition) then
          turns = self%loose%functions%place(transition_function, 0)
          noise(turns + 1:turns + self%loose%n_contact) = noise(:self%loose%n_contact)
@@ -52,5 +57,35 @@ contains
          noise(turns + 1:turns + self%loose%n_contact) = rate_noise
       end if
    end procedure mechanism_event_noise
+
+   !> Round-off of the event functions of friction: of the sliding velocity where a contact slips, of what it is short of giving way
+   !> where it sticks. A force is known as well as the penetration that makes it.
+   subroutine find_slip_noise(self, noise, rate_noise)
+      class(mechanism_state_t), intent(in) :: self   !! the system
+      real(wp), intent(inout) :: noise(:)            !! (n_event) bounds, those of friction are set [any]
+      real(wp), intent(in) :: rate_noise(:)          !! (contacts) bounds of rates of penetrations [m/s]
+
+      real(wp) :: delta(self%loose%n_contact), rate(self%loose%n_contact)
+      integer :: k, number, slot
+
+      do slot = 1, size(self%loose%sets)
+         associate (set => self%loose%sets(slot)%set)
+            if (set%grip%memory /= memory_slip .or. set%n_touching == 0) cycle
+            call set%gaps(self%linkage%motion, delta, rate)
+            do k = 1, set%n_contact
+               if (.not. set%contact(k)%is_touching) cycle
+               number = set%before%contacts + k
+               associate (tangent => set%grip%tangent(k), bound => noise(self%loose%functions%place(slip_function, number)))
+                  if (set%grip%slip(k) == sticks) then
+                     bound = (set%laws%friction%stick_limit(tangent%f_n) + hypot(tangent%f_t(1), tangent%f_t(2))) &
+                             *min(max(of_forces*epsilon(1.0_wp), 2.0_wp*noise(number)/max(delta(number), noise(number))), 1.0_wp)
+                  else
+                     bound = rate_noise(number)
+                  end if
+               end associate
+            end do
+         end associate
+      end do
+   end subroutine find_slip_noise
 
 end submodule mechanism_contacts

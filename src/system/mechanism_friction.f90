@@ -16,11 +16,11 @@
 !> Source: Flores et al. (2008), eqs. (3.13), (3.14); F. Pfeiffer and C. Glocker, Multibody Dynamics with Unilateral Contacts
 !> (1996), section 5.3. Limits: contacts change one after another, each for the others as they are.
 submodule(mechanism) mechanism_friction
-   use clearance_set, only: loss_friction
+   use clearance_set, only: clearance_set_t, loss_friction
    use contact_grip, only: sticks
    use coordinates, only: most_rates
    use friction_law, only: memory_slip
-   use floors, only: least_mobility, no_acceleration, settling
+   use floors, only: at_rest, captured, least_mobility, no_acceleration, settling, standstill
    use grip_forces, only: gripped_t, solve_grips
    implicit none (type, external)
 
@@ -29,16 +29,39 @@ contains
    !> Forces of the contacts that stick, and the accelerations with them.
    module procedure mechanism_stick
       real(wp) :: nothing  ! sliding acceleration that is none [m/s^2]
-      integer :: axis, c, d, k, m
+      integer :: c, m
 
       status = 0
-      nothing = 0.0_wp
+      call list_grips(self, .true., m)
+      if (m == 0) return
+      associate (grips => self%friction%grips)
+         call find_mobilities(self, m, nothing, status)
+         if (status /= 0) return
+         call solve_grips(m, size(grips%matrix, 1), grips%matrix(:, :m), grips%mobility(:m), grips%root(:m), &
+                          grips%force(:m), grips%left(:m), grips%eigenvalue(:m), grips%work)
+         do c = 1, m
+            call add_pair(self, c, grips%force(c), self%loading%g)
+            call keep_force(self, c, nothing)
+         end do
+      end associate
+      call self%linkage%find_accelerations(self%loading%g, .true., .true., status)
+   end procedure mechanism_stick
+
+   !> List the tangents of the contacts that stick.
+   subroutine list_grips(self, with_driven, m)
+      class(mechanism_t), intent(inout) :: self   !! the system, its list is made
+      logical, intent(in) :: with_driven          !! with contacts that drivers alone move
+      integer, intent(out) :: m                   !! tangents
+
+      integer :: axis, d, k
+
       m = 0
       do d = 1, size(self%loose%sets)
          associate (set => self%loose%sets(d)%set)
             if (set%grip%memory /= memory_slip .or. set%n_touching == 0) cycle
             do k = 1, set%n_contact
                if (.not. set%contact(k)%is_touching .or. set%grip%slip(k) /= sticks) cycle
+               if (.not. with_driven .and. set%grip%tangent(k)%is_driven) cycle
                do axis = 1, set%grip%n_tangent
                   m = m + 1
                   self%friction%grips%at(m) = gripped_t(d, k, axis)
@@ -46,7 +69,20 @@ contains
             end do
          end associate
       end do
-      if (m == 0) return
+   end subroutine list_grips
+
+   !> What unit forces along the tangents on the list do to their sliding accelerations, and, into `force`, the sliding
+   !> accelerations that the forces are to give them. Accelerations are those of unit forces afterwards.
+   subroutine find_mobilities(self, m, nothing, status)
+      class(mechanism_t), intent(inout) :: self    !! the system, accelerations found
+      integer, intent(in) :: m                     !! tangents on the list
+      real(wp), intent(out) :: nothing             !! sliding acceleration that is none [m/s^2]
+      integer, intent(out) :: status               !! 0: found
+
+      integer :: c, d
+
+      status = 0
+      nothing = 0.0_wp
       associate (grips => self%friction%grips, n => self%linkage%rows%n_solve)
          do c = 1, m
             associate (tangent => self%loose%sets(grips%at(c)%slot)%set%grip%tangent(grips%at(c)%contact))
@@ -54,7 +90,8 @@ contains
                grips%force(c) = -(sliding_acceleration(self, c, .true.) + tangent%drift(grips%at(c)%axis) &
                                   + 2.0_wp*settling*self%linkage%scales%pace*tangent%v(grips%at(c)%axis))
                grips%mobility(c) = mobility_of(self, c)
-               nothing = max(nothing, 2.0_wp*settling*self%linkage%scales%pace*abs(tangent%v(grips%at(c)%axis)))
+               nothing = nothing + abs(tangent%drift(grips%at(c)%axis)) &
+                         + 2.0_wp*settling*self%linkage%scales%pace*abs(tangent%v(grips%at(c)%axis))
             end associate
          end do
          nothing = nothing + sqrt(least_mobility)*maxval(abs(grips%force(:m)))
@@ -71,21 +108,60 @@ contains
             grips%is_fixed(d) = grips%matrix(d, d) <= least_mobility*grips%mobility(d)
          end do
          self%linkage%solution%b(:n) = grips%load%b(:n)
-         if (status /= 0) return
-         call solve_grips(m, size(grips%matrix, 1), grips%matrix(:, :m), grips%mobility(:m), grips%root(:m), &
-                          grips%force(:m), grips%left(:m), grips%eigenvalue(:m), grips%work)
-         do c = 1, m
-            call add_pair(self, c, grips%force(c), self%loading%g)
-            call keep_force(self, c, nothing)
-         end do
       end associate
-      call self%linkage%find_accelerations(self%loading%g, .true., .true., status)
-   end procedure mechanism_stick
+   end subroutine find_mobilities
+
+   !> Speed of the mechanism, which says what sliding is slow.
+   pure real(wp) function own_speed(self) result(speed)
+      class(mechanism_t), intent(in) :: self   !! the system
+
+      speed = self%linkage%scales%pace*self%linkage%scales%length
+   end function own_speed
+
+   !> Sliding velocity that is none to a contact that may stick: in space also what the tolerance leaves of a speed, for nearer to
+   !> rest the direction of sliding turns faster than steps can follow.
+   pure real(wp) function rest_speed(self, n_tangent) result(speed)
+      class(mechanism_t), intent(in) :: self   !! the system
+      integer, intent(in) :: n_tangent         !! tangents of the contact
+
+      speed = at_rest*own_speed(self)
+      if (n_tangent > 1) speed = max(speed, 2.0_wp*capture_speed(self))
+   end function rest_speed
+
+   !> Sliding velocity at which slip ends in space.
+   pure real(wp) function capture_speed(self) result(speed)
+      class(mechanism_t), intent(in) :: self   !! the system
+
+      speed = max(standstill, captured*self%linkage%scales%tolerance)*own_speed(self)
+   end function capture_speed
+
+   !> Whether a contact slides with no speed to speak of.
+   pure logical function slides_slowly(self, slot, k) result(is_slow)
+      class(mechanism_t), intent(in) :: self   !! the system, its contacts laid
+      integer, intent(in) :: slot              !! set of the contact
+      integer, intent(in) :: k                 !! contact of the set
+
+      is_slow = .false.
+      associate (set => self%loose%sets(slot)%set)
+         if (set%grip%memory /= memory_slip) return
+         if (.not. set%contact(k)%is_touching .or. abs(set%grip%slip(k)) /= 1) return
+         is_slow = size_of(set%grip%tangent(k)%v) < merge(0.5_wp, 1.0_wp, set%grip%n_tangent == 1) &
+                   *rest_speed(self, set%grip%n_tangent)
+      end associate
+   end function slides_slowly
+
+   !> Length of a vector of the tangents.
+   pure real(wp) function size_of(x)
+      real(wp), intent(in) :: x(2)   !! (2) the vector [any]
+
+      size_of = hypot(x(1), x(2))
+   end function size_of
 
    !> Keep the force that was found along a tangent on the list with its contact. Drivers prescribe how it slides where no force
    !> moves it along any tangent, or where they accelerate it along one. Where contacts hold the same two bodies, as both ends of a
    !> pin do, a combination of their tangents is hardly moved by any force either: what is left of it is the sliding that has
-   !> gathered, and the root of the mobility that counts as none, of the acceleration asked for; that is no driver's doing.
+   !> gathered, what turning tangents make of it, and the root of the mobility that counts as none, of the acceleration asked for;
+   !> that is no driver's doing.
    subroutine keep_force(self, c, nothing)
       class(mechanism_t), intent(inout) :: self    !! the system, forces found
       integer, intent(in) :: c                     !! place on the list of contacts that stick

@@ -14,7 +14,7 @@
 submodule(mechanism:mechanism_friction) slip_events
    use contact_grip, only: is_undecided, tangent_t
    use contact_places, only: slip_function
-   use floors, only: at_rest, chatter_time, least_band, look_ahead, standstill, torn, widest_band
+   use floors, only: at_rest, standstill, torn
    implicit none (type, external)
 
 contains
@@ -46,7 +46,8 @@ contains
                      g(number) = short_of(self, tangent, set%laws%friction%stick_limit(tangent%f_n))
                      rate(number) = (rate(number) - g(number))/moment
                   else
-                     g(number) = standstill*own_speed(self) - slip*tangent%v(1) - set%grip%band(k)
+                     g(number) = merge(standstill*own_speed(self), capture_speed(self), set%grip%n_tangent == 1) &
+                                 - slip*tangent%v(1) - set%grip%band(k)
                      rate(number) = -slip*(tangential(self, slot, k, 1, .true.) + tangent%drift(1))
                   end if
                end associate
@@ -86,13 +87,6 @@ contains
       g = max(size_of(tangent%f_t) - limit, limit*(size_of(tangent%v)/speed - 1.0_wp))
    end function short_of
 
-   !> Speed of the mechanism, which says what sliding is slow.
-   pure real(wp) function own_speed(self) result(speed)
-      class(mechanism_t), intent(in) :: self   !! the system
-
-      speed = self%linkage%scales%pace*self%linkage%scales%length
-   end function own_speed
-
    !> Whether any contact sticks.
    pure logical function any_sticks(self)
       class(mechanism_t), intent(in) :: self   !! the system
@@ -107,106 +101,5 @@ contains
          end associate
       end do
    end function any_sticks
-
-   !> Decide whether a contact slips, which way, or sticks. One whose slip ended, or that begins without sliding, is tried as
-   !> sticking; if that takes more than it can hold, it slips the way that the force would have kept it from, and so does one
-   !> that sticks until now; but the way it moves if that is against the other by more than is borne. One that drivers move goes
-   !> with them.
-   module procedure mechanism_decide_slip
-      real(wp) :: band, delta(self%loose%n_contact), limit, rate(self%loose%n_contact), speed
-      integer :: before, status
-
-      speed = own_speed(self)
-      associate (set => self%loose%sets(slot)%set)
-         before = set%grip%slip(k)
-         call set%gaps(self%linkage%motion, delta, rate)
-         band = 0.0_wp
-         if (t - set%grip%since(k) < chatter_time*own_time(self, slot, k, delta(set%before%contacts + k))) then
-            band = speed*min(max(2.0_wp*set%grip%band(k)/speed, least_band), widest_band)
-         end if
-         call set%note_decision(k, t, band, at_rest*speed)
-         if (before == is_undecided) then
-            call set%lay(k, self%linkage%motion)
-            if (size_of(set%grip%tangent(k)%v) > at_rest*speed) then
-               call set%slip_toward(k, set%grip%tangent(k)%v)
-               return
-            end if
-         end if
-         call set%slip_as(k, sticks)
-         call self%evaluate(t, y, self%friction%grips%trial%ydot, status)
-         associate (tangent => set%grip%tangent(k))
-            if (tangent%is_driven) then
-               call set%note_decision(k, t, 0.0_wp, at_rest*speed)
-               call go_with_drivers(self, t, y, slot, k, at_rest*speed)
-               if (before == sticks .and. set%grip%slip(k) == sticks .and. &
-                   size_of(tangent%f_t) > set%laws%friction%stick_limit(tangent%f_n)) call set%slip_toward(k, -tangent%f_t)
-               return
-            end if
-            if (size_of(tangent%v) > 0.5_wp*torn*speed) then
-               call set%slip_toward(k, tangent%v)
-               return
-            end if
-            limit = (1.0_wp - band/max(speed, tiny(1.0_wp)))*set%laws%friction%stick_limit(tangent%f_n)
-            if (before /= sticks .and. size_of(tangent%f_t) <= limit) return
-            if (dot_product(tangent%v, tangent%f_t) > widest_band*speed*size_of(tangent%f_t)) then
-               call set%slip_toward(k, tangent%v)
-            else
-               call set%slip_toward(k, -tangent%f_t)
-            end if
-         end associate
-      end associate
-   end procedure mechanism_decide_slip
-
-   !> Let a contact that drivers move go their way, by its speed now and a little later; it sticks if it does not move then either.
-   subroutine go_with_drivers(self, t, y, slot, k, still)
-      class(mechanism_t), intent(inout) :: self  !! the system, evaluated at the state with the contact sticking
-      real(wp), intent(in) :: t                      !! time [s]
-      real(wp), intent(in) :: y(:)                   !! (n) state [any]
-      integer, intent(in) :: slot                    !! set of the contact
-      integer, intent(in) :: k                       !! contact of the set
-      real(wp), intent(in) :: still                  !! speed that is none [m/s]
-
-      real(wp) :: later, now(2), v(2)
-      integer :: status
-
-      later = max(look_ahead*self%friction%grips%h, self%time_of_difference(t))
-      associate (set => self%loose%sets(slot)%set)
-         now = set%grip%tangent(k)%v
-         v = now
-         if (size_of(now) < 0.5_wp*still) then
-            self%friction%grips%trial%y = y + later*self%friction%grips%trial%ydot
-            call self%linkage%set_motion(t + later, self%friction%grips%trial%y)
-            call set%lay(k, self%linkage%motion)
-            v = set%grip%tangent(k)%v
-            call self%evaluate(t, y, self%friction%grips%trial%ydot, status)
-         end if
-         if (size_of(v) >= 0.5_wp*still) call set%slip_toward(k, v)
-      end associate
-   end subroutine go_with_drivers
-
-   !> Length of a vector of the tangents.
-   pure real(wp) function size_of(x)
-      real(wp), intent(in) :: x(2)   !! (2) the vector [any]
-
-      size_of = hypot(x(1), x(2))
-   end function size_of
-
-   !> Time in which a contact swings against its bodies, without the numbers of a whole swing; 0 where that is not known.
-   pure real(wp) function own_time(self, slot, k, delta) result(time)
-      class(mechanism_t), intent(in) :: self   !! the system
-      integer, intent(in) :: slot                  !! set of the contact
-      integer, intent(in) :: k                     !! contact of the set
-      real(wp), intent(in) :: delta                !! its penetration [m]
-
-      real(wp) :: compliance
-      integer :: item
-
-      associate (set => self%loose%sets(slot)%set)
-         item = set%item_of(k)
-         compliance = sum(self%linkage%inverse_mass(1, set%items%body(:, item)))*set%grip%tangent(k)%f_n
-      end associate
-      time = 0.0_wp
-      if (compliance > 0.0_wp .and. delta > 0.0_wp) time = sqrt(delta/compliance)
-   end function own_time
 
 end submodule slip_events

@@ -19,6 +19,7 @@ os.environ.setdefault("OPENBLAS_NUM_THREADS", "1")
 from cases import CASES, ROOT  # noqa: E402
 import random_loops  # noqa: E402
 import random_statics  # noqa: E402
+from friction_runs import run_friction  # noqa: E402
 from random_runs import run_random  # noqa: E402
 from runs import Result, solve  # noqa: E402
 
@@ -94,7 +95,7 @@ def run_all(program, cases, required_only):
     return results
 
 
-def wrong_scenes(program):
+def wrong_scenes(program, run_all_of, what):
     """Lines about random scenes that went wrong; says how many there were."""
     scratch = pathlib.Path(tempfile.mkdtemp(prefix="gudgeon_random_"))
     progress = Progress(1)
@@ -104,12 +105,12 @@ def wrong_scenes(program):
         progress.tell(done, label)
 
     try:
-        wrong, total = run_random(program, scratch, tell=tell)
+        wrong, total = run_all_of(program, scratch, tell=tell)
     finally:
         progress.clear()
         shutil.rmtree(scratch, ignore_errors=True)
-    print(f"\n{total} runs of random scenes, {len(wrong)} mistakes")
-    return wrong + random_statics.wrong_scenes(program) + random_loops.wrong_scenes(program)
+    print(f"\n{total} {what}, {len(wrong)} mistakes")
+    return wrong
 
 
 def write_csv(path, results):
@@ -128,7 +129,8 @@ def main():
     parser.add_argument("--build", type=pathlib.Path, default=ROOT / "build", help="where the program is")
     parser.add_argument("--csv", type=pathlib.Path, default=ROOT / "outputs" / "stability.csv", help="where the table goes")
     parser.add_argument("--required", action="store_true", help="leave out the ways that are shown only")
-    parser.add_argument("only", nargs="*", help="words: run the cases whose name or deck contains one; random: random scenes")
+    parser.add_argument("only", nargs="*", help="words: run the cases whose name or deck contains one; "
+                        "random: random scenes; friction: those that rub")
     options = parser.parse_args()
     program = options.build / "gudgeon"
     if not program.exists():
@@ -140,7 +142,12 @@ def main():
     print(f"\n{judged} ways have limits, {len(failed)} fall short; {len(results) - judged} are shown only; {options.csv}")
     for result in failed:
         print(f"short: {result.case}, {result.method}, {result.tolerance}: {result.verdict}")
-    wrong = wrong_scenes(program.resolve()) if not options.only or "random" in options.only else []
+    wrong = []
+    if not options.only or "random" in options.only:
+        wrong += wrong_scenes(program.resolve(), run_random, "runs of random scenes")
+        wrong += random_statics.wrong_scenes(program.resolve()) + random_loops.wrong_scenes(program.resolve())
+    if not options.only or "friction" in options.only:
+        wrong += wrong_scenes(program.resolve(), run_friction, "random scenes with Coulomb's friction")
     for words in wrong:
         print(f"wrong: {words}")
     sys.exit(1 if failed or wrong else 0)

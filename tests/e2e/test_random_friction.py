@@ -1,0 +1,112 @@
+"""Random scenes with Coulomb's friction, a few of each kind by every method; `make stability` runs hundreds.
+
+And scenes whose first contact begins without sliding, where the normal force is none yet: what sticks and what slips there is no
+more than round-off says.
+"""
+
+import sys
+
+import numpy as np
+import pytest
+from support import ROOT, Run, call, scratch, written
+
+sys.path.insert(0, str(ROOT / "tests" / "stability"))
+from friction_runs import disagreement, mistakes_of  # noqa: E402
+from random_friction import KINDS, METHODS, draw  # noqa: E402
+
+EACH = 3  # scenes of a kind
+
+PIN = """deck = 1
+[scene]
+gravity = 0 -9.81 m/s^2
+[analysis.dynamic]
+end = 0.2 s
+tolerance = 1e-8
+start = ideal
+method = METHOD
+[output]
+every = 1 ms
+channels = energy.* b.position
+[material]
+name young[GPa] poisson
+steel 207 0.3
+[bodies]
+name mass[kg] inertia[kg.m^2] x[m] y[m] angle[rad]
+b 0.456281 0.00062879 -0.00706853996 0.117178411 1.6310462
+[points]
+name body xi[m] eta[m]
+g ground 0 0
+p b -0.117391415 0
+[clearance.revolute]
+name bearing journal bearing_radius[m] clearance[m] length[m] material law friction
+j g p 0.015 0.000303093 0.02 steel law fr
+[contact.lankarani_nikravesh]
+name restitution
+law 0.535
+[friction.coulomb]
+name coefficient static_coefficient
+fr 0.1885 0.2261
+"""
+
+BALL = """deck = 1
+[scene]
+space = spatial
+gravity = 0 0 -9.81 m/s^2
+[analysis.dynamic]
+end = 0.2 s
+tolerance = 1e-8
+start = ideal
+method = METHOD
+[output]
+every = 1 ms
+channels = energy.* b.position
+[material]
+name young[GPa] poisson
+steel 207 0.3
+[bodies]
+name mass[kg] ixx[kg.m^2] iyy[kg.m^2] izz[kg.m^2] x[m] y[m] z[m] axis angle[rad]
+b 0.718336 0.00492444 0.00541688 0.00443199 0.0125707868 -0.0677429137 -0.252599078 "-0.977080816023 -0.00142880974373 0.212863894221" 2.67105639
+[points]
+name body xi[m] eta[m] zeta[m]
+g ground 0 0 0
+p b -0.103977753289 -0.171240785099 -0.168578294779
+[clearance.spherical]
+name bearing journal bearing_radius[m] clearance[m] material law friction
+j g p 0.015 0.000309065 steel law fr
+[contact.exact]
+name restitution
+law 0.639
+[friction.coulomb]
+name coefficient static_coefficient
+fr 0.1641 0.0000
+"""
+
+
+@pytest.mark.parametrize("method", METHODS)
+@pytest.mark.parametrize("kind", KINDS)
+def test_random_scenes_end(gudgeon, kind, method):
+    """No failure, no crawl, energy kept, friction takes energy only."""
+    for seed in range(EACH):
+        mistakes = mistakes_of(gudgeon, draw(kind, seed), method, scratch())
+        assert not mistakes, f"{kind} {seed}, {method}: {'; '.join(mistakes)}"
+
+
+@pytest.mark.parametrize("kind", KINDS)
+def test_two_methods_agree_on_the_first_contact(gudgeon, kind):
+    """verner and bdf, on its onset and its impulse."""
+    for seed in range(EACH):
+        words = disagreement(gudgeon, draw(kind, seed), scratch())
+        assert not words, f"{kind} {seed}: {'; '.join(words)}"
+
+
+@pytest.mark.parametrize("method", METHODS[:2] + METHODS[3:])
+@pytest.mark.parametrize("text", (PIN, BALL), ids=("pin", "ball"))
+def test_a_contact_that_begins_without_sliding(gudgeon, text, method):
+    """The pendulum falls straight onto its bearing: it comes to the end, and friction takes energy only."""
+    directory = scratch()
+    call(gudgeon, "run", written(directory, text.replace("METHOD", method)), "--out", directory / "out", "--quiet", "--write", "numbers")
+    run = Run(directory / "out")
+    assert run.summary["status"] == "complete"
+    assert np.all(np.diff(run.read("energy/dissipated_friction")) >= -1e-9*run.summary["energy_max"])
+    assert run.summary["energy_residual_max"] < 1e-4*run.summary["energy_max"]
+    assert run.summary["events"] < 1000

@@ -1,0 +1,91 @@
+"""Running random scenes with Coulomb's friction: what is wrong with one, and the hundreds of `make stability`.
+
+Every run ends by itself, takes at most RATIO times the steps of the same scene with a smooth law (transition speed:
+`random_friction.TRANSITION`), closes its ledger, and friction takes energy only. verner and bdf agree on the first contact.
+"""
+
+import pathlib
+import shutil
+import subprocess
+
+import numpy as np
+from random_friction import KINDS, METHODS, draw
+from support import Run, changed, written
+
+LIMIT = 120  # seconds for one run
+EACH = 100  # scenes of a kind in the full set; each by one of the methods, in turn, and by verner and bdf
+RATIO = 10.0  # of the steps
+FEW = 2000  # steps that are few, whatever the smooth law takes
+RESIDUAL = 1e-4  # of the ledger, of the largest energy
+AGREEMENT = 1e-3  # of the impulse of the first contact, by two methods
+
+
+def run(program, scene, method, friction, directory):
+    """A run of a scene, or words about why there is none."""
+    step = {"step": f"{scene.step!r} s", "tolerance": None} if method == "rk4" else {}
+    directory = pathlib.Path(directory) / f"{method}_{friction}"
+    directory.mkdir()
+    deck = written(directory, changed(scene.text, "analysis.dynamic", method=method, **step))
+    command = [str(program), "run", str(deck), "--out", str(directory / "out"), "--write", "numbers", "--set", f"friction={friction}"]
+    try:
+        done = subprocess.run(command, capture_output=True, text=True, timeout=LIMIT, stdin=subprocess.DEVNULL)
+    except subprocess.TimeoutExpired:
+        return f"no end after {LIMIT} s"
+    if done.returncode != 0:
+        return f"exit code {done.returncode}: {next((x for x in done.stderr.splitlines() if x.startswith('error')), '')}"
+    return Run(directory / "out", done)
+
+
+def mistakes_of(program, scene, method, directory):
+    """Run a scene by a method with both laws: a list of all that is wrong."""
+    result = run(program, scene, method, "coulomb", directory)
+    if isinstance(result, str):
+        return [result]
+    mistakes, summary = [], result.summary
+    if summary["steps"] > FEW:
+        smooth = run(program, scene, method, "smooth", directory)
+        if not isinstance(smooth, str) and summary["steps"] > RATIO*smooth.summary["steps"]:
+            mistakes.append(f"{summary['steps']} steps, {smooth.summary['steps']} with the smooth law")
+    residual = summary["energy_residual_max"]/max(summary["energy_max"], 1e-300)
+    if method != "rk4" and not residual <= RESIDUAL:
+        mistakes.append(f"residual of the ledger {residual:.1e} of the energy")
+    lost = result.read("energy/dissipated_friction")
+    if np.min(np.diff(lost)) < -1e-9*summary["energy_max"]:
+        mistakes.append(f"friction gives {-np.min(np.diff(lost)):.1e} J")
+    return mistakes
+
+
+def disagreement(program, scene, directory):
+    """What verner and bdf say differently about the first contact; an empty list where they agree."""
+    results = [run(program, scene, method, "coulomb", directory) for method in ("verner", "bdf")]
+    if any(isinstance(result, str) for result in results):
+        return []  # `mistakes_of` says so
+    a, b = (result.contacts for result in results)
+    if len(a) == 0 or len(b) == 0 or not a["duration"][0] > 0.0:
+        return [] if len(a) == len(b) or not len(a)*len(b) == 0 else ["a contact by one method only"]
+    words = []
+    if abs(a["time"][0] - b["time"][0]) > 1e-6*max(a["time"][0], 1e-3):
+        words.append(f"first onset at {a['time'][0]!r} s by verner, {b['time'][0]!r} s by bdf")
+    if abs(a["impulse"][0] - b["impulse"][0]) > AGREEMENT*abs(a["impulse"][0]):
+        words.append(f"first impulse {a['impulse'][0]:.6g} N s by verner, {b['impulse'][0]:.6g} N s by bdf")
+    return words
+
+
+def run_friction(program, scratch, each=EACH, tell=lambda done, total, label: None):
+    """All scenes of all kinds: a line of words for each that went wrong, and how many scenes there were."""
+    wrong, done, total = [], 0, each*len(KINDS)
+    for kind in KINDS:
+        for seed in range(each):
+            scene = draw(kind, seed)
+            tell(done, total, scene.label)
+            for method in dict.fromkeys((METHODS[seed % len(METHODS)], "verner", "bdf")):
+                directory = pathlib.Path(scratch) / "friction"
+                directory.mkdir()
+                wrong += [f"{scene.label}, {method}: {mistake}" for mistake in mistakes_of(program, scene, method, directory)]
+                shutil.rmtree(directory)
+            directory = pathlib.Path(scratch) / "friction"
+            directory.mkdir()
+            wrong += [f"{scene.label}: {mistake}" for mistake in disagreement(program, scene, directory)]
+            shutil.rmtree(directory)
+            done += 1
+    return wrong, total
