@@ -375,7 +375,9 @@ contains
          call self%lay(k, motion)
          associate (tangent => self%grip%tangent(k))
             tangent%way = tangent%t(:, 1)
-            if (self%grip%slip(k) == 1 .and. tangent%v(1) >= self%grip%still(k)) call self%slip_toward(k, tangent%v)
+            if (self%grip%slip(k) /= 1 .or. tangent%v(1) < self%grip%still(k)) cycle
+            call self%slip_toward(k, tangent%v)
+            self%grip%band(k) = 0.0_wp
          end associate
       end do
    end subroutine clearance_follow_sliding

@@ -34,7 +34,7 @@ module floors
    ! friction that sticks
    real(wp), parameter :: at_rest = 1.0e-9_wp             !! sliding velocity that is none, of the speed [1]
    real(wp), parameter :: standstill = 1.0e-15_wp         !! sliding velocity at which slip ends, of the speed [1]
-   real(wp), parameter :: captured = 2.0_wp               !! in space: the same, of the error that the tolerance allows a speed [1]
+   real(wp), parameter :: captured = 2.0_wp               !! in space: the same, of the tolerance times the speed [1]
    real(wp), parameter :: torn = 1.0e-4_wp                !! sliding velocity that ends sticking, of the speed [1]
    real(wp), parameter :: least_band = 1.0e-12_wp         !! first velocity the wrong way after a chatter, of the speed [1]
    real(wp), parameter :: widest_band = 1.0e-5_wp         !! last one, of the speed [1]

@@ -14,13 +14,13 @@
 !> force between its limits and the drivers take the rest; it is given none. It slips as soon as it moves, at a reversal at once.
 !>
 !> Source: Flores et al. (2008), eqs. (3.13), (3.14); F. Pfeiffer and C. Glocker, Multibody Dynamics with Unilateral Contacts
-!> (1996), section 5.3. Limits: contacts change one after another, each for the others as they are.
+!> (1996), section 5.3. Limits: none.
 submodule(mechanism) mechanism_friction
    use clearance_set, only: clearance_set_t, loss_friction
    use contact_grip, only: sticks
    use coordinates, only: most_rates
    use friction_law, only: memory_slip
-   use floors, only: at_rest, captured, least_mobility, no_acceleration, settling, standstill
+   use floors, only: at_rest, captured, least_mobility, no_acceleration, settling, standstill, widest_band
    use grip_forces, only: gripped_t, solve_grips
    implicit none (type, external)
 
@@ -132,7 +132,7 @@ contains
    pure real(wp) function capture_speed(self) result(speed)
       class(mechanism_t), intent(in) :: self   !! the system
 
-      speed = max(standstill, captured*self%linkage%scales%tolerance)*own_speed(self)
+      speed = min(max(standstill, captured*self%linkage%scales%tolerance), widest_band)*own_speed(self)
    end function capture_speed
 
    !> Whether a contact slides with no speed to speak of.

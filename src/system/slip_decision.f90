@@ -35,8 +35,8 @@ contains
       call self%evaluate(t, y, self%friction%grips%trial%ydot, status)
       if (status /= 0) return
       call decide_driven(self, t, y)
-      if (all_hold(self)) return
-      call limit_grips(self)
+      if (.not. all_hold(self)) call limit_grips(self)
+      call widen_bands(self)
       call self%evaluate(t, y, self%friction%grips%trial%ydot, status)
    end procedure mechanism_decide_slips
 
@@ -157,6 +157,28 @@ contains
          call set%note_decision(k, t, band, rest_speed(self, set%grip%n_tangent))
       end associate
    end subroutine note
+
+   !> In space: a contact that slides on more slowly than slip ends is at no end of its slip until it has lost half of that speed.
+   !> `follow_sliding` ends that when it has become faster.
+   subroutine widen_bands(self)
+      class(mechanism_t), intent(inout) :: self   !! the system, its contacts decided
+
+      integer :: k, slot
+
+      do slot = 1, size(self%loose%sets)
+         associate (set => self%loose%sets(slot)%set)
+            if (set%grip%memory /= memory_slip .or. set%n_touching == 0 .or. set%grip%n_tangent == 1) cycle
+            do k = 1, set%n_contact
+               if (.not. set%contact(k)%is_touching .or. abs(set%grip%slip(k)) /= 1) cycle
+               associate (tangent => set%grip%tangent(k), still => rest_speed(self, set%grip%n_tangent))
+                  if (size_of(tangent%v) > still) cycle
+                  call set%note_decision(k, set%grip%since(k), max(set%grip%band(k), capture_speed(self) - 0.5_wp &
+                                         *max(dot_product(matmul(tangent%t, tangent%v), tangent%way), 0.0_wp)), still)
+               end associate
+            end do
+         end associate
+      end do
+   end subroutine widen_bands
 
    !> Decide about the contacts that drivers move.
    subroutine decide_driven(self, t, y)

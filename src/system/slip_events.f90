@@ -1,16 +1,14 @@
 !> When contacts begin to slip and to stick, and which way they go.
 !>
-!> Events: slip s = +-1 ends where s v_T falls to zero (to round-off, so that it also ends where drivers bring it to rest);
-!> sticking ends where |x| = c_s F_N, its rate by a difference along the motion, or where the contact moves all the same. A slip
-!> that ends at once again and again ends at a small speed the wrong way, which doubles each time up to a limit: so a contact that
-!> can neither slip nor stick costs a bounded number of steps. Of what it can hold it is asked for less by as many parts, so that
-!> contacts that share a load do not give way one after the other, each to be held by the others again. In space speeds and forces
-!> are those of both tangents; a slip that has turned by a right angle within a step ends too, and goes on along its new way.
+!> Events: slip s = +-1 ends where s v_T falls to zero (to round-off, so that it also ends where drivers bring it to rest; in space
+!> where it falls below what the tolerance leaves of a speed); sticking ends where |x| = c_s F_N, its rate by a difference along the
+!> motion, or where the contact moves all the same. In space a slip that has turned by a right angle within a step ends too, and
+!> goes on along its new way. What comes of an event: `slip_decision`.
 !>
 !> Speeds that are small are parts of the mechanism's own, its pace times its size (`mechanism_scales`); times, of the
 !> contact's own.
 !>
-!> Source: see `mechanism_friction`. Limits: contacts change one after another, each for the others as they are.
+!> Source: see `mechanism_friction`. Limits: none.
 submodule(mechanism:mechanism_friction) slip_events
    use contact_grip, only: is_undecided, tangent_t
    use contact_places, only: slip_function
