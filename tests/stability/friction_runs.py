@@ -26,7 +26,7 @@ def run(program, scene, method, friction, directory):
     directory = pathlib.Path(directory) / f"{method}_{friction}"
     directory.mkdir()
     deck = written(directory, changed(scene.text, "analysis.dynamic", method=method, **step))
-    command = [str(program), "run", str(deck), "--out", str(directory / "out"), "--write", "numbers", "--set", f"friction={friction}"]
+    command = [str(program), "run", str(deck), "--out", str(directory / "out"), "--write", "channels", "--set", f"friction={friction}"]
     try:
         done = subprocess.run(command, capture_output=True, text=True, timeout=LIMIT, stdin=subprocess.DEVNULL)
     except subprocess.TimeoutExpired:
@@ -49,7 +49,7 @@ def mistakes_of(program, scene, method, directory):
     residual = summary["energy_residual_max"]/max(summary["energy_max"], 1e-300)
     if method != "rk4" and not residual <= RESIDUAL:
         mistakes.append(f"residual of the ledger {residual:.1e} of the energy")
-    lost = result.read("energy/dissipated_friction")
+    lost = result.read("energy/dissipated_friction").ravel()
     if np.min(np.diff(lost)) < -1e-9*summary["energy_max"]:
         mistakes.append(f"friction gives {-np.min(np.diff(lost)):.1e} J")
     return mistakes
