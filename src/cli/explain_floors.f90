@@ -2,7 +2,8 @@
 module explain_floors
    use channel_noise, only: noise_words
    use console, only: say
-   use floors, only: all_floors, floor_t, of_acceleration, of_contact, of_mobility, of_pace, of_run, of_speed, of_step, of_time
+   use floors, only: all_floors, floor_t, of_acceleration, of_contact, of_mobility, of_pace, of_run, of_speed, of_step, of_time, &
+      of_tolerance
    use kinds, only: wp
    use mechanism, only: mechanism_t
    use text, only: real_text
@@ -89,6 +90,8 @@ contains
          words = "of its size in the whole run"
       case (of_time)
          words = "spacings of numbers at the time"
+      case (of_tolerance)
+         words = "of the tolerance times the mechanism's speed"
       case default
          words = ""
       end select

@@ -9,9 +9,9 @@ module floors
    implicit none (type, external)
    private
    public :: all_floors, floor_t
-   public :: of_acceleration, of_contact, of_mobility, of_pace, of_run, of_speed, of_step, of_time
-   public :: at_rest, captured, chatter_time, gentle, idle_part, late, least_band, least_hold, least_mobility, look_ahead, &
-      no_acceleration, remembered, settling, shortest_difference, standstill, torn, widest_band
+   public :: of_acceleration, of_contact, of_mobility, of_pace, of_run, of_speed, of_step, of_time, of_tolerance
+   public :: at_rest, captured, chatter_time, contact_lever, gentle, idle_part, late, least_band, least_hold, least_mobility, &
+      look_ahead, no_acceleration, remembered, settling, shortest_difference, standstill, torn, widest_band
 
    integer, parameter :: of_speed = 1         !! of the mechanism's own speed, pace times size
    integer, parameter :: of_pace = 2          !! of its pace
@@ -21,6 +21,7 @@ module floors
    integer, parameter :: of_mobility = 6      !! of what the bodies would yield if they were free
    integer, parameter :: of_run = 7           !! of size and duration of the run
    integer, parameter :: of_time = 8          !! of the spacing of numbers at the present time
+   integer, parameter :: of_tolerance = 9     !! of the tolerance times the mechanism's own speed
 
    ! contacts
    real(wp), parameter :: gentle = 0.1_wp                 !! impact speed in damping terms at least, of the speed of the depth [1]
@@ -35,6 +36,7 @@ module floors
    real(wp), parameter :: at_rest = 1.0e-9_wp             !! sliding velocity that is none, of the speed [1]
    real(wp), parameter :: standstill = 1.0e-15_wp         !! sliding velocity at which slip ends, of the speed [1]
    real(wp), parameter :: captured = 2.0_wp               !! in space: the same, of the tolerance times the speed [1]
+   real(wp), parameter :: contact_lever = 2.0_wp          !! in space: lever within a contact, of its penetration [1]
    real(wp), parameter :: torn = 1.0e-4_wp                !! sliding velocity that ends sticking, of the speed [1]
    real(wp), parameter :: least_band = 1.0e-12_wp         !! first velocity the wrong way after a chatter, of the speed [1]
    real(wp), parameter :: widest_band = 1.0e-5_wp         !! last one, of the speed [1]
@@ -64,6 +66,8 @@ contains
               floor_t(least_hold, of_pace, "gain of baumgarte_adaptive"), &
               floor_t(at_rest, of_speed, "sliding that is none, at an onset and where drivers prescribe it"), &
               floor_t(standstill, of_speed, "sliding at which slip ends"), &
+              floor_t(captured, of_tolerance, "in space: sliding at which slip ends"), &
+              floor_t(contact_lever, of_contact, "penetration; in space: lever of turns that friction does not hold"), &
               floor_t(torn, of_speed, "sliding that ends sticking all the same"), &
               floor_t(least_band, of_speed, "sliding the wrong way that is borne after a chatter, at first"), &
               floor_t(widest_band, of_speed, "sliding the wrong way that is borne after a chatter, at last"), &

@@ -1,6 +1,5 @@
 !> Room for the friction forces of contacts that stick, and the small system that they solve.
 module grip_forces
-   use floors, only: least_mobility
    use kinds, only: wp
    use lapack, only: dsyev
    implicit none (type, external)
@@ -72,23 +71,24 @@ contains
    !> Forces x with A x = r, A symmetric and positive semidefinite; where contacts share a load, the solution that uses each
    !> to the same part of what its normal force lets it hold: least sum of x^2 / F_N. What no force can change of r is left: where
    !> drivers prescribe the sliding.
-   subroutine solve_grips(n, lead, matrix, mobility, root, force, left, eigenvalue, work)
+   subroutine solve_grips(n, lead, matrix, mobility, least, root, force, left, eigenvalue, work)
       integer, intent(in) :: n                      !! contacts
       integer, intent(in) :: lead                   !! first extent of the matrix
       real(wp), intent(inout) :: matrix(lead, n)    !! (lead, n) A, destroyed [1/kg]
       real(wp), intent(in) :: mobility(n)           !! (n) diagonal of A if the bodies were free [1/kg]
+      real(wp), intent(in) :: least                 !! mobility that is none, of that [1]
       real(wp), intent(in) :: root(n)               !! (n) roots of the normal forces, positive [N^0.5]
       real(wp), intent(inout) :: force(n)           !! (n) r [m/s^2], then x [N]
       real(wp), intent(out) :: left(n)              !! (n) r - A x [m/s^2]
       real(wp), intent(out) :: eigenvalue(n)        !! (n) scratch [N/kg]
       real(wp), intent(out) :: work(:)              !! (34 n) scratch [any]
 
-      real(wp) :: least, part
+      real(wp) :: bound, part
       integer :: i, info, j
 
       left = 0.0_wp
       if (n == 1) then
-         if (matrix(1, 1) > least_mobility*mobility(1)) then
+         if (matrix(1, 1) > least*mobility(1)) then
             force(1) = force(1)/matrix(1, 1)
          else
             left(1) = force(1)
@@ -103,11 +103,11 @@ contains
          force(j) = root(j)*force(j)
       end do
       call dsyev("V", "U", n, matrix, lead, eigenvalue, work, size(work), info)
-      least = least_mobility*max(eigenvalue(n), maxval(root**2*mobility))
+      bound = least*max(eigenvalue(n), maxval(root**2*mobility))
       work(:n) = 0.0_wp
       do i = 1, n
          part = dot_product(matrix(:n, i), force)
-         if (info /= 0 .or. eigenvalue(i) <= least) then
+         if (info /= 0 .or. eigenvalue(i) <= bound) then
             left = left + part*matrix(:n, i)
          else
             work(:n) = work(:n) + part/eigenvalue(i)*matrix(:n, i)

@@ -17,10 +17,10 @@
 !> (1996), section 5.3. Limits: none.
 submodule(mechanism) mechanism_friction
    use clearance_set, only: clearance_set_t, loss_friction
-   use contact_grip, only: sticks
+   use contact_grip, only: grip_t, sticks
    use coordinates, only: most_rates
    use friction_law, only: memory_slip
-   use floors, only: at_rest, captured, least_mobility, no_acceleration, settling, standstill, widest_band
+   use floors, only: at_rest, captured, contact_lever, least_mobility, no_acceleration, settling, standstill, widest_band
    use grip_forces, only: gripped_t, solve_grips
    implicit none (type, external)
 
@@ -28,6 +28,7 @@ contains
 
    !> Forces of the contacts that stick, and the accelerations with them.
    module procedure mechanism_stick
+      real(wp) :: least    ! mobility that is none, of that of free bodies [1]
       real(wp) :: nothing  ! sliding acceleration that is none [m/s^2]
       integer :: c, m
 
@@ -35,9 +36,10 @@ contains
       call list_grips(self, .true., m)
       if (m == 0) return
       associate (grips => self%friction%grips)
-         call find_mobilities(self, m, nothing, status)
+         least = mobility_of_depth(self, m)
+         call find_mobilities(self, m, least, nothing, status)
          if (status /= 0) return
-         call solve_grips(m, size(grips%matrix, 1), grips%matrix(:, :m), grips%mobility(:m), grips%root(:m), &
+         call solve_grips(m, size(grips%matrix, 1), grips%matrix(:, :m), grips%mobility(:m), least, grips%root(:m), &
                           grips%force(:m), grips%left(:m), grips%eigenvalue(:m), grips%work)
          do c = 1, m
             call add_pair(self, c, grips%force(c), self%loading%g)
@@ -73,9 +75,10 @@ contains
 
    !> What unit forces along the tangents on the list do to their sliding accelerations, and, into `force`, the sliding
    !> accelerations that the forces are to give them. Accelerations are those of unit forces afterwards.
-   subroutine find_mobilities(self, m, nothing, status)
+   subroutine find_mobilities(self, m, least, nothing, status)
       class(mechanism_t), intent(inout) :: self    !! the system, accelerations found
       integer, intent(in) :: m                     !! tangents on the list
+      real(wp), intent(in) :: least                !! mobility that is none, of that of free bodies [1]
       real(wp), intent(out) :: nothing             !! sliding acceleration that is none [m/s^2]
       integer, intent(out) :: status               !! 0: found
 
@@ -94,7 +97,7 @@ contains
                          + 2.0_wp*settling*self%linkage%scales%pace*abs(tangent%v(grips%at(c)%axis))
             end associate
          end do
-         nothing = nothing + sqrt(least_mobility)*maxval(abs(grips%force(:m)))
+         nothing = nothing + sqrt(least)*maxval(abs(grips%force(:m)))
          grips%load%b(:n) = self%linkage%solution%b(:n)
          self%linkage%solution%b(:n) = 0.0_wp
          do d = 1, m
@@ -111,6 +114,33 @@ contains
       end associate
    end subroutine find_mobilities
 
+   !> Mobility that counts as none, of that of free bodies. A contact in space acts anywhere within its penetration: no friction
+   !> force holds a combination of tangents that moves only as the bodies turn about that lever, as corners of one face have.
+   real(wp) function mobility_of_depth(self, m) result(least)
+      class(mechanism_t), intent(in) :: self   !! the system
+      integer, intent(in) :: m                 !! tangents on the list
+
+      real(wp) :: delta(self%loose%n_contact), rate(self%loose%n_contact), turned
+      integer :: body, c, side
+
+      least = least_mobility
+      do c = 1, m
+         associate (at => self%friction%grips%at(c))
+            associate (set => self%loose%sets(at%slot)%set, n => self%linkage%coordinates%n_v)
+               if (at%axis == 1) cycle
+               call set%gaps(self%linkage%motion, delta, rate)
+               turned = 0.0_wp
+               do side = 1, 2
+                  body = set%items%body(side, set%item_of(at%contact))
+                  turned = turned + maxval(self%linkage%inverse_mass(4:n, body))
+               end do
+               least = max(least, (contact_lever*delta(set%before%contacts + at%contact))**2*turned &
+                                  /max(mobility_of(self, c), tiny(1.0_wp)))
+            end associate
+         end associate
+      end do
+   end function mobility_of_depth
+
    !> Speed of the mechanism, which says what sliding is slow.
    pure real(wp) function own_speed(self) result(speed)
       class(mechanism_t), intent(in) :: self   !! the system
@@ -119,21 +149,19 @@ contains
    end function own_speed
 
    !> Sliding velocity that is none to a contact that may stick: in space also what the tolerance leaves of a speed, for nearer to
-   !> rest the direction of sliding turns faster than steps can follow.
-   pure real(wp) function rest_speed(self, n_tangent) result(speed)
+   !> rest the direction of sliding turns faster than steps can follow; and the speed of the turning bodies within the penetration.
+   pure real(wp) function rest_speed(self, grip, k) result(speed)
       class(mechanism_t), intent(in) :: self   !! the system
-      integer, intent(in) :: n_tangent         !! tangents of the contact
+      type(grip_t), intent(in) :: grip         !! grip of the contact's set
+      integer, intent(in) :: k                 !! contact of the set
 
-      speed = at_rest*own_speed(self)
-      if (n_tangent > 1) speed = max(speed, 2.0_wp*capture_speed(self))
+      if (grip%n_tangent == 1) then
+         speed = at_rest*own_speed(self)
+      else
+         speed = 2.0_wp*min(max(standstill, captured*self%linkage%scales%tolerance), widest_band)*own_speed(self)
+         speed = max(speed, grip%still(k))
+      end if
    end function rest_speed
-
-   !> Sliding velocity at which slip ends in space.
-   pure real(wp) function capture_speed(self) result(speed)
-      class(mechanism_t), intent(in) :: self   !! the system
-
-      speed = min(max(standstill, captured*self%linkage%scales%tolerance), widest_band)*own_speed(self)
-   end function capture_speed
 
    !> Whether a contact slides with no speed to speak of.
    pure logical function slides_slowly(self, slot, k) result(is_slow)
@@ -146,7 +174,7 @@ contains
          if (set%grip%memory /= memory_slip) return
          if (.not. set%contact(k)%is_touching .or. abs(set%grip%slip(k)) /= 1) return
          is_slow = size_of(set%grip%tangent(k)%v) < merge(0.5_wp, 1.0_wp, set%grip%n_tangent == 1) &
-                   *rest_speed(self, set%grip%n_tangent)
+                   *rest_speed(self, set%grip, k)
       end associate
    end function slides_slowly
 
