@@ -17,7 +17,7 @@
 !> (1996), section 5.3. Limits: none.
 submodule(mechanism) mechanism_friction
    use clearance_set, only: clearance_set_t, loss_friction
-   use contact_grip, only: grip_t, sticks
+   use contact_grip, only: sticks
    use coordinates, only: most_rates
    use friction_law, only: memory_slip
    use floors, only: at_rest, captured, contact_lever, least_mobility, no_acceleration, settling, standstill, widest_band
@@ -148,23 +148,31 @@ contains
       speed = self%linkage%scales%pace*self%linkage%scales%length
    end function own_speed
 
-   !> Sliding velocity that is none to a contact that may stick: in space also what the tolerance leaves of a speed, for nearer to
-   !> rest the direction of sliding turns faster than steps can follow; and the speed of the turning bodies within the penetration.
-   pure real(wp) function rest_speed(self, grip, k) result(speed)
+   !> Sliding velocity that is none to a contact that may stick. In space also what the tolerance leaves of a speed, for nearer to
+   !> rest the direction of sliding turns faster than steps can follow; and the speed of the turning bodies within the penetration,
+   !> for the contact acts anywhere there.
+   real(wp) function rest_speed(self, slot, k) result(speed)
       class(mechanism_t), intent(in) :: self   !! the system
-      type(grip_t), intent(in) :: grip         !! grip of the contact's set
+      integer, intent(in) :: slot              !! set of the contact
       integer, intent(in) :: k                 !! contact of the set
 
-      if (grip%n_tangent == 1) then
-         speed = at_rest*own_speed(self)
-      else
-         speed = 2.0_wp*min(max(standstill, captured*self%linkage%scales%tolerance), widest_band)*own_speed(self)
-         speed = max(speed, grip%still(k))
-      end if
+      real(wp) :: delta(self%loose%n_contact), rate(self%loose%n_contact), turning(3)
+      integer :: item
+
+      speed = at_rest*own_speed(self)
+      associate (set => self%loose%sets(slot)%set, motion => self%linkage%motion)
+         if (set%grip%n_tangent == 1) return
+         call set%gaps(motion, delta, rate)
+         item = set%item_of(k)
+         turning = motion%omega(:, set%items%body(2, item)) - motion%omega(:, set%items%body(1, item))
+         speed = max(standstill, captured*self%linkage%scales%tolerance)*own_speed(self)
+         speed = 2.0_wp*min(max(speed, 0.5_wp*contact_lever*delta(set%before%contacts + k)*norm2(turning)), &
+                            widest_band*own_speed(self))
+      end associate
    end function rest_speed
 
    !> Whether a contact slides with no speed to speak of.
-   pure logical function slides_slowly(self, slot, k) result(is_slow)
+   logical function slides_slowly(self, slot, k) result(is_slow)
       class(mechanism_t), intent(in) :: self   !! the system, its contacts laid
       integer, intent(in) :: slot              !! set of the contact
       integer, intent(in) :: k                 !! contact of the set
@@ -174,7 +182,7 @@ contains
          if (set%grip%memory /= memory_slip) return
          if (.not. set%contact(k)%is_touching .or. abs(set%grip%slip(k)) /= 1) return
          is_slow = size_of(set%grip%tangent(k)%v) < merge(0.5_wp, 1.0_wp, set%grip%n_tangent == 1) &
-                   *rest_speed(self, set%grip, k)
+                   *rest_speed(self, slot, k)
       end associate
    end function slides_slowly
 

@@ -126,7 +126,7 @@ contains
          select case (set%grip%slip(k))
          case (is_undecided)
             slides = (set%grip%was(k) == is_undecided .or. set%grip%n_tangent > 1) &
-                     .and. speed > rest_speed(self, set%grip, k)
+                     .and. speed > rest_speed(self, slot, k)
          case (gives_way)
             slides = speed > 0.5_wp*torn*own_speed(self)
          case default
@@ -154,7 +154,7 @@ contains
          if (t - set%grip%since(k) < chatter_time*own_time(self, slot, k, delta(set%before%contacts + k))) then
             band = speed*min(max(2.0_wp*set%grip%band(k)/speed, least_band), widest_band)
          end if
-         call set%note_decision(k, t, band, rest_speed(self, set%grip, k))
+         call set%note_decision(k, t, band, rest_speed(self, slot, k))
       end associate
    end subroutine note
 
@@ -170,7 +170,7 @@ contains
             if (set%grip%memory /= memory_slip .or. set%n_touching == 0 .or. set%grip%n_tangent == 1) cycle
             do k = 1, set%n_contact
                if (.not. set%contact(k)%is_touching .or. abs(set%grip%slip(k)) /= 1) cycle
-               associate (tangent => set%grip%tangent(k), still => rest_speed(self, set%grip, k))
+               associate (tangent => set%grip%tangent(k), still => rest_speed(self, slot, k))
                   if (size_of(tangent%v) > still) cycle
                   call set%note_decision(k, set%grip%since(k), max(set%grip%band(k), 0.5_wp*still - 0.5_wp &
                                          *max(dot_product(matmul(tangent%t, tangent%v), tangent%way), 0.0_wp)), still)

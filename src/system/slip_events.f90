@@ -44,7 +44,7 @@ contains
                      g(number) = short_of(self, tangent, set%laws%friction%stick_limit(tangent%f_n))
                      rate(number) = (rate(number) - g(number))/moment
                   else
-                     g(number) = merge(standstill*own_speed(self), 0.5_wp*rest_speed(self, set%grip, k), &
+                     g(number) = merge(standstill*own_speed(self), 0.5_wp*rest_speed(self, slot, k), &
                                        set%grip%n_tangent == 1) - slip*tangent%v(1) - set%grip%band(k)
                      rate(number) = -slip*(tangential(self, slot, k, 1, .true.) + tangent%drift(1))
                   end if

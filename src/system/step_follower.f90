@@ -1,9 +1,6 @@
 !> What goes on from the end of a step: counts of turns of force elements and gears, and the ways of contacts that slide in
 !> space; and whether joints and force elements are still where their rows and angles mean what they should.
 module step_follower
-   use clearance_set, only: clearance_set_t
-   use floors, only: contact_lever, widest_band
-   use friction_law, only: memory_slip
    use joint_set, only: joint_set_t
    use kinds, only: wp
    use mechanism, only: mechanism_t
@@ -89,7 +86,7 @@ contains
 
       integer :: k
 
-      associate (motion => system%linkage%motion, scales => system%linkage%scales)
+      associate (motion => system%linkage%motion)
          do k = 1, size(system%linkage%joints)
             call system%linkage%joints(k)%set%follow(motion)
          end do
@@ -97,31 +94,9 @@ contains
             call system%loading%forces(k)%set%follow(motion)
          end do
          do k = 1, size(system%loose%sets)
-            call note_still(system%loose%sets(k)%set, motion, widest_band*scales%pace*scales%length)
             call system%loose%sets(k)%set%follow_sliding(motion)
          end do
       end associate
    end subroutine follow_motion
-
-   !> Raise the sliding velocity that is next to none for contacts in space to that of the turning bodies within the penetration:
-   !> the contact acts anywhere there.
-   subroutine note_still(set, motion, fastest)
-      class(clearance_set_t), intent(inout) :: set   !! the set
-      type(motion_t), intent(in) :: motion           !! positions and velocities
-      real(wp), intent(in) :: fastest                !! greatest speed that may be next to none [m/s]
-
-      real(wp), dimension(set%before%contacts + set%n_contact) :: delta, rate
-      real(wp) :: turning(3)
-      integer :: item, k
-
-      if (set%grip%memory /= memory_slip .or. set%grip%n_tangent == 1 .or. set%n_touching == 0) return
-      call set%gaps(motion, delta, rate)
-      do k = 1, set%n_contact
-         if (.not. set%contact(k)%is_touching) cycle
-         item = set%item_of(k)
-         turning = motion%omega(:, set%items%body(2, item)) - motion%omega(:, set%items%body(1, item))
-         set%grip%still(k) = max(set%grip%still(k), min(contact_lever*delta(set%before%contacts + k)*norm2(turning), fastest))
-      end do
-   end subroutine note_still
 
 end module step_follower

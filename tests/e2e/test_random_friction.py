@@ -14,7 +14,8 @@ sys.path.insert(0, str(ROOT / "tests" / "stability"))
 from friction_runs import disagreement, mistakes_of  # noqa: E402
 from random_friction import KINDS, METHODS, draw  # noqa: E402
 
-EACH = 3  # scenes of a kind
+EACH = 2  # scenes of a kind
+CREEPING = (("block", 11), ("block", 18))  # corners on one face slide against one another as the block turns
 
 PIN = """deck = 1
 [scene]
@@ -89,6 +90,13 @@ def test_random_scenes_end(gudgeon, kind, method):
     for seed in range(EACH):
         mistakes = mistakes_of(gudgeon, draw(kind, seed), method, scratch())
         assert not mistakes, f"{kind} {seed}, {method}: {'; '.join(mistakes)}"
+
+
+@pytest.mark.parametrize(("kind", "seed"), CREEPING)
+def test_creeping_needs_no_small_steps(gudgeon, kind, seed):
+    """An explicit method follows contacts that creep against one another with few steps."""
+    mistakes = mistakes_of(gudgeon, draw(kind, seed), "verner", scratch())
+    assert not mistakes, "; ".join(mistakes)
 
 
 @pytest.mark.parametrize("kind", KINDS)

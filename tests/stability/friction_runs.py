@@ -1,7 +1,10 @@
 """Running random scenes with Coulomb's friction: what is wrong with one, and the hundreds of `make stability`.
 
 Every run ends by itself, takes at most RATIO times the steps of the same scene with a smooth law (transition speed:
-`random_friction.TRANSITION`), closes its ledger, and friction takes energy only. verner and bdf agree on the first contact.
+`random_friction.TRANSITION`), and closes its ledger to RESIDUAL, or to RATIO times what the method leaves open with the smooth law.
+Friction takes energy only, but for GIVEN: in space a contact sticks as soon as it is slower than the tolerance times the speed of
+the mechanism; the force that holds it works on what is left of that speed, as much as a tolerance of the energy.
+verner and bdf agree on the first contact: on the way to its onset within NEAR, which is the tolerance of a position, and on its impulse.
 """
 
 import pathlib
@@ -17,6 +20,8 @@ EACH = 100  # scenes of a kind in the full set; each by one of the methods, in t
 RATIO = 10.0  # of the steps
 FEW = 2000  # steps that are few, whatever the smooth law takes
 RESIDUAL = 1e-4  # of the ledger, of the largest energy
+GIVEN = 1e-7  # energy that friction may give between two rows: ten tolerances, of the largest energy
+NEAR = 1e-8  # way between two onsets of one contact by two methods: ten tolerances of a body of 0.1 m [m]
 AGREEMENT = 1e-3  # of the impulse of the first contact, by two methods
 
 
@@ -36,22 +41,29 @@ def run(program, scene, method, friction, directory):
     return Run(directory / "out", done)
 
 
+def residual_of(result):
+    """Of the ledger, of the largest energy."""
+    return result.summary["energy_residual_max"]/max(result.summary["energy_max"], 1e-300)
+
+
 def mistakes_of(program, scene, method, directory):
-    """Run a scene by a method with both laws: a list of all that is wrong."""
+    """Run a scene by a method, with the smooth law too where it asks for much: a list of all that is wrong."""
     result = run(program, scene, method, "coulomb", directory)
     if isinstance(result, str):
         return [result]
-    mistakes, summary = [], result.summary
-    if summary["steps"] > FEW:
+    mistakes, steps, residual = [], result.summary["steps"], residual_of(result)
+    is_open = method != "rk4" and not residual <= RESIDUAL
+    if steps > FEW or is_open:
         smooth = run(program, scene, method, "smooth", directory)
-        if not isinstance(smooth, str) and summary["steps"] > RATIO*smooth.summary["steps"]:
-            mistakes.append(f"{summary['steps']} steps, {smooth.summary['steps']} with the smooth law")
-    residual = summary["energy_residual_max"]/max(summary["energy_max"], 1e-300)
-    if method != "rk4" and not residual <= RESIDUAL:
-        mistakes.append(f"residual of the ledger {residual:.1e} of the energy")
-    lost = result.read("energy/dissipated_friction").ravel()
-    if np.min(np.diff(lost)) < -1e-9*summary["energy_max"]:
-        mistakes.append(f"friction gives {-np.min(np.diff(lost)):.1e} J")
+        if isinstance(smooth, str):
+            return [f"the smooth law: {smooth}"]
+        if steps > max(FEW, RATIO*smooth.summary["steps"]):
+            mistakes.append(f"{steps} steps, {smooth.summary['steps']} with the smooth law")
+        if is_open and not residual <= RATIO*residual_of(smooth):
+            mistakes.append(f"residual of the ledger {residual:.1e} of the energy, {residual_of(smooth):.1e} with the smooth law")
+    given = -np.min(np.diff(result.read("energy/dissipated_friction").ravel()))
+    if given > GIVEN*result.summary["energy_max"]:
+        mistakes.append(f"friction gives {given:.1e} J of {result.summary['energy_max']:.1e}")
     return mistakes
 
 
@@ -64,8 +76,8 @@ def disagreement(program, scene, directory):
     if len(a) == 0 or len(b) == 0 or not a["duration"][0] > 0.0:
         return [] if len(a) == len(b) or not len(a)*len(b) == 0 else ["a contact by one method only"]
     words = []
-    if abs(a["time"][0] - b["time"][0]) > 1e-6*max(a["time"][0], 1e-3):
-        words.append(f"first onset at {a['time'][0]!r} s by verner, {b['time'][0]!r} s by bdf")
+    if abs(a["time"][0] - b["time"][0])*a["impact_speed"][0] > NEAR:
+        words.append(f"first onset at {a['time'][0]!r} s by verner, {b['time'][0]!r} s by bdf, at {a['impact_speed'][0]:.3g} m/s")
     if abs(a["impulse"][0] - b["impulse"][0]) > AGREEMENT*abs(a["impulse"][0]):
         words.append(f"first impulse {a['impulse'][0]:.6g} N s by verner, {b['impulse'][0]:.6g} N s by bdf")
     return words

@@ -57,7 +57,7 @@ contains
       type(error_t), allocatable, intent(out) :: error  !! what failed
 
       integer, parameter :: n = 5, m = 2*n, n_trial = 200
-      real(wp) :: a(m, m), against(m), g(m, 12), limit(n), r(m), scale, x(m)
+      real(wp) :: a(m, m), against(m), g(m, 40), limit(n), r(m), scale, x(m)
       integer :: c, i, n_at_limit, trial
       integer, allocatable :: seed(:)
 
@@ -71,7 +71,7 @@ contains
          call random_number(limit)
          g = g - 0.5_wp
          r = 10.0_wp*(r - 0.5_wp)
-         limit = 6.0_wp*limit
+         limit = 3.0_wp*limit
          a = matmul(g, transpose(g))
          x = 0.0_wp
          call limit_forces(n, 2, m, a, r, limit, x, against)
