@@ -143,6 +143,7 @@ contains
             self%x(k, 3) = x
             if (.not. is_written) cycle
             self%is_known(k) = ieee_is_finite(x)
+            if (.not. self%is_known(k)) cycle
             if (x < self%least(k)) self%least(k) = x
             if (x > self%most(k)) self%most(k) = x
          end associate
@@ -171,6 +172,7 @@ contains
             search%number = search%number + 1
             if (search%number > 2*size(self%place)) return
             if (.not. self%is_known((search%number + 1)/2)) cycle
+            if (.not. all(ieee_is_finite(self%x((search%number + 1)/2, :)))) cycle
             search%t = self%t
             search%f = sign_of(search)*self%x((search%number + 1)/2, :)
             if (maxval(search%f) - minval(search%f) <= round_off*maxval(abs(search%f))) cycle
@@ -208,6 +210,7 @@ contains
       is_there = .false.
       a = search%t(2) - search%t(1)
       b = search%t(3) - search%t(2)
+      if (.not. min(a, b) > 0.0_wp) return  ! no closer in the digits of time
       slope = ((search%f(2) - search%f(1))*b/a + (search%f(3) - search%f(2))*a/b)/(a + b)
       bend = 2.0_wp*((search%f(2) - search%f(1))/a - (search%f(3) - search%f(2))/b)/(a + b)
       if (.not. bend > 0.0_wp) return
@@ -238,13 +241,14 @@ contains
 
       associate (search => self%search, x => self%x((self%search%number + 1)/2, :))
          f = values(self%asked_for())
-         counts = abs(f - rough) <= max(doubt*(maxval(x) - minval(x)), same*maxval(abs(x)))
-         f = sign_of(search)*f
+         counts = ieee_is_finite(f) .and. ieee_is_finite(rough)
+         if (counts) counts = abs(f - rough) <= max(doubt*(maxval(x) - minval(x)), same*maxval(abs(x)))
          search%n = search%n + 1
          if (.not. counts) then
             search%n = most_instants
             return
          end if
+         f = sign_of(search)*f
          k = (search%number + 1)/2  ! the others are left alone: what is found of a number does not depend on which others there are
          self%least(k) = min(self%least(k), values(self%place(k)))
          self%most(k) = max(self%most(k), values(self%place(k)))

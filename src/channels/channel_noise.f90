@@ -74,12 +74,13 @@ contains
 
    end function noise_of_channels
 
-   !> A number for people: zero if it is round-off.
+   !> A number for people: zero if it is round-off, not a number if it is not known.
    elemental real(wp) function shown(x, noise)
       real(wp), intent(in) :: x       !! the number [any]
       real(wp), intent(in) :: noise   !! of its channel [any]
 
       shown = x
+      if (.not. ieee_is_finite(x)) return
       if (abs(x) <= noise) shown = 0.0_wp
    end function shown
 

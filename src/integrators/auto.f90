@@ -251,13 +251,13 @@ contains
       real(wp), intent(in) :: h                  !! length of the step [s]
 
       call self%set_scales(system, self%trial)
-      associate (part => h/self%controls%tolerance)
+      associate (tolerance => self%controls%tolerance)
          if (self%is_eighth) then
-            norm = part*self%eight%norm(system%n - system%n_quadrature, self%scale, self%controls%norm)
-            if (counts_quadratures(system, norm)) norm = max(norm, self%eight%quadrature_norm(system, part))
+            norm = h*self%eight%norm(system%n - system%n_quadrature, self%scale, self%controls%norm)/tolerance
+            if (counts_quadratures(system, norm)) norm = max(norm, self%eight%quadrature_norm(system, h/tolerance))
          else
-            norm = part*self%six%norm(system, self%step%f0, self%scale, self%controls%norm == norm_euclidean)
-            if (counts_quadratures(system, norm)) norm = max(norm, self%six%quadrature_norm(system, self%step%f0, part))
+            norm = h*self%six%norm(system, self%step%f0, self%scale, self%controls%norm == norm_euclidean)/tolerance
+            if (counts_quadratures(system, norm)) norm = max(norm, self%six%quadrature_norm(system, self%step%f0, h/tolerance))
          end if
       end associate
    end function auto_error_norm
