@@ -1,7 +1,8 @@
 !> Time histories and events as comma-separated values: each `.dat` file once more, for programs that read nothing else.
 !>
 !> The first line has the names of the columns, `channel[unit]`; the other lines of the heading are left out. Numbers and words
-!> are those of the `.dat` file, character by character; a cell of what is not known (`NaN`) is empty. Source: RFC 4180; no name or word has a comma, a quote or a blank.
+!> are those of the `.dat` file, character by character; a cell of what is not known (`NaN`) is empty. Source: RFC 4180; no name
+!> or word has a comma, a quote or a blank.
 module csv_files
    use errors, only: error_t
    use kinds, only: i8

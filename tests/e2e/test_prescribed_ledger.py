@@ -10,7 +10,7 @@ import math
 import pytest
 from support import ROOT, Run, assert_close, call, changed, scratch, written
 
-METHODS = ["verner", "dop853", "adams", "bdf", "ida", "radau", "rock4"]
+METHODS = ["auto", "verner", "dop853", "adams", "bdf", "ida", "radau", "rock4"]
 TOLERANCES = ["1e-6", "1e-8"]
 TERMS = ["kinetic", "elastic", "drive_work", "load_work", "stabilisation_work", "dissipated_contact", "dissipated_friction", "dissipated_damper",
          "dissipated_film"]

@@ -93,7 +93,8 @@ contains
       call check_true(error, n_at_limit > n_trial .and. n_at_limit < (n - 1)*n_trial, "both kinds are there")
    end subroutine test_many
 
-   !> Two contacts of one body that slide together: what is within the limits is left as it was shared, what is beyond is the limits.
+   !> Two contacts of one body that slide together: what is within the limits is left as it was shared, what is beyond is
+   !> the limits.
    subroutine test_shared(error)
       type(error_t), allocatable, intent(out) :: error  !! what failed
 
