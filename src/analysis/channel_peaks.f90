@@ -334,6 +334,7 @@ contains
       do k = 1, size(peaks%place)
          associate (x => catalogue%values(peaks%place(k)))
             if (.not. peaks%is_known(k)) x = not_a_number()
+            if (.not. ieee_is_finite(x)) cycle
             if (x < peaks%least(k)) peaks%least(k) = x
             if (x > peaks%most(k)) peaks%most(k) = x
          end associate

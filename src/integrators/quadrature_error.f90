@@ -5,7 +5,7 @@
 !> drivers (those that have scales of quadratures), by one-step methods where the norm of the motion is below a thousandth of what
 !> is allowed. A quadrature may have a number of tolerances of its scale, which is the largest energy or work so far: many by
 !> one-step methods, whose estimates are those of a lower order and far beyond the error; by multistep methods, whose estimates are
-!> the errors and add up, less than one, and some where the motion limits the steps as well.
+!> the errors and add up, less than one, and some where the motion limits the steps as well and no events cut it.
 module quadrature_error
    use kinds, only: wp
    use ode_system, only: ode_system_t

@@ -147,7 +147,7 @@ contains
       if (.not. associated(at_work)) return
       if (.not. at_work%heeds_quadratures) return
       associate (system => at_work%system)
-         if (.not. counts_quadratures(system, 0.0_wp)) return
+         if (.not. counts_quadratures(system, merge(norm, 0.0_wp, system%n_event > 0))) return
          errors => fn_vgetarraypointer(error)
          norm = max(norm, greatest_error(system%n_quadrature, errors(system%n - system%n_quadrature + 1:system%n), &
                                          system%traits%quadrature_scale, &

@@ -241,7 +241,9 @@ def test_a_run_that_ends_early_draws_what_it_reached(gudgeon, tmp_path):
     folder = run(gudgeon, tmp_path, text, "animation(n=10, last=1s) mechanism(t=0.9s)")
     assert len(strokes(folder / "animation.n.10.last.1s.dat")) == 5
     listed = json.loads((tmp_path / "run" / "summary.json").read_text(encoding="utf-8"))
-    assert listed["warnings"] == ["figure mechanism(t=0.9s): no numbers to draw"]
+    assert listed["warnings"] == [
+        "figure mechanism(t=0.9s): no numbers to draw: no output instant that it shows has a number (`from` and `last` in [output], the end of the run)"
+    ]
 
 
 @pytest.mark.parametrize("figure", ["mechanism", "strip(n=3)", "animation(n=4)", "mechanism(t=0.1s,0.9s)"])
