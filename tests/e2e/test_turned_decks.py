@@ -74,7 +74,7 @@ def turned(echo):
         name = re.match(r"\[([\w.]+)\]", section)
         lines = section.splitlines()
         if not name or len(lines) < 3 or not lines[1].startswith("name "):
-            found.append(re.sub(r"(?m)^gravity = (\S+) (\S+) (\S+)", lambda m: "gravity = " + " ".join(words(TURN @ np.array(list(map(float, m.groups()))))), section))
+            found.append(re.sub(r"(?m)^gravity += (\S+) (\S+) (\S+)", lambda m: "gravity = " + " ".join(words(TURN @ np.array(list(map(float, m.groups()))))), section))
             continue
         header = lines[1].split()
         rows = [dict(zip(header, cells_of(line))) for line in lines[2:] if line.strip()]
