@@ -1,4 +1,4 @@
-!> How large the forces are that act on bodies at rest, each by itself: what a residual of their sum is measured by.
+!> Sum of the magnitudes of the forces that act on each body at rest: the scale of the residual of equilibrium.
 !>
 !> $$ s_b = \sum_k \sqrt{|L f_k|^2 + |m_k|^2} $$
 !>

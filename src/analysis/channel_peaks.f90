@@ -28,9 +28,9 @@ module channel_peaks
 
    real(wp), parameter :: gain = 1.0e-10_wp    !! rise that is worth another instant, of the extreme [1]
    real(wp), parameter :: doubt = 1.0e-2_wp      !! difference of both polynomials, of what rows differ by, that is too much [1]
-   real(wp), parameter :: same = 1.0e-7_wp     !! difference of both polynomials, of the number, that is none [1]
-   real(wp), parameter :: at_row = 1.0e-9_wp   !! distance to a row that is none, of that between rows [1]
-   real(wp), parameter :: round_off = 1.0e-13_wp !! change between rows that is none, of the number [1]
+   real(wp), parameter :: same = 1.0e-7_wp     !! difference of both polynomials, of the number, that is round-off [1]
+   real(wp), parameter :: at_row = 1.0e-9_wp   !! least distance from a row, of that between rows [1]
+   real(wp), parameter :: round_off = 1.0e-13_wp !! change between rows that is round-off, of the number [1]
    integer, parameter :: most_instants = 6     !! instants looked at for one extreme
 
    !> The search for one extreme of a number times its sign.
@@ -199,7 +199,7 @@ contains
       end associate
    end function best_of
 
-   !> The top of the parabola through a bracket, if it is worth a look.
+   !> The vertex of the parabola through a bracket, if it lies between rows and above the extreme so far.
    pure subroutine propose(search, best, is_there)
       type(bracket_t), intent(inout) :: search   !! the search; the instant is set
       real(wp), intent(in) :: best               !! the extreme so far [any]

@@ -98,7 +98,7 @@ contains
       load = load*position_scale(system)
    end function unbalanced_load
 
-   !> What a residual is measured by: the forces that act, each by itself, or the largest net load.
+   !> Scale of a residual: the greater of the sum of the magnitudes of the forces that act on a body and the largest net load.
    real(wp) function load_scale(system)
       class(mechanism_t), intent(in) :: system   !! the system, rows and loads evaluated, lambda set
 

@@ -1,4 +1,4 @@
-!> Assemblies at a position where rows lose rank and the motion so freed leads nowhere: shaky ones, and drivers at a dead centre.
+!> Assemblies at a position where rows lose rank and a motion that begins there cannot go on: shaky ones, and dead centres.
 !>
 !> See `second_order` for the test. A self-stress in which a driver takes part is a dead centre: the driver holds, or asks for, what
 !> the mechanism cannot give there to first order.

@@ -3,7 +3,7 @@
 !>
 !> Of a channel x at the output instants t_k from the end of the transient on: mean and RMS by the trapezoidal rule,
 !> $$ \bar x = \frac{1}{t_n - t_1} \sum_k \tfrac12 (x_k + x_{k+1}) (t_{k+1} - t_k), \quad x_{rms}^2 = \overline{x^2}, $$
-!> the least and the greatest value, and the peak max |x|. What is no number counts nowhere: means are over the time between
+!> the least and the greatest value, and the peak max |x|. Values that are not numbers are left out: means are over the time between
 !> output instants that both have one. Contact fractions and counts come from the events: the fraction is the share of the time
 !> in which at least one contact of the joint is closed; an impact belongs to the window if its onset does.
 module statistics
