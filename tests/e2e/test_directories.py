@@ -1,6 +1,7 @@
 """Other people's files: a directory is the program's only if its marker says so; only files of the program are ever removed."""
 
 import os
+import re
 import signal
 import shutil
 import subprocess
@@ -36,14 +37,15 @@ def snapshot(directory):
 
 
 def started(program, place, out):
-    """A long run in the background that has written something."""
+    """A long run in the background that has made its run.h5, as its marker says."""
     written(place, plain_deck(LONG), "long.deck")
     process = subprocess.Popen(
         [str(program), "run", str(place / "long.deck"), "--out", str(place / out), "--quiet"],
         stdout=subprocess.DEVNULL, stderr=subprocess.PIPE, preexec_fn=answer_signals,
     )
     limit = time.monotonic() + 30.0
-    while not (place / out / "run.h5").exists():
+    marker = place / out / MARKER
+    while not (marker.exists() and re.search(r"^= .* run\.h5$", marker.read_text(), re.MULTILINE)):
         assert process.poll() is None, process.communicate()[1]
         assert time.monotonic() < limit
         time.sleep(0.02)

@@ -154,7 +154,7 @@ class Scene:
         lines += [f"{n} {'ground' if b < 0 else f'b{b}'} {row(s)}" for n, (b, s) in self.points.items()]
         if self.springs:
             lines += ["[force.spring]", "name i j stiffness[N/m] free_length[m]"]
-            lines += [f"s{k} {i} {j} {c!r} {l!r}" for k, (i, j, c, l) in enumerate(self.springs)]
+            lines += [f"s{k} {i} {j} {row([c, l])}" for k, (i, j, c, l) in enumerate(self.springs)]
         if self.loads:
             lines += ["[force.point]", "name point " + " ".join(f"f{a}[N]" for a in axes)]
             lines += [f"load{k} {p} {row(f)}" for k, (p, f) in enumerate(self.loads)]
