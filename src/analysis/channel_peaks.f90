@@ -1,7 +1,7 @@
 !> Extremes of numbers between the rows of a motion.
 !>
-!> If the parabola through the values in three rows has its top between them, and goes beyond the extreme so far, the number is
-!> found there, and again as the bracket narrows, until nothing is gained.
+!> If the parabola through the values in three rows has its top between them, and goes beyond the extreme so far by more than
+!> round-off, the number is found there, and again as the bracket narrows, until nothing is gained (`peak_bracket`).
 !> The state there is interpolated between the two rows around it (`interpolation`), with derivatives at the inner places; the
 !> value is that of the equations at this state. It counts if interpolation without these derivatives gives nearly the same
 !> value. Rows before and after an event are never put together.
@@ -16,31 +16,22 @@
 !> (`contact_peaks`).
 module channel_peaks
    use catalogue, only: catalogue_t
-   use catalogue_rooms, only: room_contacts
+   use catalogue_rooms, only: room_contacts, room_energy
+   use channel_noise, only: noise_of_channels
    use, intrinsic :: ieee_arithmetic, only: ieee_is_finite
    use interpolation, only: step_t
-   use kinds, only: not_a_number, wp
+   use kinds, only: i8, not_a_number, wp
+   use peak_bracket, only: bracket_t, find_bends, most_instants
    use recorder, only: recorder_t
    use tape, only: tape_t
+   use text, only: text_t
    implicit none (type, external)
    private
    public :: channel_peaks_t, tell_between, tell_sample
 
-   real(wp), parameter :: gain = 1.0e-10_wp    !! rise that is worth another instant, of the extreme [1]
    real(wp), parameter :: doubt = 1.0e-2_wp      !! difference of both polynomials, of what rows differ by, that is too much [1]
    real(wp), parameter :: same = 1.0e-7_wp     !! difference of both polynomials, of the number, that is round-off [1]
-   real(wp), parameter :: at_row = 1.0e-9_wp   !! least distance from a row, of that between rows [1]
    real(wp), parameter :: round_off = 1.0e-13_wp !! change between rows that is round-off, of the number [1]
-   integer, parameter :: most_instants = 6     !! instants looked at for one extreme
-
-   !> The search for one extreme of a number times its sign.
-   type :: bracket_t
-      integer :: number = 0                   !! 2 k - 1: maximum of number k, 2 k: its minimum
-      integer :: n = 0                        !! instants looked at
-      real(wp) :: t(3) = 0.0_wp               !! (3) instants [s]
-      real(wp) :: f(3) = 0.0_wp               !! (3) values times the sign [any]
-      real(wp) :: at = 0.0_wp                 !! instant asked for [s]
-   end type bracket_t
 
    !> The last rows, and the extremes so far.
    type :: channel_peaks_t
@@ -52,6 +43,10 @@ module channel_peaks
       real(wp), allocatable, private :: ydot(:, :)    !! (m, 3) their derivatives [any]
       real(wp), allocatable, private :: x(:, :)       !! (n, 3) numbers there [any]
       logical, allocatable, private :: is_known(:)    !! (n) the number is not missing in the last written row
+      integer, allocatable, private :: bends(:)       !! (n) the last rows have a maximum (1) or a minimum (-1) between them; else 0
+      type(text_t), allocatable, private :: units(:)  !! (n) SI
+      real(wp), allocatable, private :: noise(:)      !! (n) what of them is round-off, by the rows so far [any]
+      integer(i8), private :: n_written = 0           !! written rows so far
       real(wp), allocatable, private :: least(:)      !! (n) the least so far [any]
       real(wp), allocatable, private :: most(:)       !! (n) the greatest so far [any]
       type(bracket_t), private :: search              !! what is looked for
@@ -73,7 +68,8 @@ module channel_peaks
 
 contains
 
-   !> Begin with numbers of the catalogue. Forces and penetrations of contacts have rows at their peaks.
+   !> Begin with numbers of the catalogue. Forces and penetrations of contacts have rows at their peaks, and the residual of the
+   !> ledger is known at the ends of steps only.
    subroutine begin_peaks(self, catalogue, place, from, m)
       class(channel_peaks_t), intent(inout) :: self  !! the peaks
       type(catalogue_t), intent(in) :: catalogue     !! what is reported
@@ -81,26 +77,32 @@ contains
       real(wp), intent(in) :: from                   !! extremes begin anew there [s]
       integer, intent(in) :: m                       !! numbers of a state; 0: states are found otherwise
 
-      integer :: g, i
-      logical :: has_rows(size(catalogue%values))
+      integer :: g, group_of(size(catalogue%values)), k, n
+      logical :: is_searched(size(catalogue%values))
 
-      has_rows = .false.
+      is_searched = .true.
       do g = 1, size(catalogue%groups)
-         associate (group => catalogue%groups(g))
-            if (group%room /= room_contacts) cycle
-            if (group%channel%name /= "normal_force" .and. group%channel%name /= "penetration") cycle
-            do i = 1, size(group%has)
-               if (catalogue%item_has(g, i)) has_rows(catalogue%place(g, 1, i)) = .true.
-            end do
+         associate (group => catalogue%groups(g), first => catalogue%groups(g)%before + 1)
+            associate (last => group%before + group%channel%components*size(group%has), name => group%channel%name)
+               group_of(first:last) = g
+               if (group%room == room_contacts) is_searched(first:last) = name /= "normal_force" .and. name /= "penetration"
+               if (group%room == room_energy) is_searched(first:last) = name /= "residual"
+            end associate
          end associate
       end do
-      self%place = pack(place, .not. has_rows(place))
+      self%place = pack(place, is_searched(place))
       self%from = from
-      allocate (self%y(m, 3), self%ydot(m, 3), self%x(size(self%place), 3), source=0.0_wp)
+      n = size(self%place)
+      allocate (self%units(n))
+      do k = 1, n
+         self%units(k)%s = catalogue%groups(group_of(self%place(k)))%channel%unit
+      end do
+      allocate (self%y(m, 3), self%ydot(m, 3), self%x(n, 3), self%noise(n), source=0.0_wp)
       allocate (self%pair%y0(m), self%pair%y1(m), self%pair%f0(m), self%pair%f1(m), self%pair%inner(m, 2), source=0.0_wp)
-      allocate (self%is_known(size(self%place)), source=.false.)
-      allocate (self%least(size(self%place)), source=huge(1.0_wp))
-      allocate (self%most(size(self%place)), source=-huge(1.0_wp))
+      allocate (self%is_known(n), source=.false.)
+      allocate (self%bends(n), source=0)
+      allocate (self%least(n), source=huge(1.0_wp))
+      allocate (self%most(n), source=-huge(1.0_wp))
    end subroutine begin_peaks
 
    !> An event: what comes has nothing to do with the rows before.
@@ -148,10 +150,22 @@ contains
             if (x > self%most(k)) self%most(k) = x
          end associate
       end do
+      if (is_written) call count_row(self)
       self%n_row = min(self%n_row + 1, 3)
       self%search = bracket_t()
       self%first = 0
+      if (self%n_row == 3) call find_bends(size(self%place), self%t, self%x(:, 1), self%x(:, 2), self%x(:, 3), self%bends)
    end subroutine add_row
+
+   !> Count a written row. What is round-off is found anew each time that their number has doubled.
+   pure subroutine count_row(self)
+      class(channel_peaks_t), intent(inout) :: self  !! the peaks
+
+      self%n_written = self%n_written + 1
+      if (popcnt(self%n_written) /= 1) return
+      self%noise = noise_of_channels(self%units, merge(max(abs(self%least), abs(self%most)), 0.0_wp, self%least <= self%most), &
+                                     max(self%t(3), 0.0_wp))
+   end subroutine count_row
 
    !> The next instant at which a number is wanted.
    pure subroutine ask_instant(self, t, is_there)
@@ -159,74 +173,46 @@ contains
       real(wp), intent(out) :: t                     !! between the last rows [s]
       logical, intent(out) :: is_there               !! there is one
 
+      integer :: k
+
       is_there = .false.
       t = 0.0_wp
       if (self%n_row < 3) return
       associate (search => self%search)
          do
             if (search%n > 0 .and. search%n < most_instants) then
-               call propose(search, best_of(self), is_there)
+               call search%propose(best_of(self), self%noise(search%of()), is_there)
                if (is_there) exit
             end if
             search%n = 0
             search%number = search%number + 1
-            if (search%number > 2*size(self%place)) return
-            if (.not. self%is_known((search%number + 1)/2)) cycle
-            if (.not. all(ieee_is_finite(self%x((search%number + 1)/2, :)))) cycle
+            k = search%of()
+            if (k > size(self%place)) return
+            if (self%bends(k) /= search%sign() .or. .not. self%is_known(k)) cycle
             search%t = self%t
-            search%f = sign_of(search)*self%x((search%number + 1)/2, :)
+            search%f = search%sign()*self%x(k, :)
             if (maxval(search%f) - minval(search%f) <= round_off*maxval(abs(search%f))) cycle
-            call propose(search, best_of(self), is_there)
+            call search%propose(best_of(self), self%noise(k), is_there)
             if (is_there) exit
          end do
          t = search%at
       end associate
    end subroutine ask_instant
 
-   !> Sign of a search.
-   pure real(wp) function sign_of(search)
-      type(bracket_t), intent(in) :: search  !! the search
-
-      sign_of = merge(1.0_wp, -1.0_wp, modulo(search%number, 2) == 1)
-   end function sign_of
-
    !> The extreme so far of the number that is looked at, times the sign.
    pure real(wp) function best_of(self) result(best)
       class(channel_peaks_t), intent(in) :: self  !! the peaks
 
-      associate (k => (self%search%number + 1)/2)
-         best = merge(self%most(k), -self%least(k), modulo(self%search%number, 2) == 1)
+      associate (k => self%search%of())
+         best = merge(self%most(k), -self%least(k), self%search%sign() == 1)
       end associate
    end function best_of
-
-   !> The vertex of the parabola through a bracket, if it lies between rows and above the extreme so far.
-   pure subroutine propose(search, best, is_there)
-      type(bracket_t), intent(inout) :: search   !! the search; the instant is set
-      real(wp), intent(in) :: best               !! the extreme so far [any]
-      logical, intent(out) :: is_there           !! it is
-
-      real(wp) :: a, b, bend, slope, top, way
-
-      is_there = .false.
-      a = search%t(2) - search%t(1)
-      b = search%t(3) - search%t(2)
-      if (.not. min(a, b) > 0.0_wp) return  ! no closer in the digits of time
-      slope = ((search%f(2) - search%f(1))*b/a + (search%f(3) - search%f(2))*a/b)/(a + b)
-      bend = 2.0_wp*((search%f(2) - search%f(1))/a - (search%f(3) - search%f(2))/b)/(a + b)
-      if (.not. bend > 0.0_wp) return
-      way = slope/bend
-      top = search%f(2) + 0.5_wp*slope*way
-      if (.not. top > best + gain*max(abs(best), abs(top))) return
-      if (abs(way) <= at_row*(a + b) .or. way <= -(1.0_wp - at_row)*a .or. way >= (1.0_wp - at_row)*b) return
-      search%at = search%t(2) + way
-      is_there = .true.
-   end subroutine propose
 
    !> Place in the values of the catalogue of the number that was asked for.
    pure integer function asked_for(self) result(place)
       class(channel_peaks_t), intent(in) :: self  !! the peaks
 
-      place = self%place((self%search%number + 1)/2)
+      place = self%place(self%search%of())
    end function asked_for
 
    !> The numbers at the instant that was asked for.
@@ -239,7 +225,7 @@ contains
       real(wp) :: f
       integer :: k
 
-      associate (search => self%search, x => self%x((self%search%number + 1)/2, :))
+      associate (search => self%search, x => self%x(self%search%of(), :))
          f = values(self%asked_for())
          counts = ieee_is_finite(f) .and. ieee_is_finite(rough)
          if (counts) counts = abs(f - rough) <= max(doubt*(maxval(x) - minval(x)), same*maxval(abs(x)))
@@ -248,23 +234,11 @@ contains
             search%n = most_instants
             return
          end if
-         f = sign_of(search)*f
-         k = (search%number + 1)/2  ! the others are left alone: what is found of a number does not depend on which others there are
+         f = search%sign()*f
+         k = search%of()  ! the others are left alone: what is found of a number does not depend on which others there are
          self%least(k) = min(self%least(k), values(self%place(k)))
          self%most(k) = max(self%most(k), values(self%place(k)))
-         if (search%at < search%t(2) .and. f >= search%f(2)) then
-            search%t = [search%t(1), search%at, search%t(2)]
-            search%f = [search%f(1), f, search%f(2)]
-         else if (search%at < search%t(2)) then
-            search%t(1) = search%at
-            search%f(1) = f
-         else if (f >= search%f(2)) then
-            search%t = [search%t(2), search%at, search%t(3)]
-            search%f = [search%f(2), f, search%f(3)]
-         else
-            search%t(3) = search%at
-            search%f(3) = f
-         end if
+         call search%narrow(f)
       end associate
    end subroutine answer_instant
 
@@ -352,6 +326,8 @@ contains
 
       if (.not. allocated(self%place)) return
       call tape%put(self%n_row)
+      call tape%put(self%n_written)
+      call tape%put(self%noise)
       call tape%put([self%t, self%least, self%most])
       call tape%put(merge(1, 0, self%is_known))
       do k = 1, 3
@@ -368,6 +344,8 @@ contains
 
       if (.not. allocated(self%place)) return
       call tape%get(self%n_row)
+      call tape%get(self%n_written)
+      call tape%get(self%noise)
       call tape%get(self%t)
       call tape%get(self%least)
       call tape%get(self%most)

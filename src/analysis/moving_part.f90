@@ -10,7 +10,7 @@ module moving_part
    use guards, only: guards_t
    use instants, only: instants_t
    use integrator, only: advance_failed_evaluation, integrator_t
-   use kinds, only: wp
+   use kinds, only: i8, wp
    use mechanism, only: mechanism_t
    use mechanism_energy, only: energy_of, energy_t
    use ode_system, only: contact_onset
@@ -40,6 +40,13 @@ module moving_part
       real(wp) :: lost = 0.0_wp           !! what its contacts have lost by then [J]
    end type part_ledger_t
 
+   !> The greatest violation of the constraints of a part.
+   type :: violation_t
+      real(wp) :: worst = 0.0_wp          !! so far, over the size of the bodies or a radian [1]
+      integer :: row = 0                  !! the row it belongs to
+      logical :: is_lost = .false.        !! whether one is beyond all measure
+   end type violation_t
+
    !> A part in motion.
    type :: moving_part_t
       type(mechanism_t), pointer :: system => null()       !! its equations
@@ -54,9 +61,8 @@ module moving_part
       integer :: n_idle = 0                                !! events since the last time that time passed
       real(wp) :: t_event = 0.0_wp                         !! time of the last event [s]
       type(part_ledger_t) :: ledger                        !! its energies
-      real(wp) :: worst = 0.0_wp                           !! greatest violation so far, over the size of the bodies or a radian [1]
-      integer :: worst_row = 0                             !! the row it belongs to
-      logical :: is_lost = .false.                         !! whether a violation is beyond all measure
+      type(violation_t) :: violation                       !! of its constraints
+      integer(i8) :: n_evaluations = -1                    !! of its system when it was evaluated at the end of its last step
    end type moving_part_t
 
 contains
@@ -155,8 +161,9 @@ contains
       character(:), allocatable :: words
 
       associate (system => part%system, method => part%method)
+         part%n_evaluations = system%n_evaluations
          call look_at_step(part, tally)
-         if (part%is_lost) then
+         if (part%violation%is_lost) then
             call describe_failure(system, method, constraints_lost, error)
             return
          end if
@@ -265,7 +272,7 @@ contains
          call system%follow_pace(method%step%y1, method%step%f1 - before)
          call look_at_step(part, tally)  ! a jump of a driver is seen here, before the stabilisation acts
          if (system%ledger%is_kept) call look_at_energy(part, tally)
-         if (part%is_lost) then
+         if (part%violation%is_lost) then
             call describe_failure(system, method, constraints_lost, error)
             return
          end if
@@ -299,10 +306,10 @@ contains
       associate (linkage => part%system%linkage)
          do k = 1, linkage%rows%n_solve
             scaled = linkage%solution%row_weight(k)*abs(linkage%rows%phi(k))
-            part%is_lost = part%is_lost .or. scaled > merge(lost_angle, lost_length, linkage%rows%is_angle(k))
-            if (scaled > part%worst) then
-               part%worst = scaled
-               part%worst_row = k
+            part%violation%is_lost = part%violation%is_lost .or. scaled > merge(lost_angle, lost_length, linkage%rows%is_angle(k))
+            if (scaled > part%violation%worst) then
+               part%violation%worst = scaled
+               part%violation%row = k
             end if
             tally%violation_max = max(tally%violation_max, abs(linkage%rows%phi(k)))
             tally%violation_rate_max = max(tally%violation_rate_max, abs(linkage%solution%phi_dot(k)))

@@ -130,9 +130,9 @@ contains
          call put(row, place, part%n_idle)
          associate (ledger => part%ledger)
             call put(row, place, [part%t_event, ledger%balance_0, ledger%potential_0, ledger%residual, ledger%level, &
-                                  ledger%magnitude, ledger%lost, part%worst])
+                                  ledger%magnitude, ledger%lost, part%violation%worst])
          end associate
-         call put(row, place, part%worst_row)
+         call put(row, place, part%violation%row)
       end associate
    end subroutine save_part_memory
 
@@ -160,8 +160,8 @@ contains
          call get(row, place, part%ledger%level)
          call get(row, place, part%ledger%magnitude)
          call get(row, place, part%ledger%lost)
-         call get(row, place, part%worst)
-         call get(row, place, part%worst_row)
+         call get(row, place, part%violation%worst)
+         call get(row, place, part%violation%row)
       end associate
       do while (part%instants%next%at < part%system%linkage%piece%end)
          call part%instants%pass(piece)

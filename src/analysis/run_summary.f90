@@ -67,8 +67,8 @@ contains
       summary%quality%violation_max = tally%violation_max
       summary%quality%violation_rate_max = tally%violation_rate_max
       if (.not. allocated(error)) call audit(summary, tally%magnitude, limits, error)
-      worst = maxloc(whole%parts%worst, dim=1)
-      call warn_of_errors(whole%parts(worst)%system, whole%parts(worst)%worst, whole%parts(worst)%worst_row, &
+      worst = maxloc(whole%parts%violation%worst, dim=1)
+      call warn_of_errors(whole%parts(worst)%system, whole%parts(worst)%violation%worst, whole%parts(worst)%violation%row, &
                           tally%least_lost, tally%magnitude, summary)
       call warn_by_parts(whole, summary)
       guards = limits%guards

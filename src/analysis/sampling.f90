@@ -11,7 +11,7 @@ module sampling
    use integrator, only: advance_failed_evaluation
    use kinds, only: i8, wp
    use mechanism_catalogue, only: bind_channels, build_catalogue
-   use mechanism_report, only: report_state
+   use mechanism_report, only: report_evaluated, report_state
    use mechanism, only: mechanism_t
    use recorder, only: n_row_kind, recorder_t, row_end, row_jump, row_onset, row_peak, row_stop
    use run_failure, only: describe_failure
@@ -383,9 +383,18 @@ contains
       integer :: status
 
       whole%system%traits%with_quadratures = self%catalogue%readings%energy%n > 0
-      call whole%state_at(t, at_peak, shift, self%y)
-      self%n_reports = self%n_reports + 1
-      call report_state(whole%system, t + shift, self%y, self%ydot, residual, self%catalogue, status)
+      if (.not. at_peak .and. .not. shift > 0.0_wp .and. whole%is_evaluated(t)) then
+         associate (step => whole%parts(1)%method%step)
+            self%y = step%y1
+            self%ydot = step%f1
+         end associate
+         call report_evaluated(whole%system, t, self%y, self%ydot, residual, self%catalogue)
+         status = 0
+      else
+         call whole%state_at(t, at_peak, shift, self%y)
+         self%n_reports = self%n_reports + 1
+         call report_state(whole%system, t + shift, self%y, self%ydot, residual, self%catalogue, status)
+      end if
       whole%system%traits%with_quadratures = .true.
       if (status == 0) return
       associate (part => whole%parts(whole%front(1)))

@@ -43,6 +43,7 @@ module whole_motion
       procedure :: note_row => whole_note_row
       procedure :: owes_row => whole_owes_row
       procedure :: state_at => whole_state_at
+      procedure :: is_evaluated => whole_is_evaluated
       procedure :: seen => whole_seen
       procedure :: is_together => whole_is_together
    end type whole_motion_t
@@ -272,6 +273,20 @@ contains
       end do
       call self%system%linkage%take_state(self%q, self%v, y)
    end subroutine whole_state_at
+
+   !> Whether a time is the end of the last step of a single part, and its system was evaluated there and nowhere since. Where
+   !> friction is found by iteration, what an evaluation gives hangs on the last digits of the one before: it is made again there.
+   pure logical function whole_is_evaluated(self, t) result(is_evaluated)
+      class(whole_motion_t), intent(in) :: self  !! the motion
+      real(wp), intent(in) :: t                  !! the time [s]
+
+      is_evaluated = .false.
+      if (associated(self%places)) return
+      associate (part => self%parts(1), friction => self%parts(1)%system%friction)
+         if (friction%grips%n_slip > 0 .or. friction%rubbing%n > 0) return
+         is_evaluated = part%n_evaluations == part%system%n_evaluations .and. .not. abs(t - part%method%t) > 0.0_wp
+      end associate
+   end function whole_is_evaluated
 
    !> State of a part at a time that its last step holds.
    subroutine part_state_at(part, t, at_peak, shift, y)

@@ -15,6 +15,7 @@
 #include <stdlib.h>
 #include <string.h>
 #include <sys/file.h>
+#include <sys/resource.h>
 #include <sys/stat.h>
 #include <sys/statvfs.h>
 #include <sys/types.h>
@@ -245,15 +246,19 @@ int gudgeon_write_open(int file, const char *bytes, int64_t n)
    return 0;
 }
 
-/* Reserves space behind the end of a file, so that what is written there next cannot lack it. */
+/* Reserves space behind the end of a file, so that what is written there next cannot lack it. The limit of the size of a file
+   (ulimit -f) is looked at here: no bytes beyond the end are counted against it. */
 int gudgeon_reserve(const char *path, int64_t n)
 {
 #ifdef __linux__
    int fd = open(path, O_WRONLY | O_CLOEXEC);
    if (fd < 0) return errno;
    struct stat status;
+   struct rlimit limit;
    int code = 0;
-   if (fstat(fd, &status) != 0 || fallocate(fd, FALLOC_FL_KEEP_SIZE, status.st_size, (off_t)n) != 0) code = errno;
+   if (fstat(fd, &status) == 0 && getrlimit(RLIMIT_FSIZE, &limit) == 0 && limit.rlim_cur != RLIM_INFINITY
+       && (rlim_t)status.st_size + (rlim_t)n > limit.rlim_cur) code = EFBIG;
+   else if (fstat(fd, &status) != 0 || fallocate(fd, FALLOC_FL_KEEP_SIZE, status.st_size, (off_t)n) != 0) code = errno;
    close(fd);
    return code == ENOSPC || code == EDQUOT || code == EFBIG ? code : 0; /* some file systems cannot reserve */
 #else

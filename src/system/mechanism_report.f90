@@ -15,13 +15,13 @@ module mechanism_report
    use request_report, only: report_requests
    implicit none (type, external)
    private
-   public :: fill_catalogue, report_state
+   public :: fill_catalogue, report_evaluated, report_state
 
 contains
 
    !> Fill the catalogue with the values at a state: evaluates the right-hand side there.
    subroutine report_state(system, t, y, ydot, residual, catalogue, status)
-      class(mechanism_t), intent(inout) :: system   !! the system
+      type(mechanism_t), intent(inout) :: system   !! the system
       real(wp), intent(in) :: t                     !! time [s]
       real(wp), intent(in) :: y(system%n)           !! (n) state [any]
       real(wp), intent(inout) :: ydot(system%n)     !! (n) its derivative; of quadratures where they are wanted [any]
@@ -30,7 +30,18 @@ contains
       integer, intent(out) :: status                !! of the evaluation
 
       call system%evaluate(t, y, ydot, status)
-      if (status /= 0) return
+      if (status == 0) call report_evaluated(system, t, y, ydot, residual, catalogue)
+   end subroutine report_state
+
+   !> The same at a state at which the right-hand side was just evaluated.
+   subroutine report_evaluated(system, t, y, ydot, residual, catalogue)
+      class(mechanism_t), intent(inout) :: system   !! the system
+      real(wp), intent(in) :: t                     !! time [s]
+      real(wp), intent(in) :: y(system%n)           !! (n) state [any]
+      real(wp), intent(in) :: ydot(system%n)        !! (n) its derivative [any]
+      real(wp), intent(in) :: residual              !! of the ledger at the last step [J]
+      type(catalogue_t), intent(inout) :: catalogue !! values
+
       associate (linkage => system%linkage, plan => catalogue%readings)
          if (plan%balance%is_set) then
             call report_balanced(system, ydot, plan, size(catalogue%values), catalogue%values)
@@ -47,7 +58,7 @@ contains
          if (size(plan%of_others) > 0) call report_joints(linkage, plan%of_others, plan%others, catalogue%values)
       end associate
       call report_rest(system, t, y, residual, catalogue)
-   end subroutine report_state
+   end subroutine report_evaluated
 
    !> Fill the catalogue from what the system holds: motion with accelerations, rows, rates of their
    !> violations, multipliers, states of the contacts. Only what is bound is found; nothing is allocated.
