@@ -10,6 +10,7 @@ module run_summary
    use run_audit, only: audit, limits_t, warn_of_errors
    use run_tally, only: run_tally_t
    use sampling, only: sampler_t
+   use shared_sticking, only: warn_of_shared_sticking
    use stiff_run, only: is_explicit_by_name, method_words, stiffness_warning, trial_evaluations
    use stop_condition, only: stop_t
    use text, only: append_text, text_t
@@ -93,6 +94,7 @@ contains
       do p = 1, size(whole%parts)
          call whole%parts(p)%jumps%warn(whole%parts(p)%system, summary%warnings)
          call warn_of_passed(whole%parts(p)%system, whole%parts(p)%method, summary%warnings)
+         call warn_of_shared_sticking(whole%parts(p)%system, summary%warnings)
          call warn_by_forces(whole%parts(p)%system, summary%warnings)
       end do
    end subroutine warn_by_parts

@@ -54,6 +54,7 @@ module contact_grip
       real(wp), allocatable :: band(:)               !! (contacts) speed against the slip at which it ends [m/s]
       real(wp), allocatable :: since(:)              !! (contacts) time of the last decision [s]
       real(wp), allocatable :: still(:)              !! (contacts) in space: speed that is next to none [m/s]
+      real(wp), allocatable :: shared_from(:)        !! (contacts) first time at which a friction force was not unique [s]
       real(wp), allocatable :: z(:, :)               !! (n_component, contacts) deflections, along t or in the world's frame [m]
       real(wp), allocatable :: origin(:, :)          !! (n_component, contacts) what the state was when they began [m]
       real(wp), allocatable :: z_rate(:, :)          !! (n_component, contacts) their rates [m/s]
@@ -83,6 +84,7 @@ contains
          grip%n_component = 3
       end if
       allocate (grip%band(n), grip%since(n), grip%still(n), source=0.0_wp)
+      allocate (grip%shared_from(n), source=huge(1.0_wp))
       allocate (grip%z(grip%n_component, n), grip%z_rate(grip%n_component, n), grip%origin(grip%n_component, n), source=0.0_wp)
       allocate (grip%tangent(n))
    end subroutine new_grip
@@ -116,6 +118,7 @@ contains
       self%band(k) = other%band(k_other)
       self%since(k) = other%since(k_other)
       self%still(k) = other%still(k_other)
+      self%shared_from(k) = other%shared_from(k_other)
       self%origin(:, k) = other%origin(:, k_other)
       self%tangent(k)%way = other%tangent(k_other)%way
    end subroutine adopt
@@ -173,7 +176,7 @@ contains
 
       n = 0
       if (self%memory == memory_none) return
-      n = 3 + self%n_component
+      n = 4 + self%n_component
       if (self%n_tangent > 1) n = n + 4
       n = n*size(self%slip)
    end function grip_memory_size
@@ -189,7 +192,7 @@ contains
       if (self%memory == memory_none) return
       do k = 1, size(self%slip)
          call put(row, place, self%slip(k))
-         call put(row, place, [self%band(k), self%since(k), self%origin(:, k)])
+         call put(row, place, [self%band(k), self%since(k), self%shared_from(k), self%origin(:, k)])
          if (self%n_tangent > 1) call put(row, place, [self%still(k), self%tangent(k)%way])
       end do
    end subroutine grip_save
@@ -207,6 +210,7 @@ contains
          call get(row, place, self%slip(k))
          call get(row, place, self%band(k))
          call get(row, place, self%since(k))
+         call get(row, place, self%shared_from(k))
          do i = 1, self%n_component
             call get(row, place, self%origin(i, k))
          end do

@@ -52,6 +52,7 @@ module contact_states
       procedure :: slip_as
       procedure :: slip_toward
       procedure :: note_decision
+      procedure :: note_shared
       procedure :: stick_with
       procedure :: place_bristles
       procedure :: bend_bristles
@@ -305,7 +306,9 @@ contains
       end if
       self%grip%slip(k) = 1
       way = matmul(self%grip%tangent(k)%t, direction)
-      if (any(abs(way) > 0.0_wp)) self%grip%tangent(k)%way = way/norm2(way)
+      if (.not. any(abs(way) > 0.0_wp)) return
+      way = way/maxval(abs(way))  ! squares of small numbers are zero
+      self%grip%tangent(k)%way = way/norm2(way)
    end subroutine slip_toward
 
    !> When it was decided, and the speed the wrong way at which its slip is to end next.
@@ -320,6 +323,15 @@ contains
       self%grip%band(k) = band
       self%grip%still(k) = still
    end subroutine note_decision
+
+   !> The friction force of a contact that sticks is not unique at a time.
+   pure subroutine note_shared(self, k, t)
+      class(contact_states_t), intent(inout) :: self  !! the set
+      integer, intent(in) :: k                        !! contact of the set
+      real(wp), intent(in) :: t                       !! time [s]
+
+      self%grip%shared_from(k) = min(self%grip%shared_from(k), t)
+   end subroutine note_shared
 
    !> Friction of a contact that sticks, as found with the accelerations.
    pure subroutine stick_with(self, k, force, is_driven)

@@ -78,6 +78,7 @@ contains
    end subroutine lie_in_space
 
    !> Two tangents of a plane and their rates: the first along a fixed direction; without one along the sliding velocity, or any.
+   !> The direction of a sliding velocity that is round-off may be that of the normal.
    pure subroutine find_tangents(way, sliding, m, m_rate, t, t_rate)
       real(wp), intent(in) :: way(3)          !! (3) the direction, world frame; zero: none yet [1]
       real(wp), intent(in) :: sliding(3)      !! (3) direction of sliding, zero of none; world frame [1]
@@ -93,10 +94,11 @@ contains
       b = along - dot_product(along, m)*m
       if (norm2(b) < least) then
          along = sliding
-         if (.not. any(abs(along) > 0.0_wp)) then
-            along = 0.0_wp
-            along(minloc(abs(m), dim=1)) = 1.0_wp
-         end if
+         b = along - dot_product(along, m)*m
+      end if
+      if (norm2(b) < least) then
+         along = 0.0_wp
+         along(minloc(abs(m), dim=1)) = 1.0_wp
          b = along - dot_product(along, m)*m
       end if
       length = norm2(b)

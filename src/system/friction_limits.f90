@@ -21,7 +21,7 @@ module friction_limits
    integer, parameter :: n_sweep = 2000               !! sweeps over all contacts, at most
    integer, parameter :: n_newton = 30                !! iterations for a root
    real(wp), parameter :: converged = 1.0e-14_wp      !! change of a force that ends the iteration, of the greatest limit [1]
-   real(wp), parameter :: singular = 1.0e-14_wp       !! mobility that is none, of the greatest one [1]
+   real(wp), parameter :: singular = 1.0e-14_wp       !! mobility taken as zero, of the greatest one [1]
 
 contains
 
@@ -86,7 +86,7 @@ contains
       real(wp), intent(in) :: matrix(2, 2)   !! (2, 2) A of the contact [1/kg]
       real(wp), intent(in) :: r(2)           !! (2) r less what other forces do [m/s^2]
       real(wp), intent(in) :: limit          !! L [N]
-      real(wp), intent(in) :: least          !! mobility that is none [1/kg]
+      real(wp), intent(in) :: least          !! mobility taken as zero [1/kg]
       real(wp), intent(inout) :: x(2)        !! (2) the force; left alone where it moves nothing [N]
 
       real(wp) :: along(2, 2), length, mean, mobility(2), mu, part(2), slope, spread

@@ -4,7 +4,7 @@ module grip_forces
    use lapack, only: dsyev
    implicit none (type, external)
    private
-   public :: grip_forces_t, gripped_t, new_grip_forces, solve_grips, unit_load_t
+   public :: grip_forces_t, gripped_t, new_grip_forces, share_of_grips, solve_grips, unit_load_t
 
    !> Loads of a unit force, and room for what they are solved in place of.
    type :: unit_load_t
@@ -76,7 +76,7 @@ contains
       integer, intent(in) :: lead                   !! first extent of the matrix
       real(wp), intent(inout) :: matrix(lead, n)    !! (lead, n) A, destroyed [1/kg]
       real(wp), intent(in) :: mobility(n)           !! (n) diagonal of A if the bodies were free [1/kg]
-      real(wp), intent(in) :: least                 !! mobility that is none, of that [1]
+      real(wp), intent(in) :: least                 !! mobility taken as zero, of that [1]
       real(wp), intent(in) :: root(n)               !! (n) roots of the normal forces, positive [N^0.5]
       real(wp), intent(inout) :: force(n)           !! (n) r [m/s^2], then x [N]
       real(wp), intent(out) :: left(n)              !! (n) r - A x [m/s^2]
@@ -116,5 +116,33 @@ contains
       left = left/root
       force = root*work(:n)
    end subroutine solve_grips
+
+   !> How far each force takes part in those x with A x = 0, which change no acceleration: the diagonal of the projection onto
+   !> them, of A scaled by the mobilities of free bodies.
+   subroutine share_of_grips(n, lead, matrix, mobility, least, share, eigenvalue, work)
+      integer, intent(in) :: n                      !! forces
+      integer, intent(in) :: lead                   !! first extent of the matrix
+      real(wp), intent(inout) :: matrix(lead, n)    !! (lead, n) A, destroyed [1/kg]
+      real(wp), intent(in) :: mobility(n)           !! (n) diagonal of A if the bodies were free [1/kg]
+      real(wp), intent(in) :: least                 !! mobility taken as zero, of that [1]
+      real(wp), intent(out) :: share(n)             !! (n) 0: the force is unique, 1: it changes no acceleration [1]
+      real(wp), intent(out) :: eigenvalue(n)        !! (n) scratch [1]
+      real(wp), intent(out) :: work(:)              !! (34 n) scratch [any]
+
+      integer :: i, info, j
+
+      do j = 1, n
+         do i = 1, n
+            matrix(i, j) = matrix(i, j)/sqrt(max(mobility(i)*mobility(j), tiny(1.0_wp)))
+         end do
+      end do
+      call dsyev("V", "U", n, matrix, lead, eigenvalue, work, size(work), info)
+      share = 0.0_wp
+      if (info /= 0) return
+      do i = 1, n
+         if (eigenvalue(i) > least*max(eigenvalue(n), 1.0_wp)) exit
+         share = share + matrix(:n, i)**2
+      end do
+   end subroutine share_of_grips
 
 end module grip_forces

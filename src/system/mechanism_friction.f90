@@ -21,15 +21,17 @@ submodule(mechanism) mechanism_friction
    use coordinates, only: most_rates
    use friction_law, only: memory_slip
    use floors, only: at_rest, captured, contact_lever, least_mobility, no_acceleration, settling, standstill, widest_band
-   use grip_forces, only: gripped_t, solve_grips
+   use grip_forces, only: gripped_t, share_of_grips, solve_grips
    implicit none (type, external)
+
+   real(wp), parameter :: shared = 1.0e-6_wp   !! share of a force in combinations that change no acceleration: it is not unique [1]
 
 contains
 
    !> Forces of the contacts that stick, and the accelerations with them.
    module procedure mechanism_stick
-      real(wp) :: least    ! mobility that is none, of that of free bodies [1]
-      real(wp) :: nothing  ! sliding acceleration that is none [m/s^2]
+      real(wp) :: least    ! mobility taken as zero, of that of free bodies [1]
+      real(wp) :: nothing  ! sliding acceleration taken as zero [m/s^2]
       integer :: c, m
 
       status = 0
@@ -48,6 +50,31 @@ contains
       end associate
       call self%linkage%find_accelerations(self%loading%g, .true., .true., status)
    end procedure mechanism_stick
+
+   !> Note the contacts that stick whose friction forces are not unique: some combination of them changes no acceleration.
+   subroutine note_shared_forces(self, t)
+      class(mechanism_t), intent(inout) :: self   !! the system, accelerations found; they are those of unit forces afterwards
+      real(wp), intent(in) :: t                   !! time [s]
+
+      real(wp) :: least, nothing
+      integer :: c, m, status
+
+      call list_grips(self, .false., m)
+      if (m == 0) return
+      associate (grips => self%friction%grips, sets => self%loose%sets)
+         if (m == sets(grips%at(1)%slot)%set%grip%n_tangent) return
+         if (all([(sets(grips%at(c)%slot)%set%grip%shared_from(grips%at(c)%contact) <= t, c=1, m)])) return
+         least = mobility_of_depth(self, m)
+         call find_mobilities(self, m, least, nothing, status)
+         if (status /= 0) return
+         call share_of_grips(m, size(grips%matrix, 1), grips%matrix(:, :m), grips%mobility(:m), least, grips%force(:m), &
+                             grips%eigenvalue(:m), grips%work)
+         do c = 1, m
+            if (grips%is_fixed(c) .or. .not. grips%force(c) > shared) cycle
+            call sets(grips%at(c)%slot)%set%note_shared(grips%at(c)%contact, t)
+         end do
+      end associate
+   end subroutine note_shared_forces
 
    !> List the tangents of the contacts that stick.
    subroutine list_grips(self, with_driven, m)
@@ -78,8 +105,8 @@ contains
    subroutine find_mobilities(self, m, least, nothing, status)
       class(mechanism_t), intent(inout) :: self    !! the system, accelerations found
       integer, intent(in) :: m                     !! tangents on the list
-      real(wp), intent(in) :: least                !! mobility that is none, of that of free bodies [1]
-      real(wp), intent(out) :: nothing             !! sliding acceleration that is none [m/s^2]
+      real(wp), intent(in) :: least                !! mobility taken as zero, of that of free bodies [1]
+      real(wp), intent(out) :: nothing             !! sliding acceleration taken as zero [m/s^2]
       integer, intent(out) :: status               !! 0: found
 
       integer :: c, d
@@ -114,7 +141,7 @@ contains
       end associate
    end subroutine find_mobilities
 
-   !> Mobility that counts as none, of that of free bodies. A contact in space acts anywhere within its penetration: no friction
+   !> Mobility taken as zero, of that of free bodies. A contact in space acts anywhere within its penetration: no friction
    !> force holds a combination of tangents that moves only as the bodies turn about that lever, as corners of one face have.
    real(wp) function mobility_of_depth(self, m) result(least)
       class(mechanism_t), intent(in) :: self   !! the system
@@ -148,7 +175,7 @@ contains
       speed = self%linkage%scales%pace*self%linkage%scales%length
    end function own_speed
 
-   !> Sliding velocity that is none to a contact that may stick. In space also what the tolerance leaves of a speed, for nearer to
+   !> Speed of rest: a contact may stick below it. In space also what the tolerance leaves of a speed, for nearer to
    !> rest the direction of sliding turns faster than steps can follow; and the speed of the turning bodies within the penetration,
    !> for the contact acts anywhere there.
    real(wp) function rest_speed(self, slot, k) result(speed)
@@ -171,7 +198,20 @@ contains
       end associate
    end function rest_speed
 
-   !> Whether a contact slides with no speed to speak of.
+   !> Sliding velocity at which slip ends, without a chatter.
+   real(wp) function end_speed(self, slot, k) result(speed)
+      class(mechanism_t), intent(in) :: self   !! the system
+      integer, intent(in) :: slot              !! set of the contact
+      integer, intent(in) :: k                 !! contact of the set
+
+      if (self%loose%sets(slot)%set%grip%n_tangent == 1) then
+         speed = standstill*own_speed(self)
+      else
+         speed = 0.5_wp*rest_speed(self, slot, k)
+      end if
+   end function end_speed
+
+   !> Whether a contact slides slower than its speed of rest.
    logical function slides_slowly(self, slot, k) result(is_slow)
       class(mechanism_t), intent(in) :: self   !! the system, its contacts laid
       integer, intent(in) :: slot              !! set of the contact
@@ -196,7 +236,7 @@ contains
    !> Keep the force that was found along a tangent on the list with its contact. Drivers prescribe how it slides where no force
    !> moves it along any tangent, or where they accelerate it along one. Where contacts hold the same two bodies, as both ends of a
    !> pin do, a combination of their tangents is hardly moved by any force either: what is left of it is the sliding that has
-   !> gathered, what turning tangents make of it, and the root of the mobility that counts as none, of the acceleration asked for;
+   !> gathered, what turning tangents make of it, and the root of the mobility taken as zero, of the acceleration asked for;
    !> that is no driver's doing.
    subroutine keep_force(self, c, nothing)
       class(mechanism_t), intent(inout) :: self    !! the system, forces found

@@ -1,7 +1,7 @@
 !> Which contacts stick and which slip, and which way, at an instant: decided for all of them together.
 !>
 !> Candidates are contacts that have just begun without sliding, those whose slip ended, those that stick, and, where a slip ended
-!> or a contact began, those that slide with no speed to speak of. Their friction forces are the solution of one complementarity
+!> or a contact began, those that slide slower than its speed of rest. Their friction forces are the solution of one complementarity
 !> problem (`friction_limits`), L_c = c_s F_N: contacts within their limits stick, the others slip against their forces. These have
 !> the force of sliding then, L_c = c_f F_N, and the problem is solved again, until no further contact slips. A contact that gives
 !> way slips, whatever the last digits of the forces say. While all hold, contacts that share a load take the same part of what
@@ -20,7 +20,9 @@ submodule(mechanism:mechanism_friction) slip_decision
    implicit none (type, external)
 
    real(wp), parameter :: at_limit = 1.0e-9_wp   !! less of its limit: a force is at it [1]
-   real(wp), parameter :: not_held = 1.0e-9_wp   !! sliding acceleration that is one, of the greatest that is asked for [1]
+   real(wp), parameter :: less_of_speed = 0.5_wp  !! of a slow slip, at which it ends [1]
+   real(wp), parameter :: more_of_speed = 1.5_wp  !! of one against its way [1]
+   real(wp), parameter :: not_held = 1.0e-9_wp   !! sliding acceleration that counts, of the greatest that is asked for [1]
 
 contains
 
@@ -37,6 +39,7 @@ contains
       call decide_driven(self, t, y)
       if (.not. all_hold(self)) call limit_grips(self)
       call widen_bands(self)
+      call note_shared_forces(self, t)
       call self%evaluate(t, y, self%friction%grips%trial%ydot, status)
    end procedure mechanism_decide_slips
 
@@ -158,11 +161,12 @@ contains
       end associate
    end subroutine note
 
-   !> In space: a contact that slides on more slowly than slip ends is at no end of its slip until it has lost half of that speed.
-   !> `follow_sliding` ends that when it has become faster.
+   !> In space: a contact that slides on more slowly than slip ends is at no end of its slip until it has lost half of that speed;
+   !> one that slides against its way, until that has grown by half. `follow_sliding` ends that when it has become faster.
    subroutine widen_bands(self)
       class(mechanism_t), intent(inout) :: self   !! the system, its contacts decided
 
+      real(wp) :: along, least
       integer :: k, slot
 
       do slot = 1, size(self%loose%sets)
@@ -171,9 +175,10 @@ contains
             do k = 1, set%n_contact
                if (.not. set%contact(k)%is_touching .or. abs(set%grip%slip(k)) /= 1) cycle
                associate (tangent => set%grip%tangent(k), still => rest_speed(self, slot, k))
-                  if (size_of(tangent%v) > still) cycle
-                  call set%note_decision(k, set%grip%since(k), max(set%grip%band(k), 0.5_wp*still - 0.5_wp &
-                                         *max(dot_product(matmul(tangent%t, tangent%v), tangent%way), 0.0_wp)), still)
+                  along = dot_product(matmul(tangent%t, tangent%v), tangent%way)
+                  if (along > still) cycle
+                  least = end_speed(self, slot, k) - merge(less_of_speed, more_of_speed, along > 0.0_wp)*along
+                  call set%note_decision(k, set%grip%since(k), max(set%grip%band(k), least), still)
                end associate
             end do
          end associate
@@ -327,8 +332,9 @@ contains
       associate (set => self%loose%sets(slot)%set)
          associate (v => set%grip%tangent(k)%v)
             if (any(abs(force) > 0.0_wp)) then
-               way(:n_tangent) = -force/norm2(force)
-               if (-dot_product(v, way) > widest_band*own_speed(self)) way = v
+               way(:n_tangent) = -force/maxval(abs(force))  ! squares of small numbers are zero
+               way = way/norm2(way)
+               if (-more_of_speed*dot_product(v, way) > widest_band*own_speed(self) - end_speed(self, slot, k)) way = v
             else if (size_of(v) > 0.0_wp) then
                way = v
             else
@@ -346,7 +352,7 @@ contains
       real(wp), intent(in) :: y(:)                   !! (n) state [any]
       integer, intent(in) :: slot                    !! set of the contact
       integer, intent(in) :: k                       !! contact of the set
-      real(wp), intent(in) :: still                  !! speed that is none [m/s]
+      real(wp), intent(in) :: still                  !! speed taken as zero [m/s]
 
       real(wp) :: later, now(2), v(2)
       integer :: status

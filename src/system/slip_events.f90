@@ -12,7 +12,7 @@
 submodule(mechanism:mechanism_friction) slip_events
    use contact_grip, only: is_undecided, tangent_t
    use contact_places, only: slip_function
-   use floors, only: at_rest, standstill, torn
+   use floors, only: at_rest, torn
    implicit none (type, external)
 
 contains
@@ -44,8 +44,7 @@ contains
                      g(number) = short_of(self, tangent, set%laws%friction%stick_limit(tangent%f_n))
                      rate(number) = (rate(number) - g(number))/moment
                   else
-                     g(number) = merge(standstill*own_speed(self), 0.5_wp*rest_speed(self, slot, k), &
-                                       set%grip%n_tangent == 1) - slip*tangent%v(1) - set%grip%band(k)
+                     g(number) = end_speed(self, slot, k) - slip*tangent%v(1) - set%grip%band(k)
                      rate(number) = -slip*(tangential(self, slot, k, 1, .true.) + tangent%drift(1))
                   end if
                end associate

@@ -15,6 +15,8 @@ from friction_runs import disagreement, mistakes_of  # noqa: E402
 from random_friction import KINDS, METHODS, draw  # noqa: E402
 
 EACH = 2  # scenes of a kind
+ENDLESS = (  # slow slip in space against its direction, and slip at a vanishing normal force
+    ("block", 38, "radau"), ("disc", 28, "bdf"), ("disc", 75, "adams"), ("bushing", 40, "bdf"), ("block", 92, "bdf"))
 CREEPING = (("block", 11), ("block", 18))  # corners on one face slide against one another as the block turns
 
 PIN = """deck = 1
@@ -96,6 +98,13 @@ def test_random_scenes_end(gudgeon, kind, method):
 def test_creeping_needs_no_small_steps(gudgeon, kind, seed):
     """An explicit method follows contacts that creep against one another with few steps."""
     mistakes = mistakes_of(gudgeon, draw(kind, seed), "verner", scratch())
+    assert not mistakes, "; ".join(mistakes)
+
+
+@pytest.mark.parametrize(("kind", "seed", "method"), ENDLESS)
+def test_no_events_or_steps_without_end(gudgeon, kind, seed, method):
+    """After a decision no event function of a slip is beyond its end."""
+    mistakes = mistakes_of(gudgeon, draw(kind, seed), method, scratch())
     assert not mistakes, "; ".join(mistakes)
 
 

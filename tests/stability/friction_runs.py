@@ -3,7 +3,8 @@
 Every run ends by itself, takes at most RATIO times the steps of the same scene with a smooth law (transition speed:
 `random_friction.TRANSITION`), and closes its ledger to RESIDUAL, or to RATIO times what the method leaves open with the smooth law.
 Friction takes energy only, but for GIVEN: in space a contact sticks as soon as it is slower than the tolerance times the speed of
-the mechanism; the force that holds it works on what is left of that speed, as much as a tolerance of the energy.
+the mechanism; the force that holds it works on what is left of that speed, as much as a tolerance of the energy. And it acts
+anywhere within its penetration: it may give what it works on turns of the bodies about LEVER times that.
 verner and bdf agree on the first contact: on the way to its onset within NEAR, which is the tolerance of a position, and on its impulse.
 """
 
@@ -20,6 +21,7 @@ EACH = 100  # scenes of a kind in the full set; each by one of the methods, in t
 RATIO = 10.0  # of the steps
 FEW = 2000  # steps that are few, whatever the smooth law takes
 RESIDUAL = 1e-4  # of the ledger, of the largest energy
+LEVER = 2.0  # within a contact in space, of its penetration
 GIVEN = 1e-7  # energy that friction may give between two rows: ten tolerances, of the largest energy
 NEAR = 1e-8  # way between two onsets of one contact by two methods: ten tolerances of a body of 0.1 m [m]
 AGREEMENT = 1e-3  # of the impulse of the first contact, by two methods
@@ -61,10 +63,22 @@ def mistakes_of(program, scene, method, directory):
             mistakes.append(f"{steps} steps, {smooth.summary['steps']} with the smooth law")
         if is_open and not residual <= RATIO*residual_of(smooth):
             mistakes.append(f"residual of the ledger {residual:.1e} of the energy, {residual_of(smooth):.1e} with the smooth law")
-    given = -np.min(np.diff(result.read("energy/dissipated_friction").ravel()))
+    given = np.max(-np.diff(result.read("energy/dissipated_friction").ravel()) - np.diff(work_within(result, "spatial" in scene.text)))
     if given > GIVEN*result.summary["energy_max"]:
         mistakes.append(f"friction gives {given:.1e} J of {result.summary['energy_max']:.1e}")
     return mistakes
+
+
+def work_within(result, is_spatial):
+    """Of friction on turns of the bodies within the penetration of contacts in space, up to each output instant: the most."""
+    if not is_spatial:
+        return np.zeros(len(result.time))
+    angular = result.rows("bodies/angular_velocity")
+    force, depth = (result.rows(f"clearances/contacts/{name}") for name in ("friction_force", "penetration"))
+    power = LEVER*np.sum(np.abs(force)*np.maximum(depth, 0.0), axis=1)*np.sum(np.linalg.norm(angular, axis=2), axis=1)
+    time = result.rows("time")
+    work = np.concatenate([[0.0], np.cumsum(0.5*(power[1:] + power[:-1])*np.diff(time))])
+    return np.interp(result.time, time, work)
 
 
 def disagreement(program, scene, directory):

@@ -1,0 +1,64 @@
+!> Contacts that stick whose friction forces are not unique, as those of a block that rests on two feet.
+!>
+!> Forces of several contacts may hold one another and change no acceleration. Those of least norm are taken (`grip_forces`), so
+!> the accelerations are exact; the force of a single contact, and which of them slips first, is a matter of that choice.
+!>
+!> Source: F. Pfeiffer and C. Glocker, Multibody Dynamics with Unilateral Contacts (1996), section 5.3. Limits: judged where
+!> contacts are decided (`slip_decision`).
+module shared_sticking
+   use kinds, only: wp
+   use mechanism, only: mechanism_t
+   use text, only: append_text, real_text, text_t
+   implicit none (type, external)
+   private
+   public :: warn_of_shared_sticking
+
+contains
+
+   !> Append a warning that names all such contacts of a system.
+   subroutine warn_of_shared_sticking(system, warnings)
+      type(mechanism_t), intent(in) :: system                    !! a part of the mechanism
+      type(text_t), allocatable, intent(inout) :: warnings(:)    !! (any) appended to
+
+      character(:), allocatable :: names
+      real(wp) :: first
+      integer :: i, k
+
+      names = ""
+      first = huge(1.0_wp)
+      do k = 1, size(system%loose%sets)
+         if (.not. allocated(system%loose%sets(k)%set%grip%shared_from)) cycle
+         do i = 1, system%loose%sets(k)%set%n
+            call add_joint(i)
+         end do
+      end do
+      if (names == "") return
+      call append_text(warnings, "friction of contacts that stick is not unique in"//names//", first at t = "// &
+                       real_text(first, 6)//" s: forces of least norm are taken; accelerations are exact, but when a contact "// &
+                       "slips may depend on these forces; take friction with bristles (friction.dahl, friction.lugre), which "// &
+                       "determines them, or fewer contacts that act at once")
+
+   contains
+
+      !> Those of one joint.
+      subroutine add_joint(item)
+         integer, intent(in) :: item   !! its place in set k
+
+         integer :: c
+         logical :: is_named
+
+         is_named = .false.
+         associate (set => system%loose%sets(k)%set)
+            do c = (item - 1)*set%n_contact_item + 1, item*set%n_contact_item
+               if (.not. set%grip%shared_from(c) < huge(1.0_wp)) cycle
+               if (.not. is_named) names = names//" '"//set%names(item)%s//"'"
+               is_named = .true.
+               if (set%label_of(c) /= "") names = names//" "//set%label_of(c)
+               first = min(first, set%grip%shared_from(c))
+            end do
+         end associate
+      end subroutine add_joint
+
+   end subroutine warn_of_shared_sticking
+
+end module shared_sticking
