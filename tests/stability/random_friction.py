@@ -78,7 +78,8 @@ def finish(label, rng, lines, is_spatial, mass, radius, tilt, end=0.05):
     else:
         gravity, space, more = f"{G*math.sin(tilt)!r} {-G*math.cos(tilt)!r}", "", ""
     text = (f"deck = 1\n[scene]\n{space}gravity = {gravity} m/s^2\n[parameters]\nfriction = coulomb\n[analysis.dynamic]\n"
-            f"start = given\noverlap = preload\nend = {end!r} s\ntolerance = 1e-8\n[output]\nevery = {end/50!r} s\nchannels = energy.*{more}\n"
+            f"start = given\noverlap = preload\nend = {end!r} s\ntolerance = 1e-8\n[output]\nevery = {end/50!r} s\n"
+            f"channels = energy.* *.position{more}\n"
             f"[material]\nname young[GPa] poisson\nsteel {YOUNG/1e9} {POISSON}\n") + laws(rng, label.split()[0]) + lines
     stiffness = 4.0/3.0*MODULUS*math.sqrt(radius)
     return Scene(label, text, 0.01*2.9432*(1.25*mass/stiffness)**0.4*0.03**-0.2)
