@@ -246,7 +246,7 @@ contains
       type(contact_memory_t), allocatable :: kept(:)
       type(loads_t) :: again, loads
       type(event_t) :: event
-      real(wp) :: integrands(n_integrand, n_all), row(500)
+      real(wp) :: integrands(n_integrand, n_all), row(1000)
       integer :: k, place
 
       associate (set => bench%set)
