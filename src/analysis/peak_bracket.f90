@@ -29,12 +29,12 @@ module peak_bracket
 
 contains
 
-   !> Numbers whose parabola through three rows has its vertex between them, see `propose`; none that is missing in a row.
+   !> Kind of vertex that the parabola through three rows has between them, see `propose`; 0 for a number that is NaN in a row.
    pure subroutine find_bends(n, t, x1, x2, x3, bends)
       integer, intent(in) :: n                     !! numbers
       real(wp), intent(in) :: t(3)                 !! (3) times of the rows, increasing [s]
       real(wp), intent(in) :: x1(n), x2(n), x3(n)  !! (n) numbers there [any]
-      integer, intent(inout) :: bends(n)           !! (n) 1: it is a maximum, -1: a minimum, 0: there is none
+      integer, intent(inout) :: bends(n)           !! (n) 1: maximum, -1: minimum, 0: no vertex between them
 
       real(wp) :: a, b, bend, slope
       integer :: k

@@ -185,9 +185,8 @@ contains
       integer :: i, k
 
       do k = 1, size(self%catalogue%groups)
-         associate (is_wanted => self%catalogue%groups(k)%is_wanted)
-            is_wanted = [(recorder%wants(k, i) .or. stop%wants(k, i), i=1, size(is_wanted))]
-         end associate
+         self%catalogue%groups(k)%is_wanted = [(recorder%wants(k, i) .or. stop%wants(k, i), &
+                                                i=1, size(self%catalogue%groups(k)%is_wanted))]
       end do
       call bind_channels(whole%system, self%catalogue)
       call self%films%begin(whole%system, recorder)
@@ -269,8 +268,7 @@ contains
       class(recorder_t), intent(inout) :: recorder        !! keeps the results
       type(error_t), allocatable, intent(out) :: error    !! a file could not be written, or the equations not be solved
 
-      if (self%t_row >= self%until) return
-      call put_row(self, whole, plan, self%until, row_stop, residual, recorder, error)
+      if (self%t_row < self%until) call put_row(self, whole, plan, self%until, row_stop, residual, recorder, error)
    end subroutine take_stop
 
    !> The output instant that comes next; after the last one, and until functions of time take the values behind it, one that is
@@ -384,10 +382,8 @@ contains
 
       whole%system%traits%with_quadratures = self%catalogue%readings%energy%n > 0
       if (.not. at_peak .and. .not. shift > 0.0_wp .and. whole%is_evaluated(t)) then
-         associate (step => whole%parts(1)%method%step)
-            self%y = step%y1
-            self%ydot = step%f1
-         end associate
+         self%y = whole%parts(1)%method%step%y1
+         self%ydot = whole%parts(1)%method%step%f1
          call report_evaluated(whole%system, t, self%y, self%ydot, residual, self%catalogue)
          status = 0
       else
@@ -397,9 +393,8 @@ contains
       end if
       whole%system%traits%with_quadratures = .true.
       if (status == 0) return
-      associate (part => whole%parts(whole%front(1)))
-         call describe_failure(part%system, part%method, advance_failed_evaluation, error)
-      end associate
+      call describe_failure(whole%parts(whole%front(1))%system, whole%parts(whole%front(1))%method, &
+                            advance_failed_evaluation, error)
    end subroutine report
 
 end module sampling

@@ -274,8 +274,8 @@ contains
       call self%system%linkage%take_state(self%q, self%v, y)
    end subroutine whole_state_at
 
-   !> Whether a time is the end of the last step of a single part, and its system was evaluated there and nowhere since. Where
-   !> friction is found by iteration, what an evaluation gives hangs on the last digits of the one before: it is made again there.
+   !> Whether a time is the end of the last step of a single part, and its system was evaluated there and nowhere since. Not
+   !> where friction is iterated: the last digits of an evaluation depend on the evaluation before.
    pure logical function whole_is_evaluated(self, t) result(is_evaluated)
       class(whole_motion_t), intent(in) :: self  !! the motion
       real(wp), intent(in) :: t                  !! the time [s]
