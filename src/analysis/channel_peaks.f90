@@ -225,7 +225,8 @@ contains
       real(wp) :: f
       integer :: k
 
-      associate (search => self%search, x => self%x(self%search%of(), :))
+      k = self%search%of()  ! the others are left alone: what is found of a number does not depend on which others there are
+      associate (search => self%search, x => self%x(k, :))
          f = values(self%asked_for())
          counts = ieee_is_finite(f) .and. ieee_is_finite(rough)
          if (counts) counts = abs(f - rough) <= max(doubt*(maxval(x) - minval(x)), same*maxval(abs(x)))
@@ -235,7 +236,6 @@ contains
             return
          end if
          f = search%sign()*f
-         k = search%of()  ! the others are left alone: what is found of a number does not depend on which others there are
          self%least(k) = min(self%least(k), values(self%place(k)))
          self%most(k) = max(self%most(k), values(self%place(k)))
          call search%narrow(f)
