@@ -59,6 +59,7 @@ module radau
       logical :: is_stale = .true.              !! whether it is to be made anew before the next step
       logical :: has_failed = .false.           !! whether the iteration with a new one has in the step in hand
       logical :: is_wide = .false.              !! whether the step in hand is longer than it can do
+      logical :: is_row = .false.               !! whether a part of a step is for a row, and not for a search
       real(wp) :: h_matrix = huge(1.0_wp)       !! longest step with it [s]
       real(wp) :: h_gmres = huge(1.0_wp)        !! longest step by GMRES [s]
       type(anderson_t) :: secants               !! acceleration of the iteration with it
@@ -314,7 +315,7 @@ contains
 
    !> Stages of a step of length h from the start of the present step; the end state into `trial`. Parts of an accepted step are
    !> asked for in search of an event: there the iteration goes on to round-off, so that the state is a smooth function of the
-   !> length; where it does not converge, as beside a force that jumps, the polynomial of the whole step stands in, which is of
+   !> length (for a row it ends as in a step); where it does not converge, as beside a force that jumps, the polynomial of the whole step stands in, which is of
    !> order 3.
    subroutine radau_make_stages(self, system, h, status)
       class(radau_t), intent(inout) :: self         !! the integrator

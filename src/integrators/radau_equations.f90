@@ -17,6 +17,7 @@ submodule(radau) radau_equations
    real(wp), parameter :: hopeless = 2.0_wp             !! ratio of successive changes at which the iteration is given up [1]
    real(wp), parameter :: out_of_reach = 1.0_wp/sqrt(eps)  !! change of the stages over the scales that no motion makes [1]
    real(wp), parameter :: part_of_tolerance = 0.03_wp   !! of TOL': error left by the iteration, at most [1]
+   real(wp), parameter :: part_for_rows = 0.1_wp        !! of that, in a row: film forces there as at ends [1]
    real(wp), parameter :: conservative = 3.0_wp         !! ratio of that, as it is estimated with the matrix, to what is left [1]
    real(wp), parameter :: noise = 10.0_wp*eps           !! least error of the iteration, over the scales [1]
    real(wp), parameter :: left_by_gmres(2) = [3.0e-4_wp, 1.0e-2_wp]  !! (2) of the residual of Newton's equations: least, most [1]
@@ -77,13 +78,17 @@ contains
 
       real(wp) :: before, enough, eta, least, left, now, theta, tolerance
       integer :: k, most
+      logical :: is_search
 
+      is_search = is_part .and. .not. self%is_row
       most = n_newton(merge(2, 1, is_part))
       tolerance = lenient(self%controls%tolerance)
-      enough = max(noise, tolerance*min(part_of_tolerance, merge(conservative, 1.0_wp, by_matrix)*sqrt(tolerance)))
-      least = merge(noise, enough, is_part .or. (by_matrix .and. self%controls%fixed_step > 0.0_wp))
+      enough = tolerance*min(part_of_tolerance, merge(conservative, 1.0_wp, by_matrix)*sqrt(tolerance))
+      if (is_part) enough = part_for_rows*enough
+      enough = max(noise, enough)
+      least = merge(noise, enough, is_search .or. (by_matrix .and. self%controls%fixed_step > 0.0_wp))
       eta = min(max(left_by_gmres(1), 10.0_wp*tolerance), left_by_gmres(2))
-      if (is_part) eta = left_by_gmres(1)
+      if (is_search) eta = left_by_gmres(1)
       call begin_stages(self, h)
       if (by_matrix) then
          eta = least_ratio

@@ -26,7 +26,9 @@ contains
 
       if ((self%is_stiff .or. system%traits%has_films) .and. t > self%step%t0 .and. t < self%t) then
          self%count%n_output_evaluations = self%count%n_output_evaluations - self%count%n_evaluations
+         self%is_row = .true.
          call self%refine(system, (t - self%step%t0)/self%step%h, y, status)
+         self%is_row = .false.
          self%count%n_output_evaluations = self%count%n_output_evaluations + self%count%n_evaluations
          if (status == advance_step) return
       end if
