@@ -315,8 +315,8 @@ contains
 
    !> Stages of a step of length h from the start of the present step; the end state into `trial`. Parts of an accepted step are
    !> asked for in search of an event: there the iteration goes on to round-off, so that the state is a smooth function of the
-   !> length (for a row it ends as in a step); where it does not converge, as beside a force that jumps, the polynomial of the whole step stands in, which is of
-   !> order 3.
+   !> length; and for rows, where it need not. Where it does not converge, as beside a force that jumps, the polynomial of the
+   !> whole step stands in, which is of order 3.
    subroutine radau_make_stages(self, system, h, status)
       class(radau_t), intent(inout) :: self         !! the integrator
       class(ode_system_t), intent(inout) :: system  !! the system
