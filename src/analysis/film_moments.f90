@@ -88,11 +88,11 @@ contains
       end associate
    end function motion_of
 
-   !> Look for the least film at the end of a step of a part of the whole.
+   !> Look for the least film at the end of a step of a part of the whole, and in a row.
    subroutine moments_look(self, part, t)
       class(film_moments_t), intent(inout) :: self  !! the films
-      type(mechanism_t), intent(in) :: part         !! the part, its motion that at the end of the step
-      real(wp), intent(in) :: t                     !! time there [s]
+      type(mechanism_t), intent(in) :: part         !! the part, or the whole, its motion that of the time
+      real(wp), intent(in) :: t                     !! the time [s]
 
       type(film_motion_t) :: motion
       real(wp) :: distance

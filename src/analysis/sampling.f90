@@ -392,9 +392,9 @@ contains
          call report_state(whole%system, t + shift, self%y, self%ydot, residual, self%catalogue, status)
       end if
       whole%system%traits%with_quadratures = .true.
-      if (status == 0) return
-      call describe_failure(whole%parts(whole%front(1))%system, whole%parts(whole%front(1))%method, &
-                            advance_failed_evaluation, error)
+      if (status == 0 .and. self%films%has_least) call self%films%look(whole%system, t + shift)
+      if (status /= 0) call describe_failure(whole%parts(whole%front(1))%system, whole%parts(whole%front(1))%method, &
+                                             advance_failed_evaluation, error)
    end subroutine report
 
 end module sampling

@@ -59,6 +59,7 @@ contains
          lost = quadrature + contact%amends
          if (.not. contact%is_cut_off) return
          call set%watch(k, motion, delta, rate, force, force_rate)
+         if (force > 0.0_wp) return  ! within the step at whose end the force is none
          lost = contact%held - set%laws%normal%potential(max(delta, 0.0_wp), set%laws%parameters(:, k))
       end associate
    end function lost_by_damping

@@ -110,8 +110,8 @@ contains
          end if
          decay = films%decay_of(item, film_motion_t(e=[near*place%clearance, 0.0_wp]), sum(inverse_mass(set%items%body(:, item))))
          if (decay > 0.0_wp) call say("at "//real_text(near, 1)//" of the clearance it brings the journal to rest within "// &
-                                      real_text(1.0e6_wp/decay, 2)//" us: verner, rk4 and adams take no longer steps than some "// &
-                                      "times that, bdf and ida follow the motion", 4)
+                                      real_text(1.0e6_wp/decay, 2)//" us: explicit methods take no longer steps than some "// &
+                                      "times that, implicit ones (radau, bdf, ida) follow the motion", 4)
       end associate
    end subroutine explain_film
 

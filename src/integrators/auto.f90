@@ -18,7 +18,7 @@ module auto
    use dop853, only: dop853_t
    use dop853_stages, only: dop853_bound, dop853_stages_t
    use integrator, only: advance_failed_evaluation, advance_no_memory, advance_step, advance_too_small
-   use integrator_controls, only: norm_euclidean, onset_located
+   use integrator_controls, only: controls_t, norm_euclidean, onset_located
    use kind_info, only: kind_info_t
    use kinds, only: i8, wp
    use method_choice, only: method_choice_t
@@ -131,6 +131,14 @@ module auto
          class(ode_system_t), intent(in) :: system  !! the system
          integer, intent(out) :: status             !! advance_step, or a failure
       end subroutine lend_state
+
+      !> The controls of the implicit method.
+      pure module function implicit_controls(self, system) result(controls)
+         implicit none (type, external)
+         class(auto_t), intent(in) :: self          !! the integrator
+         class(ode_system_t), intent(in) :: system  !! the system
+         type(controls_t) :: controls               !! those of its steps
+      end function implicit_controls
 
       !> It gives it back.
       module subroutine take_state(self)
@@ -328,8 +336,11 @@ contains
             allocate (verner_t :: other)
          end if
       end if
-      call run_trial(other, system, self%controls, self%t, self%step%y1, t_stop, h, &
-                     n_trial_step(merge(2, 1, self%choice%is_implicit)), trial)
+      if (self%choice%is_implicit) then
+         call run_trial(other, system, self%controls, self%t, self%step%y1, t_stop, h, n_trial_step(2), trial)
+      else
+         call run_trial(other, system, implicit_controls(self, system), self%t, self%step%y1, t_stop, h, n_trial_step(1), trial)
+      end if
       self%count%n_evaluations = self%count%n_evaluations + trial%n_evaluation
       call self%choice%note_trial(trial, motion_evaluations(self), merge(self%stability%product, 0.0_wp, self%stability%is_stiff))
       call self%stability%forget()

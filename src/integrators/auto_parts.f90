@@ -6,6 +6,9 @@ submodule(auto) auto_parts
    use step_course, only: course_even
    implicit none (type, external)
 
+   real(wp), parameter :: in_films = 0.01_wp           !! tolerance of the implicit method over TOL, where films act [1]
+   real(wp), parameter :: least_in_films = 1.0e-12_wp  !! that it does not make less [1]
+
 contains
 
    !> State within the last step by a shorter step of the method that made it.
@@ -74,7 +77,7 @@ contains
       if (allocated(self%saved)) call take_saved(self, system, status)
       call exchange_arrays(self)
       associate (own => self%stiff)
-         own%controls = self%controls
+         own%controls = implicit_controls(self, system)
          own%t = self%t
          own%count = self%count
          own%step%t0 = self%step%t0
@@ -85,6 +88,15 @@ contains
          own%events%n_happened = self%events%n_happened
       end associate
    end procedure lend_state
+
+   !> Where films act the explicit method, whose steps stability keeps short, is far more accurate than it is asked to be, and the
+   !> forces of films show it: there the implicit one has a hundredth of its tolerance.
+   module procedure implicit_controls
+      controls = self%controls
+      if (system%traits%has_films) then
+         controls%tolerance = max(in_films*controls%tolerance, min(controls%tolerance, least_in_films))
+      end if
+   end procedure implicit_controls
 
    !> It gives it back.
    module procedure take_state

@@ -22,7 +22,8 @@
 !> Between the ends of a step: positions and rates by the quintic of `interpolation`, without evaluations within the step, which
 !> stiff forces would make worse, and in a step with a force so stiff that accelerations tell nothing (`is_stiff`), by the stages
 !> alone; other states and quadratures by the integral of the cubic through the derivatives at the start and at the stages, of
-!> order 5. Rows of such a step, and where films act, are reached by a step of that length from its start (`radau_reach`).
+!> order 5. Rows of such a step, and where films act, are reached by a step of that length from its start, or by the polynomial
+!> through states that were made so (`radau_reach`).
 !>
 !> Source: E. Hairer and G. Wanner, Solving Ordinary Differential Equations II, 2nd ed. (1996), section IV.8. Limits: where there
 !> are more freedoms than `radau_matrix` takes, and more than some ten forces are stiff, each in its own way, GMRES needs as many
@@ -36,10 +37,10 @@ module radau
    use krylov_solver, only: krylov_solver_t
    use ode_system, only: ode_system_t
    use one_step, only: one_step_advance, one_step_load, one_step_memory_size, one_step_restart, one_step_save, one_step_t
-   use quadrature_error, only: counts_quadratures
    use radau_matrix, only: radau_matrix_t
    use radau_products, only: a, c, filter_product_t, stage_product_t
    use radau_stages, only: foresee, stages_t
+   use step_nodes, only: step_nodes_t
    implicit none (type, external)
    private
    public :: radau_t
@@ -67,6 +68,7 @@ module radau
       type(krylov_solver_t) :: filter_solver    !! GMRES for the filter
       type(stages_t) :: before                  !! stages of the step before the one in hand
       type(stages_t) :: now                     !! of the step in hand, as a whole
+      type(step_nodes_t) :: nodes               !! states for rows in it
       real(wp), allocatable :: z(:, :)          !! (n, 3) changes at the stages in hand [any]
       real(wp), allocatable :: first_z(:, :)    !! (n, 3) where an iteration begins [any]
       real(wp), allocatable :: side(:)          !! (3 n) right side of Newton's equations [any]
@@ -121,15 +123,24 @@ module radau
          integer, intent(out) :: status                        !! of the evaluations
       end subroutine estimate_error
 
-      !> Norm of the error estimates of the quadratures by the embedded formula, which as sums of derivatives need no filter, over
-      !> TOL'.
-      module function quadrature_norm(self, system, h) result(norm)
+      !> Norm of the error estimate of the trial step, over TOL', or that of the quadratures where it is greater: by the embedded
+      !> formula, which as sums of derivatives need no filter.
+      real(wp) module function radau_error_norm(self, system, h) result(norm)
          implicit none (type, external)
          class(radau_t), intent(inout) :: self      !! the integrator, stages found
          class(ode_system_t), intent(in) :: system  !! the system
          real(wp), intent(in) :: h                  !! length of the step [s]
-         real(wp) :: norm                           !! the norm [1]
-      end function quadrature_norm
+      end function radau_error_norm
+
+      !> By how much a state of the last step is to be changed: norm of (I - h J/u)^-1 h/u r, r the residual of the equations there,
+      !> over the error that Newton's iteration may leave in a row.
+      module subroutine filter_rest(self, system, left, status)
+         implicit none (type, external)
+         class(radau_t), intent(inout) :: self                 !! the integrator; `side` is r
+         class(ode_system_t), intent(inout), target :: system  !! the system
+         real(wp), intent(out) :: left                         !! the norm [1]
+         integer, intent(out) :: status                        !! of the evaluations
+      end subroutine filter_rest
 
       !> The right-hand side at the stages.
       module subroutine evaluate_stages(self, system, h, status)
@@ -282,6 +293,7 @@ contains
                    self%before%z(n, 3), self%now%z(n, 3), source=0.0_wp)
          call self%matrix%open(system)
          call self%secants%open(3*n)
+         call self%nodes%open(system%n)
          call self%stage%open(n, system%n)
          call self%filter%open(n, system%n)
          call self%stage_solver%open(3*n, status)
@@ -383,15 +395,5 @@ contains
       self%now%h = 0.0_wp
       self%has_failed = .false.
    end subroutine go_on
-
-   !> Norm of the error estimate of the trial step, over TOL'.
-   real(wp) function radau_error_norm(self, system, h) result(norm)
-      class(radau_t), intent(inout) :: self      !! the integrator
-      class(ode_system_t), intent(in) :: system  !! the system
-      real(wp), intent(in) :: h                  !! length of the step [s]
-
-      norm = self%norm
-      if (counts_quadratures(system, norm)) norm = max(norm, quadrature_norm(self, system, h))
-   end function radau_error_norm
 
 end module radau

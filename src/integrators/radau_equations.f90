@@ -1,7 +1,7 @@
 !> The equations of Radau IIA: Newton's iteration for the stages of a step, and the filtered estimate of its error.
 submodule(radau) radau_equations
    use integrator_controls, only: norm_euclidean
-   use quadrature_error, only: by_one_step, greatest_error
+   use quadrature_error, only: by_one_step, counts_quadratures, greatest_error
    use radau_products, only: real_eigenvalue
    implicit none (type, external)
 
@@ -83,9 +83,8 @@ contains
       is_search = is_part .and. .not. self%is_row
       most = n_newton(merge(2, 1, is_part))
       tolerance = lenient(self%controls%tolerance)
-      enough = tolerance*min(part_of_tolerance, merge(conservative, 1.0_wp, by_matrix)*sqrt(tolerance))
-      if (is_part) enough = part_for_rows*enough
-      enough = max(noise, enough)
+      enough = left_in_steps(tolerance, by_matrix)
+      if (is_part) enough = max(noise, part_for_rows*enough)
       least = merge(noise, enough, is_search .or. (by_matrix .and. self%controls%fixed_step > 0.0_wp))
       eta = min(max(left_by_gmres(1), 10.0_wp*tolerance), left_by_gmres(2))
       if (is_search) eta = left_by_gmres(1)
@@ -140,6 +139,14 @@ contains
          call evaluate_stages(self, system, h, status)
       end if
    end subroutine iterate
+
+   !> Error that the iteration may leave in a step.
+   pure real(wp) function left_in_steps(tolerance, by_matrix)
+      real(wp), intent(in) :: tolerance  !! TOL' [1]
+      logical, intent(in) :: by_matrix   !! whether it is that with the matrix
+
+      left_in_steps = max(noise, tolerance*min(part_of_tolerance, merge(conservative, 1.0_wp, by_matrix)*sqrt(tolerance)))
+   end function left_in_steps
 
    !> Newton's equations with the matrix.
    subroutine solve_by_matrix(self, system, n, side, change)
@@ -305,20 +312,57 @@ contains
 
       !> The filter.
       subroutine apply_filter()
-         associate (side => self%side(:self%n), estimate => self%change(:self%n))
-            if (self%matrix%is_known) call self%matrix%factorise(h)
-            if (self%matrix%is_known) then
-               call self%matrix%solve_filter(system, self%step%y0, side, estimate)
-            else
-               call self%filter_solver%solve(self%filter, side, self%filter%scale, left_by_filter, estimate, status)
-            end if
-         end associate
+         call filter_side(self, system, h, status)
       end subroutine apply_filter
 
    end procedure estimate_error
 
+   !> The filter: `change` from `side`, of the first n entries.
+   subroutine filter_side(self, system, h, status)
+      class(radau_t), intent(inout) :: self          !! the integrator, differences begun
+      class(ode_system_t), intent(in) :: system      !! the system
+      real(wp), intent(in) :: h                      !! length of the step [s]
+      integer, intent(inout) :: status               !! of the evaluations
+
+      associate (side => self%side(:self%n), change => self%change(:self%n))
+         if (self%matrix%is_known) call self%matrix%factorise(h)
+         if (self%matrix%is_known) then
+            call self%matrix%solve_filter(system, self%step%y0, side, change)
+         else
+            call self%filter_solver%solve(self%filter, side, self%filter%scale, left_by_filter, change, status)
+         end if
+      end associate
+   end subroutine filter_side
+
+   !> Norm of the filtered defect of a state.
+   module procedure filter_rest
+      real(wp) :: h
+
+      h = self%step%h
+      status = 0
+      call self%set_scales(system, self%step%y1)
+      call begin_differences(self, system)
+      self%filter%h = h
+      self%side(:self%n) = h/real_eigenvalue*self%side(:self%n)
+      call filter_side(self, system, h, status)
+      left = greatest(self, self%change(:self%n)) &
+             /max(noise, part_for_rows*left_in_steps(lenient(self%controls%tolerance), self%matrix%is_known))
+      nullify (self%filter%system)
+      self%count%n_evaluations = self%count%n_evaluations + self%filter%n_evaluation
+   end procedure filter_rest
+
+   !> Norm of the error estimate, or that of the quadratures.
+   module procedure radau_error_norm
+      norm = self%norm
+      if (counts_quadratures(system, norm)) norm = max(norm, quadrature_norm(self, system, h))
+   end procedure radau_error_norm
+
    !> Norm of the error estimates of the quadratures.
-   module procedure quadrature_norm
+   real(wp) function quadrature_norm(self, system, h) result(norm)
+      class(radau_t), intent(inout) :: self      !! the integrator, stages found
+      class(ode_system_t), intent(in) :: system  !! the system
+      real(wp), intent(in) :: h                  !! length of the step [s]
+
       real(wp), parameter :: weight(3) = [e(1)*a(1, 1) + e(2)*a(2, 1) + e(3)*a(3, 1), &
                                           e(1)*a(1, 2) + e(2)*a(2, 2) + e(3)*a(3, 2), &
                                           e(1)*a(1, 3) + e(2)*a(2, 3) + e(3)*a(3, 3)]  ! of the derivatives at the stages [1]
@@ -333,6 +377,6 @@ contains
          end do
       end associate
       norm = greatest_error(system%n_quadrature, self%scratch(n + 1:), system%traits%quadrature_scale, by_one_step)
-   end procedure quadrature_norm
+   end function quadrature_norm
 
 end submodule radau_equations

@@ -12,7 +12,7 @@ contains
 
    !> Numbers of the stages, the matrix and their lengths of steps.
    module procedure radau_own_memory_size
-      n = 7 + 3*self%n + self%matrix%memory_size()
+      n = 7 + 3*self%n + self%nodes%memory_size() + self%matrix%memory_size()
    end procedure radau_own_memory_size
 
    !> Write what the integrator remembers.
@@ -31,6 +31,7 @@ contains
       do k = 1, 3
          call put(row, place, self%now%z(:, k))
       end do
+      call self%nodes%save(row, place)
       call self%matrix%save(row, place)
    end procedure radau_save_own
 
@@ -54,6 +55,7 @@ contains
       do k = 1, 3
          call get(row, place, self%now%z(:, k))
       end do
+      call self%nodes%load(row, place)
       call self%matrix%load(row, place)
       self%stage%h = 0.0_wp
    end procedure radau_load_own

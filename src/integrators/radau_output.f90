@@ -9,6 +9,8 @@ submodule(radau) radau_output
    use interpolation, only: interpolate
    implicit none (type, external)
 
+   real(wp), parameter :: hopeless = 100.0_wp  !! times what it may be is wrong of a polynomial that more states do not mend [1]
+
 contains
 
    !> No evaluations, or those of stages of another length.
@@ -20,21 +22,76 @@ contains
       self%count%n_output_evaluations = self%count%n_output_evaluations + self%count%n_evaluations
    end procedure radau_prepare_output
 
-   !> The film above multiplies what a curve is wrong by: only the equations themselves lead to a state whose forces are right.
+   !> Films multiply what a curve is wrong by. By the polynomial through the states of this step that were made already, where the
+   !> equations agree with it; else by a step of that length, whose state then is one of these.
    module procedure radau_reach
+      logical :: is_made
       integer :: status
 
       if ((self%is_stiff .or. system%traits%has_films) .and. t > self%step%t0 .and. t < self%t) then
          self%count%n_output_evaluations = self%count%n_output_evaluations - self%count%n_evaluations
-         self%is_row = .true.
-         call self%refine(system, (t - self%step%t0)/self%step%h, y, status)
-         self%is_row = .false.
+         call self%nodes%begin(self%step)
+         is_made = .false.
+         status = 0
+         if (self%nodes%are_of_use) call follow_nodes(self, system, t, y, is_made, status)
+         if (status == 0 .and. .not. is_made) call make_node(self, system, t, y, status)
          self%count%n_output_evaluations = self%count%n_output_evaluations + self%count%n_evaluations
          if (status == advance_step) return
       end if
       if (t < self%t) call self%prepare_output(system, status)
       call self%state_at(system, t, y)
    end procedure radau_reach
+
+   !> State at a time within the last step by the polynomial, and whether the equations agree with it: what they ask to be changed,
+   !> (I - h J/u)^-1 h/u (f - y'), is no more than Newton's iteration may leave.
+   subroutine follow_nodes(self, system, t, y, agrees, status)
+      class(radau_t), intent(inout) :: self         !! the integrator
+      class(ode_system_t), intent(inout) :: system  !! the system
+      real(wp), intent(in) :: t                     !! time [s]
+      real(wp), intent(inout) :: y(:)               !! (n) state [any]
+      logical, intent(out) :: agrees                !! whether they do
+      integer, intent(out) :: status                !! of the evaluations
+
+      real(wp) :: left
+      integer :: i
+
+      agrees = .false.
+      associate (f => self%scratch, f_here => self%y)
+         call self%nodes%between(self%step, (t - self%step%t0)/self%step%h, y, f)
+         status = 0
+         if (system%holds) call system%hold(t, y, status)
+         self%count%n_evaluations = self%count%n_evaluations + 1
+         if (status == 0) call system%evaluate(t, y, f_here, status)
+         if (status /= 0) return
+         do i = 1, self%n
+            self%side(i) = f_here(i) - f(i)
+         end do
+      end associate
+      call filter_rest(self, system, left, status)
+      agrees = status == 0 .and. left <= 1.0_wp
+      self%nodes%are_of_use = agrees .or. left <= hopeless
+   end subroutine follow_nodes
+
+   !> State at a time within the last step by a step of that length, kept for others.
+   subroutine make_node(self, system, t, y, status)
+      class(radau_t), intent(inout) :: self         !! the integrator
+      class(ode_system_t), intent(inout) :: system  !! the system
+      real(wp), intent(in) :: t                     !! time [s]
+      real(wp), intent(inout) :: y(:)               !! (n) state [any]
+      integer, intent(out) :: status                !! advance_step, or a failure
+
+      real(wp) :: s
+
+      s = (t - self%step%t0)/self%step%h
+      self%is_row = .true.
+      call self%refine(system, s, y, status)
+      self%is_row = .false.
+      if (status /= advance_step .or. .not. self%nodes%are_of_use) return
+      self%count%n_evaluations = self%count%n_evaluations + 1
+      call system%evaluate(t, y, self%scratch, status)
+      if (status == 0) call self%nodes%add(s, y, self%scratch)
+      status = advance_step
+   end subroutine make_node
 
    !> Whether the derivatives at hand are those of the last step.
    pure logical function has_stages(self, step)

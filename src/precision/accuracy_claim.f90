@@ -9,6 +9,7 @@ module accuracy_claim
    use channel_difference, only: set_differences
    use, intrinsic :: ieee_arithmetic, only: ieee_is_finite
    use kinds, only: not_a_number, wp
+   use peak_bracket, only: least_gain => gain
    use precision_reference, only: described, last_within
    use run_difference, only: first_other_contact
    implicit none (type, external)
@@ -90,7 +91,7 @@ contains
       type(search_t), intent(in) :: search         !! the runs
       type(accuracy_t), intent(inout) :: found     !! extremes are set
 
-      real(wp) :: by_instant(search%taken%run%n), error(size(search%taken%run%kind)), of_kinds(size(search%scale))
+      real(wp) :: by_instant(search%taken%run%n), error(size(search%taken%run%kind)), of_kinds(size(search%scale)), size_of
       integer :: k, last, worst(search%taken%run%n)
 
       associate (run => search%taken%run)
@@ -125,9 +126,10 @@ contains
                   extreme%error = not_a_number()
                   cycle
                end if
-               ! round-off of the numbers themselves is in no difference of runs that are equal
+               ! round-off of the numbers themselves, and the rise that no search is made for, are in no difference of runs
+               size_of = max(abs(extreme%least), abs(extreme%most))
                extreme%error = found%evidence%factor*max(error(k), of_kind*of_kinds(run%kind(k))*extreme%scale, &
-                                                epsilon(1.0_wp)*max(abs(extreme%least), abs(extreme%most), extreme%scale))
+                                                epsilon(1.0_wp)*max(size_of, extreme%scale)) + least_gain*size_of
             end associate
          end do
       end associate

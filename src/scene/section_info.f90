@@ -106,7 +106,7 @@ contains
          one = method%info()
          words(k)%s = one%name
       end do
-      call add_word(info, "method", "integrator", default="verner", choices=join(words, " "))
+      call add_word(info, "method", "integrator", default="auto", choices=join(words, " "))
    end subroutine add_methods
 
    !> The solvers of the augmented equations: their words, and what they do.

@@ -378,17 +378,20 @@ def test_a_directory_is_made(gudgeon):
 
 
 def test_import_takes_time_in_proportion(gudgeon):
-    """Thousands of statements, and thousands of lines of one statement: four times as many take less than ten times as long."""
+    """Thousands of statements, and thousands of lines of one statement: eight times as many take less than 24 times as long (64 by the square)."""
     folder = scratch()
     spent = []
-    for n in (2000, 8000):
+    for n in (2000, 16000):
         parts = "".join(f"PART/{k}, MASS = 1, CM = {k}, IP = 1, 1, 1, QG = {k}, 0, 0\nMARKER/{k}, PART = {k}\n" for k in range(2, n // 4))
         spline = "SPLINE/1, X = 0\n" + "".join(f", {k}, {k + 0.5}\n" for k in range(1, 5 * n)) + ", Y = 1, 2\n"
         (folder / f"m{n}.adm").write_text("many\nUNITS/SYSTEM = MKS\nPART/1, GROUND\n" + parts + spline + "END\n")
-        began = os.times().children_user
-        assert "SPLINE/1" in call(gudgeon, "import", f"m{n}.adm", cwd=folder).stdout
-        spent.append(os.times().children_user - began)
-    assert spent[1] < 10 * max(spent[0], 0.05), spent
+        times = []
+        for k in range(2):   # the lesser: others use the machine too
+            began = os.times().children_user
+            assert "SPLINE/1" in call(gudgeon, "import", f"m{n}.adm", *(["--out", f"again{n}.deck"] if k else []), cwd=folder).stdout
+            times.append(os.times().children_user - began)
+        spent.append(min(times))
+    assert spent[1] < 24 * max(spent[0], 0.05), spent
 
 
 def test_what_is_left_out_is_named_with_its_line(gudgeon):

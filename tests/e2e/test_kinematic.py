@@ -388,7 +388,7 @@ def test_option_analysis(gudgeon):
     """`--analysis` takes another section than the first of the deck, and says which there are."""
     text = changed(plain_deck(), "output", channels="slider.*") + "[analysis.kinematic]\nend = 12 ms\n"
     assert run(gudgeon, text, "--analysis", "kinematic").summary["method"] == "newton"
-    assert run(gudgeon, text, "--tolerance", "1e-6").summary["method"] == "verner"
+    assert run(gudgeon, text, "--tolerance", "1e-6").summary["method"] == "auto (verner)"
     done = run(gudgeon, text, "--analysis", "static", expect=2).done
     assert "no section [analysis.static]" in done.stderr
     assert "dynamic kinematic" in done.stderr

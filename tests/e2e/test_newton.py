@@ -20,7 +20,7 @@ CHANGES = (
 @pytest.fixture
 def run(gudgeon):
     """All channels of the first millisecond."""
-    return finished(gudgeon, "--tolerance", "1e-10", changes=CHANGES)
+    return finished(gudgeon, "--tolerance", "1e-11", changes=CHANGES)
 
 
 def smooth(run, reach):

@@ -120,7 +120,7 @@ contains
       if (allocated(error)) return
       call check_equal(error, summary%status, status_complete, "status")
       call check_equal(error, summary%message, "", "message")
-      call check_equal(error, summary%method%integrator, "verner", "method")
+      call check_equal(error, summary%method%integrator, "auto (dop853)", "method")
       call check_equal(error, summary%method%solver, "schur", "solver")
       call check_equal(error, summary%count%samples, 31, "samples")
       call check_close(error, [summary%time_start, summary%time_end], [0.0_wp, 3.0_wp], 0.0_wp, "times")

@@ -1,0 +1,177 @@
+!> States within a step, and the polynomial of Hermite through them and the ends of the step.
+!>
+!> With places s_k of the step, 0 and 1 among them, and l_k the polynomials of Lagrange through them,
+!>
+!> $$ y(s) = \sum_k H_k(s) y_k + h G_k(s) f_k, H_k = (1 - 2 (s - s_k) l_k'(s_k)) l_k^2, G_k = (s - s_k) l_k^2 $$
+!>
+!> has the states y_k and the derivatives f_k there. With n places its error is h^(2n) y^(2n)/(2n)! times the product of
+!> (s - s_k)^2. Source: J. Stoer and R. Bulirsch, Introduction to Numerical Analysis, 3rd ed. (2002), section 2.1.5.
+module step_nodes
+   use interpolation, only: step_t
+   use kinds, only: wp
+   use memory, only: get, put
+   implicit none (type, external)
+   private
+   public :: step_nodes_t
+
+   integer, parameter :: most = 3                      !! states within a step that are kept
+   real(wp), parameter :: least_distance = 0.02_wp     !! of the places of two [1]
+
+   !> The states of one step.
+   type :: step_nodes_t
+      logical :: are_of_use = .true.       !! whether the polynomial may be near the motion
+      real(wp), private :: t0 = 0.0_wp     !! start of the step [s]
+      real(wp), private :: h = 0.0_wp      !! its length, 0: there are none [s]
+      integer, private :: n = 0            !! states within it
+      real(wp), private :: s(most) = 0.0_wp  !! (n) their places in the step [1]
+      real(wp), allocatable, private :: y(:, :)  !! (all, most) the states [any]
+      real(wp), allocatable, private :: f(:, :)  !! (all, most) their derivatives [any]
+   contains
+      procedure :: open => nodes_open
+      procedure :: begin => nodes_begin
+      procedure :: add => nodes_add
+      procedure :: between => nodes_between
+      procedure :: memory_size => nodes_memory_size
+      procedure :: save => nodes_save
+      procedure :: load => nodes_load
+   end type step_nodes_t
+
+contains
+
+   !> Room for states.
+   pure subroutine nodes_open(self, n)
+      class(step_nodes_t), intent(inout) :: self  !! the states
+      integer, intent(in) :: n                    !! entries of a state
+
+      allocate (self%y(n, most), self%f(n, most), source=0.0_wp)
+   end subroutine nodes_open
+
+   !> Forget those of another step.
+   pure subroutine nodes_begin(self, step)
+      class(step_nodes_t), intent(inout) :: self  !! the states
+      type(step_t), intent(in) :: step            !! the step
+
+      if (abs(self%t0 - step%t0) <= 0.0_wp .and. abs(self%h - step%h) <= 0.0_wp) return
+      self%t0 = step%t0
+      self%h = step%h
+      self%n = 0
+      self%are_of_use = .true.
+   end subroutine nodes_begin
+
+   !> Keep a state, if there is room and none near it.
+   pure subroutine nodes_add(self, s, y, f)
+      class(step_nodes_t), intent(inout) :: self  !! the states
+      real(wp), intent(in) :: s                   !! its place in the step, 0 to 1 [1]
+      real(wp), intent(in) :: y(:)                !! (all) the state [any]
+      real(wp), intent(in) :: f(:)                !! (all) its derivative [any]
+
+      if (self%n == most .or. any(abs(s - [0.0_wp, self%s(:self%n), 1.0_wp]) < least_distance)) return
+      self%n = self%n + 1
+      self%s(self%n) = s
+      self%y(:, self%n) = y
+      self%f(:, self%n) = f
+   end subroutine nodes_add
+
+   !> State and derivative at a place of the step.
+   pure subroutine nodes_between(self, step, s, y, f)
+      class(step_nodes_t), intent(in) :: self  !! the states
+      type(step_t), intent(in) :: step         !! the step that they are of
+      real(wp), intent(in) :: s                !! the place, 0 to 1 [1]
+      real(wp), intent(out) :: y(:)            !! (all) the state [any]
+      real(wp), intent(out) :: f(:)            !! (all) its derivative [any]
+
+      real(wp), dimension(most + 2) :: places
+      real(wp) :: factor(4)
+      integer :: k, n
+
+      n = self%n + 2
+      places(:n) = [0.0_wp, self%s(:self%n), 1.0_wp]
+      factor = factors(places(:n), 1, s, step%h)
+      y = factor(1)*step%y0 + factor(2)*step%f0
+      f = factor(3)*step%y0 + factor(4)*step%f0
+      factor = factors(places(:n), n, s, step%h)
+      y = y + factor(1)*step%y1 + factor(2)*step%f1
+      f = f + factor(3)*step%y1 + factor(4)*step%f1
+      do k = 1, self%n
+         factor = factors(places(:n), k + 1, s, step%h)
+         y = y + factor(1)*self%y(:, k) + factor(2)*self%f(:, k)
+         f = f + factor(3)*self%y(:, k) + factor(4)*self%f(:, k)
+      end do
+   end subroutine nodes_between
+
+   !> What y_k and f_k are multiplied by: in y(s), then in its derivative by time.
+   pure function factors(places, k, s, h) result(found)
+      real(wp), intent(in) :: places(:)   !! (any) s_k [1]
+      integer, intent(in) :: k            !! the one in question
+      real(wp), intent(in) :: s           !! the place, 0 to 1 [1]
+      real(wp), intent(in) :: h           !! length of the step [s]
+      real(wp) :: found(4)                !! (4) of y_k [1], of f_k [s], and their derivatives [1/s, 1]
+
+      real(wp) :: a, b, d, l, l_rate
+      integer :: j, m
+
+      l = 1.0_wp
+      l_rate = 0.0_wp
+      d = 0.0_wp
+      do j = 1, size(places)
+         if (j == k) cycle
+         b = 1.0_wp/(places(k) - places(j))
+         d = d + b
+         a = b
+         do m = 1, size(places)
+            if (m == k .or. m == j) cycle
+            a = a*(s - places(m))/(places(k) - places(m))
+         end do
+         l_rate = l_rate + a
+         l = l*(s - places(j))*b
+      end do
+      a = s - places(k)
+      b = 1.0_wp - 2.0_wp*a*d
+      found = [b*l*l, h*a*l*l, (2.0_wp*b*l*l_rate - 2.0_wp*d*l*l)/h, l*l + 2.0_wp*a*l*l_rate]
+   end function factors
+
+   !> Numbers of a checkpoint.
+   pure integer function nodes_memory_size(self) result(n)
+      class(step_nodes_t), intent(in) :: self  !! the states, opened
+
+      n = 4 + most + 2*size(self%y)
+   end function nodes_memory_size
+
+   !> Write them.
+   subroutine nodes_save(self, row, place)
+      class(step_nodes_t), intent(in) :: self  !! the states, opened
+      real(wp), intent(inout) :: row(:)        !! (any) checkpoint [any]
+      integer, intent(inout) :: place          !! last place used
+
+      integer :: k
+
+      call put(row, place, self%are_of_use)
+      call put(row, place, [self%t0, self%h])
+      call put(row, place, self%n)
+      call put(row, place, self%s)
+      do k = 1, most
+         call put(row, place, self%y(:, k))
+         call put(row, place, self%f(:, k))
+      end do
+   end subroutine nodes_save
+
+   !> Read them.
+   subroutine nodes_load(self, row, place)
+      class(step_nodes_t), intent(inout) :: self  !! the states, opened
+      real(wp), intent(in) :: row(:)              !! (any) checkpoint [any]
+      integer, intent(inout) :: place             !! last place used
+
+      integer :: k
+
+      call get(row, place, self%are_of_use)
+      call get(row, place, self%t0)
+      call get(row, place, self%h)
+      call get(row, place, self%n)
+      call get(row, place, self%s)
+      do k = 1, most
+         call get(row, place, self%y(:, k))
+         call get(row, place, self%f(:, k))
+      end do
+   end subroutine nodes_load
+
+end module step_nodes
