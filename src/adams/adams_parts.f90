@@ -57,9 +57,12 @@ contains
       type(diagnostics_t), intent(inout) :: mistakes    !! collects what is wrong
 
       type(part_t) :: new
-      integer :: k
+      integer :: k, n
 
-      allocate (model%parts(0))
+      model%joints = pack([(k, k=1, size(model%statements))], &
+                          [(model%statements(k)%keyword == "JOINT", k=1, size(model%statements))])
+      allocate (model%parts(count([(model%statements(k)%keyword == "PART", k=1, size(model%statements))])))
+      n = 0
       do k = 1, size(model%statements)
          associate (it => model%statements(k))
             if (it%keyword /= "PART") cycle
@@ -69,7 +72,8 @@ contains
             if (it%view_name /= "") new%name = it%view_name
             if (new%is_ground) new%name = "ground"
             call read_frame(model%units%length, it, "QG", "ZG", "XG", .false., new%r, new%a, mistakes)
-            model%parts = [model%parts, new]
+            n = n + 1
+            model%parts(n) = new
          end associate
       end do
       if (size(model%parts) == 0) call mistake(mistakes, location_t(1, 1, 1, 1), "there is no PART in the dataset", &
@@ -122,9 +126,11 @@ contains
       type(diagnostics_t), intent(inout) :: mistakes    !! collects what is wrong
 
       type(marker_t) :: new
-      integer :: id, i, k, last
+      integer :: id, ids(size(model%parts)), k, last, n
 
-      allocate (model%markers(0))
+      ids = [(model%parts(k)%id, k=1, size(model%parts))]
+      allocate (model%markers(count([(model%statements(k)%keyword == "MARKER", k=1, size(model%statements))])))
+      n = 0
       last = 0
       do k = 1, size(model%statements)
          associate (it => model%statements(k))
@@ -135,7 +141,7 @@ contains
             id = id_of(it, "PART", mistakes, 1)
             if (find_argument(it, "PART", 1) == 0) id = last
             new = marker_t(id=it%id)
-            new%part = findloc([(model%parts(i)%id, i=1, size(model%parts))], id, dim=1)
+            new%part = findloc(ids, id, dim=1)
             if (new%part == 0) then
                call mistake(mistakes, it%at, "MARKER/"//to_text(it%id)//" is on PART/"//to_text(id)//", which is not there", "")
                cycle
@@ -143,9 +149,11 @@ contains
             new%name = "MARKER_"//to_text(it%id)
             if (it%view_name /= "") new%name = it%view_name
             call read_frame(model%units%length, it, "QP", "ZP", "XP", has_word(it, "USEXP", 3), new%r, new%a, mistakes)
-            model%markers = [model%markers, new]
+            n = n + 1
+            model%markers(n) = new
          end associate
       end do
+      model%markers = model%markers(:n)
    end subroutine read_markers
 
    !> Mass, centre of mass and tensor of inertia of a part.

@@ -89,16 +89,17 @@ contains
 
       velocity = 0.0_wp
       is_given = .false.
-      do k = 1, size(model%statements)
-         if (model%statements(k)%keyword /= "JOINT") cycle
-         do side = 1, 2
-            call argument_numbers(model%statements(k), names(side), id, mistakes)
-            marker(side) = 0
-            if (size(id) > 0) marker(side) = model%marker(nint(min(abs(id(1)), 1.0e9_wp)))
-         end do
-         if (any(marker == 0)) cycle
-         if (all(model%markers(marker)%part /= part)) cycle
-         call slide_of(model, model%statements(k), marker, moved, velocity, mistakes)
+      do k = 1, size(model%joints)
+         associate (joint => model%statements(model%joints(k)))
+            do side = 1, 2
+               call argument_numbers(joint, names(side), id, mistakes)
+               marker(side) = 0
+               if (size(id) > 0) marker(side) = model%marker(nint(min(abs(id(1)), 1.0e9_wp)))
+            end do
+            if (any(marker == 0)) cycle
+            if (all(model%markers(marker)%part /= part)) cycle
+            call slide_of(model, joint, marker, moved, velocity, mistakes)
+         end associate
          is_given = moved == part
          if (is_given) return
       end do

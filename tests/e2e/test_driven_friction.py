@@ -276,4 +276,4 @@ b u c y 180 0.1 steel normal rough
     run = finished(gudgeon, model)
     assert_opposite(run, lambda t: -math.cos(0.5 * t), name="f")
     assert_opposite(run, lambda t: math.cos(0.5 * t), name="b", sign=-1.0)
-    assert_close(column(run, "p", "position.x"), 0.0, absolute=1e-11, what="the plate")
+    assert_close(column(run, "p", "position.x"), 0.0, absolute=2e-11, what="the plate")  # of a motion of 1e-4 m

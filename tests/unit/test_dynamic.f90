@@ -127,7 +127,7 @@ contains
       call check_close(error, summary%method%tolerance, 1.0e-10_wp, 0.0_wp, "tolerance")
       call check_true(error, summary%count%steps > 10, "steps")
       call check_equal(error, int(summary%count%rhs_evaluations - summary%count%output_evaluations), &
-                       1 + 8*int(summary%count%steps) + 7*int(summary%count%rejected_steps), "evaluations of the solution")
+                       1 + 12*int(summary%count%steps) + 11*int(summary%count%rejected_steps), "evaluations of the solution")
       call check_true(error, summary%count%output_evaluations >= 31, "evaluations for output")
       call check_equal(error, int(summary%count%factorisations), int(summary%count%rhs_evaluations), "factorisations")
       call check_equal(error, summary%count%contacts + summary%count%events, 0, "events")

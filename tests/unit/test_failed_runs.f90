@@ -61,8 +61,8 @@ contains
       type(keeper_t) :: keeper
       type(summary_t) :: summary
 
-      call run_text(wheel//settings//"end = 3 s"//nl//"maximum_steps = 24"//nl//"[output]"//nl//"every = 10 ms"//nl, &
-                    keeper, summary, mistake)
+      call run_text(wheel//settings//"end = 3 s"//nl//"method = verner"//nl//"maximum_steps = 24"//nl//"[output]"//nl// &
+                    "every = 10 ms"//nl, keeper, summary, mistake)
       call check_failure(error, mistake, keeper, summary, exit_integration, "maximum_steps")
       if (allocated(error)) return
       call check_equal(error, int(summary%count%steps), 24, "steps")

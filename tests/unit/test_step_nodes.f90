@@ -1,0 +1,143 @@
+!> The polynomial of Hermite through states within a step: what it must give exactly, and what is kept of it.
+module test_step_nodes
+   use check, only: check_close, check_equal, suite_t
+   use errors, only: error_t
+   use interpolation, only: step_t
+   use kinds, only: wp
+   use step_nodes, only: step_nodes_t
+   implicit none (type, external)
+   private
+   public :: run_test_step_nodes
+
+   real(wp), parameter :: places(3) = [0.2_wp, 0.85_wp, 0.5_wp]  !! of the states [1]
+
+contains
+
+   subroutine run_test_step_nodes(suite)
+      type(suite_t), intent(inout) :: suite  !! where tests are registered
+
+      call suite%test("step_nodes_exact", test_exact)
+      call suite%test("step_nodes_kept", test_kept)
+      call suite%test("step_nodes_memory", test_memory)
+   end subroutine run_test_step_nodes
+
+   !> A power of time, and its derivative: t^k and k t^(k-1).
+   pure subroutine power(k, t, y, f)
+      integer, intent(in) :: k             !! the power
+      real(wp), intent(in) :: t            !! time [s]
+      real(wp), intent(out) :: y(1), f(1)  !! (1) state and derivative [s^k, s^(k-1)]
+
+      y = t**k
+      f = k*t**(k - 1)
+   end subroutine power
+
+   !> The step from 1.5 to 1.75 of a power of time.
+   subroutine make_step(k, step)
+      integer, intent(in) :: k            !! the power
+      type(step_t), intent(out) :: step   !! the step
+
+      allocate (step%y0(1), step%y1(1), step%f0(1), step%f1(1))
+      step%t0 = 1.5_wp
+      step%h = 0.25_wp
+      call power(k, step%t0, step%y0, step%f0)
+      call power(k, step%t0 + step%h, step%y1, step%f1)
+   end subroutine make_step
+
+   !> Add a state of that step.
+   subroutine add(nodes, step, k, s)
+      type(step_nodes_t), intent(inout) :: nodes  !! the states
+      type(step_t), intent(in) :: step            !! the step
+      integer, intent(in) :: k                    !! the power
+      real(wp), intent(in) :: s                   !! its place [1]
+
+      real(wp) :: y(1), f(1)
+
+      call power(k, step%t0 + s*step%h, y, f)
+      call nodes%add(s, y, f)
+   end subroutine add
+
+   !> With n states within the step powers up to 2 n + 3 are exact, and the next one is wrong by h^(2 n + 4) times the product of
+   !> (s - s_k)^2.
+   subroutine test_exact(error)
+      type(error_t), allocatable, intent(out) :: error  !! what failed
+
+      real(wp) :: f(1), f_true(1), missing, s, y(1), y_true(1)
+      type(step_nodes_t) :: nodes
+      type(step_t) :: step
+      integer :: i, k, n
+
+      call nodes%open(1)
+      do n = 0, 3
+         do k = 1, 2*n + 4
+            call make_step(k, step)
+            step%h = step%h*(1.0_wp + 1.0e-15_wp*k)   ! another step: states of the last one are forgotten
+            call nodes%begin(step)
+            do i = 1, n
+               call add(nodes, step, k, places(i))
+            end do
+            call power(k, step%t0 + step%h, step%y1, step%f1)
+            s = 0.7_wp
+            call nodes%between(step, s, y, f)
+            call power(k, step%t0 + s*step%h, y_true, f_true)
+            missing = 0.0_wp
+            if (k == 2*n + 4) missing = step%h**k*(s*(s - 1.0_wp)*product(s - places(:n)))**2
+            call check_close(error, y_true(1) - y(1), missing, 1.0e-12_wp*y_true(1), "state")
+            if (k < 2*n + 4) call check_close(error, f(1), f_true(1), 1.0e-10_wp*f_true(1), "derivative")
+            if (allocated(error)) return
+         end do
+      end do
+   end subroutine test_exact
+
+   !> A state near another one is not kept; of a step that is still the last one none is forgotten.
+   subroutine test_kept(error)
+      type(error_t), allocatable, intent(out) :: error  !! what failed
+
+      real(wp) :: f(1), y(1), y_before(1)
+      type(step_nodes_t) :: nodes
+      type(step_t) :: step
+
+      call nodes%open(1)
+      call make_step(9, step)
+      call nodes%begin(step)
+      call add(nodes, step, 9, 0.4_wp)
+      call nodes%between(step, 0.6_wp, y_before, f)
+      call add(nodes, step, 9, 0.405_wp)
+      call add(nodes, step, 9, 0.999_wp)
+      nodes%are_of_use = .false.
+      call nodes%begin(step)
+      call nodes%between(step, 0.6_wp, y, f)
+      call check_close(error, y(1), y_before(1), 0.0_wp, "the same states")
+      step%t0 = 1.75_wp
+      call nodes%begin(step)
+      call check_equal(error, merge(1, 0, nodes%are_of_use), 1, "of use in another step")
+   end subroutine test_kept
+
+   !> A checkpoint between two rows of a step changes nothing.
+   subroutine test_memory(error)
+      type(error_t), allocatable, intent(out) :: error  !! what failed
+
+      real(wp) :: f(1), f_again(1), y(1), y_again(1)
+      real(wp), allocatable :: row(:)
+      type(step_nodes_t) :: again, nodes
+      type(step_t) :: step
+      integer :: place
+
+      call nodes%open(1)
+      call again%open(1)
+      call make_step(9, step)
+      call nodes%begin(step)
+      call add(nodes, step, 9, 0.3_wp)
+      call add(nodes, step, 9, 0.8_wp)
+      allocate (row(nodes%memory_size()), source=0.0_wp)
+      place = 0
+      call nodes%save(row, place)
+      call check_equal(error, place, size(row), "numbers")
+      place = 0
+      call again%load(row, place)
+      call again%begin(step)
+      call nodes%between(step, 0.6_wp, y, f)
+      call again%between(step, 0.6_wp, y_again, f_again)
+      call check_close(error, [y_again(1), f_again(1)], [y(1), f(1)], 0.0_wp, "state and derivative")
+   end subroutine test_memory
+
+end module test_step_nodes
