@@ -25,19 +25,20 @@ submodule(radau) radau_equations
 
 contains
 
-   !> Newton's iteration for the stages: with the matrix that is at hand, then with a new one; where it is not known, the step is
-   !> too long for it, or a new one does not do though the step has been shortened for it or cannot be, by GMRES.
+   !> Newton's iteration for the stages: with the matrix that is at hand, then with a new one (not for a row, which steps must not
+   !> depend on); where it is not known, the step is too long for it, or a new one does not do though the step has been shortened
+   !> for it or cannot be, by GMRES.
    module procedure find_stages
       logical :: is_new
 
       call self%set_scales(system, self%step%y0)
       self%first_z(:, :) = self%z
-      is_new = self%is_stale .and. .not. self%is_wide
+      is_new = self%is_stale .and. .not. (self%is_wide .or. self%is_row)
       if (is_new) call renew_matrix(self, system)
       if (self%matrix%is_known .and. .not. self%is_wide) then
          call iterate(self, system, h, is_part, .true., is_found, status)
          if (is_found .or. status < 0) return
-         if (.not. is_new) then
+         if (.not. (is_new .or. self%is_row)) then
             self%z(:, :) = self%first_z
             call renew_matrix(self, system)
             if (self%matrix%is_known) call iterate(self, system, h, is_part, .true., is_found, status)

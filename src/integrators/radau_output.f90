@@ -80,12 +80,17 @@ contains
       real(wp), intent(inout) :: y(:)               !! (n) state [any]
       integer, intent(out) :: status                !! advance_step, or a failure
 
-      real(wp) :: s
+      real(wp) :: contraction, s
+      logical :: is_stale
 
       s = (t - self%step%t0)/self%step%h
+      contraction = self%contraction
+      is_stale = self%is_stale
       self%is_row = .true.
       call self%refine(system, s, y, status)
       self%is_row = .false.
+      self%contraction = contraction
+      self%is_stale = is_stale
       if (status /= advance_step .or. .not. self%nodes%are_of_use) return
       self%count%n_evaluations = self%count%n_evaluations + 1
       call system%evaluate(t, y, self%scratch, status)

@@ -2,7 +2,7 @@
 
 import numpy as np
 import pytest
-from support import ROOT, Run, call, run_with, scratch, written
+from support import ROOT, Run, assert_close, call, changed, run_with, scratch, written
 
 OVERDAMPED = """deck = 1
 [scene]
@@ -48,3 +48,14 @@ def test_film_between_steps(gudgeon):
                     for method, tolerance in (("rock4", "1e-6"), ("radau", "1e-8")))
     greatest = np.max(np.linalg.norm(exact[:, 0, :], axis=-1))
     np.testing.assert_allclose(found, exact, atol=0.05 * greatest)
+
+
+@pytest.mark.parametrize("deck, end, every", [("slider_crank_lubricated", "10 ms", "10 us"), ("hard/stressed_bearing", "0.2 s", "1 ms")])
+def test_steps_do_not_depend_on_rows(gudgeon, deck, end, every):
+    """Ten times as many rows: the same steps, to the bit at the end of the motion; between, film forces differ by what rows may be wrong by."""
+    text = changed((ROOT / "inputs" / f"{deck}.deck").read_text(), "analysis.dynamic", end=end, method="radau")
+    fine, coarse = (run_with(gudgeon, changed(text, "output", every=words, figures=None)) for words in (every, every.replace(" ", "0 ")))
+    assert fine.summary["steps"] == coarse.summary["steps"]
+    assert np.array_equal(fine.read("bodies/position")[-1], coarse.read("bodies/position")[-1])
+    ours, theirs = (run.read("clearances/film_force")[run.read("row_kind") == 0] for run in (fine, coarse))
+    assert_close(ours[::10], theirs, absolute=2e-4 * np.abs(theirs).max(), what="film force")
