@@ -136,7 +136,7 @@ def test_horizon_is_told_not_claimed(gudgeon):
 def test_small_budget_is_told(gudgeon):
     """Enough for some runs: the run is written, and the exit code says that it lacks what was asked for. Enough for none: an error."""
     text = (ROOT / "inputs" / "four_bar.deck").read_text()
-    run = accurate(gudgeon, text, "--accuracy", "1e-9", "--budget", f"{max(1, SLOWNESS // 3)}s", "--write", "numbers", expect=6)
+    run = accurate(gudgeon, text, "--accuracy", "1e-9", "--budget", f"{max(2, SLOWNESS // 3)}s", "--write", "numbers", expect=6)
     assert run.summary["accuracy"]["claim"] in ("none", "reached") and run.summary["status"] == "complete"
     assert "the budget is used up" in run.done.stderr
     none = accurate(gudgeon, text, "--accuracy", "1e-9", "--budget", "1ms", expect=5)

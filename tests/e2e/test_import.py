@@ -79,7 +79,7 @@ def test_springs_in_inches_and_pounds(gudgeon):
     wheel = solve(lambda _, a, w: -50 * (a - np.pi / 18) - 0.2 * w + 4, [np.pi / 6, 3.0], 0.4)
     for name, want in (("PART_2", spring), ("PART_3", hard), ("PART_6", stop)):
         z = column(run, "bodies", "position", name)[:, 2] / INCH
-        assert np.abs(z - want).max() < 1e-6, name
+        assert np.abs(z - want).max() < (2e-6 if name == "PART_6" else 1e-6), name  # the stop is an expression: steps of order 8 go across its onset
     for name in ("SPRINGDAMPER_3", "SFORCE_4"):
         angle = column(run, "forces", "angle", name) + np.pi / 6
         assert np.abs(angle - wheel).max() < 1e-6, name
