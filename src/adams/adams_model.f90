@@ -39,7 +39,7 @@ module adams_model
    type :: adams_model_t
       character(:), allocatable :: title               !! first line
       type(statement_t), allocatable :: statements(:)  !! (n) all
-      integer, allocatable :: joints(:)                !! (joints) places of JOINT among them
+      integer, allocatable :: joints(:)                !! (joints) indices of the JOINT statements
       type(adams_units_t) :: units                     !! of its numbers
       type(part_t), allocatable :: parts(:)            !! (parts) in the order of the dataset
       type(marker_t), allocatable :: markers(:)        !! (markers) in the order of the dataset

@@ -88,10 +88,10 @@ contains
       end associate
    end function motion_of
 
-   !> Look for the least film at the end of a step of a part of the whole, and in a row.
+   !> Update the least film at the end of a step of a part, or at a row of the whole.
    subroutine moments_look(self, part, t)
       class(film_moments_t), intent(inout) :: self  !! the films
-      type(mechanism_t), intent(in) :: part         !! the part, or the whole, its motion that of the time
+      type(mechanism_t), intent(in) :: part         !! the part or the whole, evaluated at this time
       real(wp), intent(in) :: t                     !! the time [s]
 
       type(film_motion_t) :: motion

@@ -9,7 +9,7 @@ module peak_bracket
    private
    public :: bracket_t, find_bends
 
-   real(wp), parameter, public :: gain = 1.0e-11_wp  !! rise that is worth another instant, of the extreme [1]
+   real(wp), parameter, public :: gain = 1.0e-11_wp  !! rise at which the search ends, over the extreme [1]
    real(wp), parameter :: at_row = 1.0e-9_wp   !! least distance from a row, of that between rows [1]
    integer, parameter, public :: most_instants = 6  !! instants looked at for one extreme
 

@@ -6,7 +6,8 @@
 !> without force to another is U at the one less U at the other. So the loss of a contact is
 !>
 !> z + amends                from a step that ends with a force: z the quadrature
-!> held - U                  from the first to the last step end without a force, held = z + amends + U at either
+!> held - U                  from the first to the last step end without a force, held = z + amends + U at either; not in a
+!>                           row of the step before, where the force still acts
 !>
 !> with amends such that the one goes over into the other. The step in which the force is cut off is held to its error by the force
 !> itself. A contact that ends puts its amends into the quadrature.
@@ -59,7 +60,7 @@ contains
          lost = quadrature + contact%amends
          if (.not. contact%is_cut_off) return
          call set%watch(k, motion, delta, rate, force, force_rate)
-         if (force > 0.0_wp) return  ! within the step at whose end the force is none
+         if (force > 0.0_wp) return  ! a row before the force vanishes at the end of the step
          lost = contact%held - set%laws%normal%potential(max(delta, 0.0_wp), set%laws%parameters(:, k))
       end associate
    end function lost_by_damping

@@ -6,8 +6,8 @@ submodule(auto) auto_parts
    use step_course, only: course_even
    implicit none (type, external)
 
-   real(wp), parameter :: in_films = 0.01_wp           !! tolerance of the implicit method over TOL, where films act [1]
-   real(wp), parameter :: least_in_films = 1.0e-12_wp  !! that it does not make less [1]
+   real(wp), parameter :: in_films = 0.01_wp           !! tolerance of the implicit method over TOL where films act [1]
+   real(wp), parameter :: least_in_films = 1.0e-12_wp  !! least tolerance that this factor leads to [1]
 
 contains
 
@@ -89,8 +89,8 @@ contains
       end associate
    end procedure lend_state
 
-   !> Where films act the explicit method, whose steps stability keeps short, is far more accurate than it is asked to be, and the
-   !> forces of films show it: there the implicit one has a hundredth of its tolerance.
+   !> Film forces amplify errors of states. Stability keeps explicit steps short, so that their error is far below the tolerance.
+   !> The implicit method has a hundredth of the tolerance where films act, to be as accurate.
    module procedure implicit_controls
       controls = self%controls
       if (system%traits%has_films) then

@@ -22,8 +22,8 @@
 !> Between the ends of a step: positions and rates by the quintic of `interpolation`, without evaluations within the step, which
 !> stiff forces would make worse, and in a step with a force so stiff that accelerations tell nothing (`is_stiff`), by the stages
 !> alone; other states and quadratures by the integral of the cubic through the derivatives at the start and at the stages, of
-!> order 5. Rows of such a step, and where films act, are reached by a step of that length from its start, or by the polynomial
-!> through states that were made so (`radau_reach`).
+!> order 5. A row within such a step, or where films act, is the end of a shorter step from the same start. The rows computed so
+!> are nodes of a Hermite polynomial, which gives the other rows of the step where its residual is small (`radau_reach`).
 !>
 !> Source: E. Hairer and G. Wanner, Solving Ordinary Differential Equations II, 2nd ed. (1996), section IV.8. Limits: where there
 !> are more freedoms than `radau_matrix` takes, and more than some ten forces are stiff, each in its own way, GMRES needs as many
@@ -60,7 +60,7 @@ module radau
       logical :: is_stale = .true.              !! whether it is to be made anew before the next step
       logical :: has_failed = .false.           !! whether the iteration with a new one has in the step in hand
       logical :: is_wide = .false.              !! whether the step in hand is longer than it can do
-      logical :: is_row = .false.               !! whether a part of a step is for a row, and not for a search
+      logical :: is_row = .false.               !! whether a part of a step gives a row; else it locates an event
       real(wp) :: h_matrix = huge(1.0_wp)       !! longest step with it [s]
       real(wp) :: h_gmres = huge(1.0_wp)        !! longest step by GMRES [s]
       type(anderson_t) :: secants               !! acceleration of the iteration with it
@@ -68,7 +68,7 @@ module radau
       type(krylov_solver_t) :: filter_solver    !! GMRES for the filter
       type(stages_t) :: before                  !! stages of the step before the one in hand
       type(stages_t) :: now                     !! of the step in hand, as a whole
-      type(step_nodes_t) :: nodes               !! states for rows in it
+      type(step_nodes_t) :: nodes               !! rows computed in the last step, nodes of its polynomial
       real(wp), allocatable :: z(:, :)          !! (n, 3) changes at the stages in hand [any]
       real(wp), allocatable :: first_z(:, :)    !! (n, 3) where an iteration begins [any]
       real(wp), allocatable :: side(:)          !! (3 n) right side of Newton's equations [any]
@@ -132,15 +132,15 @@ module radau
          real(wp), intent(in) :: h                  !! length of the step [s]
       end function radau_error_norm
 
-      !> By how much a state of the last step is to be changed: norm of (I - h J/u)^-1 h/u r, r the residual of the equations there,
-      !> over the error that Newton's iteration may leave in a row.
-      module subroutine filter_rest(self, system, left, status)
+      !> Error of a state within the last step by the residual r = f - y' there: norm of (I - h J/u)^-1 h/u r, over the error that
+      !> Newton's iteration may leave in a row.
+      module subroutine filter_residual(self, system, error, status)
          implicit none (type, external)
          class(radau_t), intent(inout) :: self                 !! the integrator; `side` is r
          class(ode_system_t), intent(inout), target :: system  !! the system
-         real(wp), intent(out) :: left                         !! the norm [1]
+         real(wp), intent(out) :: error                        !! the norm [1]
          integer, intent(out) :: status                        !! of the evaluations
-      end subroutine filter_rest
+      end subroutine filter_residual
 
       !> The right-hand side at the stages.
       module subroutine evaluate_stages(self, system, h, status)

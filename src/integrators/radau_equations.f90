@@ -17,7 +17,7 @@ submodule(radau) radau_equations
    real(wp), parameter :: hopeless = 2.0_wp             !! ratio of successive changes at which the iteration is given up [1]
    real(wp), parameter :: out_of_reach = 1.0_wp/sqrt(eps)  !! change of the stages over the scales that no motion makes [1]
    real(wp), parameter :: part_of_tolerance = 0.03_wp   !! of TOL': error left by the iteration, at most [1]
-   real(wp), parameter :: part_for_rows = 1.0e-2_wp       !! of that, in a row: film forces there as at ends [1]
+   real(wp), parameter :: part_for_rows = 1.0e-2_wp       !! the same in a row, over that in a step [1]
    real(wp), parameter :: conservative = 3.0_wp         !! ratio of that, as it is estimated with the matrix, to what is left [1]
    real(wp), parameter :: noise = 10.0_wp*eps           !! least error of the iteration, over the scales [1]
    real(wp), parameter :: left_by_gmres(2) = [3.0e-4_wp, 1.0e-2_wp]  !! (2) of the residual of Newton's equations: least, most [1]
@@ -293,7 +293,7 @@ contains
             side(i) = (h*self%step%f0(i) + e(1)*self%z(i, 1) + e(2)*self%z(i, 2) + e(3)*self%z(i, 3))/real_eigenvalue
          end do
          noisy = max(noisy, greatest(self, side))
-         call apply_filter()
+         call filter_side(self, system, h, status)
          if (status == 0) self%norm = greatest(self, estimate)/lenient(self%controls%tolerance)
          self%is_stiff = status == 0 .and. noisy > stiff*greatest(self, estimate)
          if (status == 0 .and. self%norm > 1.0_wp .and. self%before%h <= 0.0_wp) then
@@ -302,23 +302,16 @@ contains
             self%count%n_evaluations = self%count%n_evaluations + 1
             call system%evaluate(self%step%t0, self%y, filter%rate, status)
             side(:) = side + h/real_eigenvalue*(filter%rate(:n) - self%step%f0(:n))
-            if (status == 0) call apply_filter()
+            if (status == 0) call filter_side(self, system, h, status)
             if (status == 0) self%norm = greatest(self, estimate)/lenient(self%controls%tolerance)
          end if
          nullify (filter%system)
          self%count%n_evaluations = self%count%n_evaluations + filter%n_evaluation
       end associate
 
-   contains
-
-      !> The filter.
-      subroutine apply_filter()
-         call filter_side(self, system, h, status)
-      end subroutine apply_filter
-
    end procedure estimate_error
 
-   !> The filter: `change` from `side`, of the first n entries.
+   !> Filter of the error: change = (I - h J/u)^-1 side, of the first n entries.
    subroutine filter_side(self, system, h, status)
       class(radau_t), intent(inout) :: self          !! the integrator, differences begun
       class(ode_system_t), intent(in) :: system      !! the system
@@ -335,8 +328,8 @@ contains
       end associate
    end subroutine filter_side
 
-   !> Norm of the filtered defect of a state.
-   module procedure filter_rest
+   !> Norm of the filtered residual.
+   module procedure filter_residual
       real(wp) :: h
 
       h = self%step%h
@@ -346,11 +339,11 @@ contains
       self%filter%h = h
       self%side(:self%n) = h/real_eigenvalue*self%side(:self%n)
       call filter_side(self, system, h, status)
-      left = greatest(self, self%change(:self%n)) &
+      error = greatest(self, self%change(:self%n)) &
              /max(noise, part_for_rows*left_in_steps(lenient(self%controls%tolerance), self%matrix%is_known))
       nullify (self%filter%system)
       self%count%n_evaluations = self%count%n_evaluations + self%filter%n_evaluation
-   end procedure filter_rest
+   end procedure filter_residual
 
    !> Norm of the error estimate, or that of the quadratures.
    module procedure radau_error_norm

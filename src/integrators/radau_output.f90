@@ -9,7 +9,7 @@ submodule(radau) radau_output
    use interpolation, only: interpolate
    implicit none (type, external)
 
-   real(wp), parameter :: hopeless = 100.0_wp  !! times what it may be is wrong of a polynomial that more states do not mend [1]
+   real(wp), parameter :: hopeless = 100.0_wp  !! error over the one allowed, above which more nodes are not tried [1]
 
 contains
 
@@ -22,19 +22,19 @@ contains
       self%count%n_output_evaluations = self%count%n_output_evaluations + self%count%n_evaluations
    end procedure radau_prepare_output
 
-   !> Films multiply what a curve is wrong by. By the polynomial through the states of this step that were made already, where the
-   !> equations agree with it; else by a step of that length, whose state then is one of these.
+   !> Film forces amplify errors of interpolated states. The Hermite polynomial gives the row if its residual is small; else a step
+   !> of that length does, whose end becomes another node.
    module procedure radau_reach
-      logical :: is_made
+      logical :: is_accurate
       integer :: status
 
       if ((self%is_stiff .or. system%traits%has_films) .and. t > self%step%t0 .and. t < self%t) then
          self%count%n_output_evaluations = self%count%n_output_evaluations - self%count%n_evaluations
          call self%nodes%begin(self%step)
-         is_made = .false.
-         status = 0
-         if (self%nodes%are_of_use) call follow_nodes(self, system, t, y, is_made, status)
-         if (status == 0 .and. .not. is_made) call make_node(self, system, t, y, status)
+         status = advance_step
+         is_accurate = .false.
+         if (self%nodes%are_of_use) call interpolate_nodes(self, system, t, y, is_accurate)
+         if (.not. is_accurate) call make_node(self, system, t, y, status)
          self%count%n_output_evaluations = self%count%n_output_evaluations + self%count%n_evaluations
          if (status == advance_step) return
       end if
@@ -42,22 +42,21 @@ contains
       call self%state_at(system, t, y)
    end procedure radau_reach
 
-   !> State at a time within the last step by the polynomial, and whether the equations agree with it: what they ask to be changed,
-   !> (I - h J/u)^-1 h/u (f - y'), is no more than Newton's iteration may leave.
-   subroutine follow_nodes(self, system, t, y, agrees, status)
+   !> State at a time within the last step by the Hermite polynomial. It is accurate if its error, estimated by the residual f - y',
+   !> is at most that which Newton's iteration may leave in a row.
+   subroutine interpolate_nodes(self, system, t, y, is_accurate)
       class(radau_t), intent(inout) :: self         !! the integrator
       class(ode_system_t), intent(inout) :: system  !! the system
       real(wp), intent(in) :: t                     !! time [s]
       real(wp), intent(inout) :: y(:)               !! (n) state [any]
-      logical, intent(out) :: agrees                !! whether they do
-      integer, intent(out) :: status                !! of the evaluations
+      logical, intent(out) :: is_accurate           !! whether it is
 
-      real(wp) :: left
-      integer :: i
+      real(wp) :: error
+      integer :: i, status
 
-      agrees = .false.
+      is_accurate = .false.
       associate (f => self%scratch, f_here => self%y)
-         call self%nodes%between(self%step, (t - self%step%t0)/self%step%h, y, f)
+         call self%nodes%interpolate(self%step, (t - self%step%t0)/self%step%h, y, f)
          status = 0
          if (system%holds) call system%hold(t, y, status)
          self%count%n_evaluations = self%count%n_evaluations + 1
@@ -67,12 +66,12 @@ contains
             self%side(i) = f_here(i) - f(i)
          end do
       end associate
-      call filter_rest(self, system, left, status)
-      agrees = status == 0 .and. left <= 1.0_wp
-      self%nodes%are_of_use = agrees .or. left <= hopeless
-   end subroutine follow_nodes
+      call filter_residual(self, system, error, status)
+      is_accurate = status == 0 .and. error <= 1.0_wp
+      self%nodes%are_of_use = is_accurate .or. error <= hopeless
+   end subroutine interpolate_nodes
 
-   !> State at a time within the last step by a step of that length, kept for others.
+   !> State at a time within the last step by a step of that length; it becomes a node. Restores what the next step depends on.
    subroutine make_node(self, system, t, y, status)
       class(radau_t), intent(inout) :: self         !! the integrator
       class(ode_system_t), intent(inout) :: system  !! the system

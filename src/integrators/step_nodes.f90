@@ -1,4 +1,4 @@
-!> States within a step, and the polynomial of Hermite through them and the ends of the step.
+!> States within a step, the nodes of a Hermite polynomial with the two ends of the step.
 !>
 !> With places s_k of the step, 0 and 1 among them, and l_k the polynomials of Lagrange through them,
 !>
@@ -14,14 +14,14 @@ module step_nodes
    private
    public :: step_nodes_t
 
-   integer, parameter :: most = 3                      !! states within a step that are kept
-   real(wp), parameter :: least_distance = 0.02_wp     !! of the places of two [1]
+   integer, parameter :: most = 3                      !! nodes within a step, at most
+   real(wp), parameter :: least_distance = 0.02_wp     !! between two nodes, over the length of the step [1]
 
    !> The states of one step.
    type :: step_nodes_t
-      logical :: are_of_use = .true.       !! whether the polynomial may be near the motion
+      logical :: are_of_use = .true.       !! whether the polynomial may be accurate enough
       real(wp), private :: t0 = 0.0_wp     !! start of the step [s]
-      real(wp), private :: h = 0.0_wp      !! its length, 0: there are none [s]
+      real(wp), private :: h = 0.0_wp      !! its length, 0 before the first step [s]
       integer, private :: n = 0            !! states within it
       real(wp), private :: s(most) = 0.0_wp  !! (n) their places in the step [1]
       real(wp), allocatable, private :: y(:, :)  !! (all, most) the states [any]
@@ -30,7 +30,7 @@ module step_nodes
       procedure :: open => nodes_open
       procedure :: begin => nodes_begin
       procedure :: add => nodes_add
-      procedure :: between => nodes_between
+      procedure :: interpolate => nodes_interpolate
       procedure :: memory_size => nodes_memory_size
       procedure :: save => nodes_save
       procedure :: load => nodes_load
@@ -46,7 +46,7 @@ contains
       allocate (self%y(n, most), self%f(n, most), source=0.0_wp)
    end subroutine nodes_open
 
-   !> Forget those of another step.
+   !> Discard the nodes of another step.
    pure subroutine nodes_begin(self, step)
       class(step_nodes_t), intent(inout) :: self  !! the states
       type(step_t), intent(in) :: step            !! the step
@@ -58,7 +58,7 @@ contains
       self%are_of_use = .true.
    end subroutine nodes_begin
 
-   !> Keep a state, if there is room and none near it.
+   !> Add a node, unless the storage is full or another node is too near.
    pure subroutine nodes_add(self, s, y, f)
       class(step_nodes_t), intent(inout) :: self  !! the states
       real(wp), intent(in) :: s                   !! its place in the step, 0 to 1 [1]
@@ -73,7 +73,7 @@ contains
    end subroutine nodes_add
 
    !> State and derivative at a place of the step.
-   pure subroutine nodes_between(self, step, s, y, f)
+   pure subroutine nodes_interpolate(self, step, s, y, f)
       class(step_nodes_t), intent(in) :: self  !! the states
       type(step_t), intent(in) :: step         !! the step that they are of
       real(wp), intent(in) :: s                !! the place, 0 to 1 [1]
@@ -97,12 +97,12 @@ contains
          y = y + factor(1)*self%y(:, k) + factor(2)*self%f(:, k)
          f = f + factor(3)*self%y(:, k) + factor(4)*self%f(:, k)
       end do
-   end subroutine nodes_between
+   end subroutine nodes_interpolate
 
-   !> What y_k and f_k are multiplied by: in y(s), then in its derivative by time.
+   !> Coefficients of y_k and f_k in y(s), and in its derivative by time.
    pure function factors(places, k, s, h) result(found)
       real(wp), intent(in) :: places(:)   !! (any) s_k [1]
-      integer, intent(in) :: k            !! the one in question
+      integer, intent(in) :: k            !! the node
       real(wp), intent(in) :: s           !! the place, 0 to 1 [1]
       real(wp), intent(in) :: h           !! length of the step [s]
       real(wp) :: found(4)                !! (4) of y_k [1], of f_k [s], and their derivatives [1/s, 1]

@@ -126,7 +126,7 @@ contains
                   extreme%error = not_a_number()
                   cycle
                end if
-               ! round-off of the numbers themselves, and the rise that no search is made for, are in no difference of runs
+               ! differences of runs contain neither round-off of the numbers nor the rise at which the search for extremes ends
                size_of = max(abs(extreme%least), abs(extreme%most))
                extreme%error = found%evidence%factor*max(error(k), of_kind*of_kinds(run%kind(k))*extreme%scale, &
                                                 epsilon(1.0_wp)*max(size_of, extreme%scale)) + least_gain*size_of

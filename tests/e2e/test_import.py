@@ -17,11 +17,11 @@ INCH = 0.0254
 
 
 @functools.cache
-def imported(program, name, end="1s", every="10ms"):
+def imported(program, name, end="1s", every="10ms", tolerance="1e-10"):
     """The run of an imported model, and what the import said."""
     folder = scratch()
     said = call(program, "import", MODELS / f"{name}.adm", cwd=folder).stdout
-    call(program, "run", f"{name}.deck", "--set", f"end={end}", "--set", f"every={every}", "--tolerance", "1e-10", "--quiet", cwd=folder)
+    call(program, "run", f"{name}.deck", "--set", f"end={end}", "--set", f"every={every}", "--tolerance", tolerance, "--quiet", cwd=folder)
     return h5py.File(folder / "outputs" / name / "run.h5"), said
 
 
@@ -62,7 +62,7 @@ def test_slider_crank_in_any_order(gudgeon):
 
 def test_springs_in_inches_and_pounds(gudgeon):
     """SPRINGDAMPER, and the same forces as expressions, against the equations in the dataset's own units."""
-    run, said = imported(gudgeon, "springs")
+    run, said = imported(gudgeon, "springs", tolerance="1e-11")
     t = run["time"][:]
     smooth = lambda u: np.clip(u, 0, 1) ** 2 * (3 - 2 * np.clip(u, 0, 1))  # noqa: E731
 
@@ -79,7 +79,7 @@ def test_springs_in_inches_and_pounds(gudgeon):
     wheel = solve(lambda _, a, w: -50 * (a - np.pi / 18) - 0.2 * w + 4, [np.pi / 6, 3.0], 0.4)
     for name, want in (("PART_2", spring), ("PART_3", hard), ("PART_6", stop)):
         z = column(run, "bodies", "position", name)[:, 2] / INCH
-        assert np.abs(z - want).max() < (2e-6 if name == "PART_6" else 1e-6), name  # the stop is an expression: steps of order 8 go across its onset
+        assert np.abs(z - want).max() < 1e-6, name
     for name in ("SPRINGDAMPER_3", "SFORCE_4"):
         angle = column(run, "forces", "angle", name) + np.pi / 6
         assert np.abs(angle - wheel).max() < 1e-6, name
@@ -378,7 +378,7 @@ def test_a_directory_is_made(gudgeon):
 
 
 def test_import_takes_time_in_proportion(gudgeon):
-    """Thousands of statements, and thousands of lines of one statement: eight times as many take less than 24 times as long (64 by the square)."""
+    """Thousands of statements, and thousands of lines of one statement: eight times as many take less than 20 times as long (64 by the square)."""
     folder = scratch()
     spent = []
     for n in (2000, 16000):
@@ -391,7 +391,7 @@ def test_import_takes_time_in_proportion(gudgeon):
             assert "SPLINE/1" in call(gudgeon, "import", f"m{n}.adm", *(["--out", f"again{n}.deck"] if k else []), cwd=folder).stdout
             times.append(os.times().children_user - began)
         spent.append(min(times))
-    assert spent[1] < 24 * max(spent[0], 0.05), spent
+    assert spent[1] < 20 * max(spent[0], 0.05), spent
 
 
 def test_what_is_left_out_is_named_with_its_line(gudgeon):

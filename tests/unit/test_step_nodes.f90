@@ -77,7 +77,7 @@ contains
             end do
             call power(k, step%t0 + step%h, step%y1, step%f1)
             s = 0.7_wp
-            call nodes%between(step, s, y, f)
+            call nodes%interpolate(step, s, y, f)
             call power(k, step%t0 + s*step%h, y_true, f_true)
             missing = 0.0_wp
             if (k == 2*n + 4) missing = step%h**k*(s*(s - 1.0_wp)*product(s - places(:n)))**2
@@ -100,12 +100,12 @@ contains
       call make_step(9, step)
       call nodes%begin(step)
       call add(nodes, step, 9, 0.4_wp)
-      call nodes%between(step, 0.6_wp, y_before, f)
+      call nodes%interpolate(step, 0.6_wp, y_before, f)
       call add(nodes, step, 9, 0.405_wp)
       call add(nodes, step, 9, 0.999_wp)
       nodes%are_of_use = .false.
       call nodes%begin(step)
-      call nodes%between(step, 0.6_wp, y, f)
+      call nodes%interpolate(step, 0.6_wp, y, f)
       call check_close(error, y(1), y_before(1), 0.0_wp, "the same states")
       step%t0 = 1.75_wp
       call nodes%begin(step)
@@ -135,8 +135,8 @@ contains
       place = 0
       call again%load(row, place)
       call again%begin(step)
-      call nodes%between(step, 0.6_wp, y, f)
-      call again%between(step, 0.6_wp, y_again, f_again)
+      call nodes%interpolate(step, 0.6_wp, y, f)
+      call again%interpolate(step, 0.6_wp, y_again, f_again)
       call check_close(error, [y_again(1), f_again(1)], [y(1), f(1)], 0.0_wp, "state and derivative")
    end subroutine test_memory
 
