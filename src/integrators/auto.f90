@@ -1,6 +1,6 @@
 !> The method of integration chosen as the motion goes on: explicit, or implicit where the equations are stiff.
 !>
-!> Explicit steps are those of `dop853`, of order 8, at tolerances below `order_8_below`, and of `verner`, of order 6, at looser
+!> Explicit steps are those of `dop853`, of order 8, at tolerances up to `order_8_up_to`, and of `verner`, of order 6, at looser
 !> ones: to the bit those of that method, as long as no others are made. Where stability, not accuracy, keeps them short
 !> (`stability_limit`), and now and then in any case, Radau IIA (`radau`) is tried; it makes the next steps where it needs fewer
 !> evaluations for the same stretch of time (`method_choice`, `method_trial`). The explicit method comes back in the same way.
@@ -31,9 +31,9 @@ module auto
    use verner, only: verner_bound, verner_stages_t, verner_t
    implicit none (type, external)
    private
-   public :: auto_t, order_8_below
+   public :: auto_t, order_8_up_to
 
-   real(wp), parameter :: order_8_below = 1.0e-8_wp  !! tolerance below which explicit steps are of order 8 [1]
+   real(wp), parameter :: order_8_up_to = 1.0e-8_wp  !! tolerance at and below which explicit steps are of order 8 [1]
    integer, parameter :: n_trial_step(2) = [16, 10]  !! (implicit, explicit) steps of a trial
 
    !> The method, with its parts.
@@ -198,7 +198,7 @@ contains
       type(kind_info_t) :: info  !! name and help
 
       info%name = "auto"
-      info%help = "chosen as the motion goes on: explicit of order 6 (verner), or 8 (dop853) at tolerances below 1e-8; radau " &
+      info%help = "chosen as the motion goes on: explicit of order 8 (dop853), or 6 (verner) at tolerances above 1e-8; radau " &
                   //"where the equations are stiff"
       info%source = "Petzold (1983); Hairer and Wanner (1996)"
    end function auto_info
@@ -223,7 +223,7 @@ contains
       integer, intent(in) :: n              !! entries of the state
 
       self%can_change = may_change(self)
-      self%is_eighth = self%can_change .and. self%controls%tolerance < order_8_below
+      self%is_eighth = self%can_change .and. self%controls%tolerance <= order_8_up_to
       self%is_implicit = .false.
       if (allocated(self%stiff)) deallocate (self%stiff)
       if (allocated(self%saved)) deallocate (self%saved)

@@ -16,7 +16,7 @@ contains
    module procedure auto_list_memory
       call integrator_list_memory(self, pieces)
       pieces(size(pieces))%size = pieces(size(pieces))%size - size_of_part(self)
-      call add_piece(pieces, "implicit part of method = auto", 2, size_of_part(self), is_fixed=.false.)
+      call add_piece(pieces, "implicit part of method = auto", 3, size_of_part(self), is_fixed=.false.)
    end procedure auto_list_memory
 
    !> Version of the form of what is saved.

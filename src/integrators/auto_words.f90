@@ -13,10 +13,10 @@ contains
       may_change = self%controls%fixed_step <= 0.0_wp .and. self%controls%onset == onset_located
       if (.not. may_change) then
          words = "its steps: those of verner, as they are fixed or onsets of contacts are not located"
-      else if (self%controls%tolerance < order_8_below) then
-         words = "its steps: explicit of order 8 (dop853: the tolerance is below "//real_text(order_8_below, 1)//")"
+      else if (self%controls%tolerance <= order_8_up_to) then
+         words = "its steps: explicit of order 8 (dop853: the tolerance is at most "//real_text(order_8_up_to, 1)//")"
       else
-         words = "its steps: explicit of order 6 (verner: the tolerance is not below "//real_text(order_8_below, 1)//")"
+         words = "its steps: explicit of order 6 (verner: the tolerance is above "//real_text(order_8_up_to, 1)//")"
       end if
       if (may_change) words = words//"; implicit (radau) where stability keeps these short and it takes fewer evaluations"
    end procedure parts_in_words

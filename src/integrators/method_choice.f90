@@ -2,8 +2,9 @@
 !>
 !> The other method is tried first: some steps from the present state, which are then discarded (`method_trial`). They take n
 !> evaluations to come to a time t_1. The present method goes on from the same state. If it takes `advantage` n evaluations to
-!> come to t_1, or before it comes there, the other method makes the next steps. Else the present one remains, and the next trial
-!> waits until the last one is a small part of all evaluations, each time twice as long.
+!> come to t_1, or before it comes there, the other method makes the next steps. So it does where `usual_trial` evaluations show
+!> that it will take `decisive` times as many. Else the present one remains, and the next trial waits until the last one is a small
+!> part of all evaluations, each time twice as long.
 !>
 !> The implicit method is tried where stability keeps the explicit steps short (`stability_limit`), and in any case after
 !> `first_regular` evaluations, twice as many, four times as many, and so on. The explicit method is tried now and then, and
@@ -22,11 +23,12 @@ module method_choice
 
    integer, parameter :: most_changes = 8        !! changes that are reported with their time
    integer, parameter :: n_choice_number = 17 + 2*most_changes  !! numbers of a checkpoint
-   real(wp), parameter :: advantage(2) = [2.0_wp, 1.0_wp]  !! (to implicit, to explicit) evaluations of the present method over
+   real(wp), parameter :: advantage(2) = [4.0_wp, 1.0_wp]  !! (to implicit, to explicit) evaluations of the present method over
                                                            !! those of the other one, from which on it is left [1]
    integer(i8), parameter :: first_regular = 6000_i8       !! evaluations after which the implicit method is tried in any case
    integer(i8), parameter :: first_wait = 20_i8  !! evaluations until the next trial, of those of the last one
-   integer(i8), parameter :: usual_trial = 100_i8          !! evaluations that the first trial after a change is thought to take
+   integer(i8), parameter :: usual_trial = 100_i8          !! evaluations of a usual trial
+   real(wp), parameter :: decisive = 10.0_wp     !! expected evaluations over those that end a comparison, which end it early [1]
    integer(i8), parameter :: longest_wait(2) = [2_i8**40, 80_i8]  !! (of the implicit, of the explicit method) the same, at most
 
    !> The choice, and what the next one hangs on.
@@ -97,15 +99,16 @@ contains
       real(wp), intent(in) :: t                     !! time [s]
       integer(i8), intent(in) :: n_evaluation       !! evaluations so far
 
-      real(wp) :: n_most, n_used
+      real(wp) :: expected, n_most, n_used
 
       if (.not. self%is_comparing) return
       associate (trial => self%trial)
          n_used = real(n_evaluation - self%n_begin, wp)
-         if (t > trial%t_end) n_used = n_used*(trial%t_end - trial%t_begin)/(t - trial%t_begin)
+         expected = n_used*(trial%t_end - trial%t_begin)/max(t - trial%t_begin, tiny(1.0_wp))
+         if (t > trial%t_end) n_used = expected
          n_most = advantage(merge(2, 1, self%is_implicit))*real(trial%n_evaluation, wp)
       end associate
-      if (n_used >= n_most) then
+      if (n_used >= n_most .or. (n_used >= usual_trial .and. expected >= decisive*n_most)) then
          call change(self, t, n_evaluation)
       else if (t >= self%trial%t_end) then
          call lose(self)

@@ -22,8 +22,8 @@
 !> Between the ends of a step: positions and rates by the quintic of `interpolation`, without evaluations within the step, which
 !> stiff forces would make worse, and in a step with a force so stiff that accelerations tell nothing (`is_stiff`), by the stages
 !> alone; other states and quadratures by the integral of the cubic through the derivatives at the start and at the stages, of
-!> order 5. A row within such a step, or where films act, is the end of a shorter step from the same start. The rows computed so
-!> are nodes of a Hermite polynomial, which gives the other rows of the step where its residual is small (`radau_reach`).
+!> order 5. A row within such a step, or where films act, is the end of a shorter step from the same start. States computed so
+!> are nodes of a polynomial, which gives the other rows of the step where its residual is small (`radau_reach`).
 !>
 !> Source: E. Hairer and G. Wanner, Solving Ordinary Differential Equations II, 2nd ed. (1996), section IV.8. Limits: where there
 !> are more freedoms than `radau_matrix` takes, and more than some ten forces are stiff, each in its own way, GMRES needs as many
@@ -68,7 +68,7 @@ module radau
       type(krylov_solver_t) :: filter_solver    !! GMRES for the filter
       type(stages_t) :: before                  !! stages of the step before the one in hand
       type(stages_t) :: now                     !! of the step in hand, as a whole
-      type(step_nodes_t) :: nodes               !! rows computed in the last step, nodes of its polynomial
+      type(step_nodes_t) :: nodes               !! states computed within the last step
       real(wp), allocatable :: z(:, :)          !! (n, 3) changes at the stages in hand [any]
       real(wp), allocatable :: first_z(:, :)    !! (n, 3) where an iteration begins [any]
       real(wp), allocatable :: side(:)          !! (3 n) right side of Newton's equations [any]
@@ -133,7 +133,7 @@ module radau
       end function radau_error_norm
 
       !> Error of a state within the last step by the residual r = f - y' there: norm of (I - h J/u)^-1 h/u r, over the error that
-      !> Newton's iteration may leave in a row.
+      !> a row may have.
       module subroutine filter_residual(self, system, error, status)
          implicit none (type, external)
          class(radau_t), intent(inout) :: self                 !! the integrator; `side` is r

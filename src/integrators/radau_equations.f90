@@ -17,7 +17,7 @@ submodule(radau) radau_equations
    real(wp), parameter :: hopeless = 2.0_wp             !! ratio of successive changes at which the iteration is given up [1]
    real(wp), parameter :: out_of_reach = 1.0_wp/sqrt(eps)  !! change of the stages over the scales that no motion makes [1]
    real(wp), parameter :: part_of_tolerance = 0.03_wp   !! of TOL': error left by the iteration, at most [1]
-   real(wp), parameter :: part_for_rows = 1.0e-2_wp       !! the same in a row, over that in a step [1]
+   real(wp), parameter :: part_in_rows = 0.1_wp         !! of TOL: error left in a row, at most [1]
    real(wp), parameter :: conservative = 3.0_wp         !! ratio of that, as it is estimated with the matrix, to what is left [1]
    real(wp), parameter :: noise = 10.0_wp*eps           !! least error of the iteration, over the scales [1]
    real(wp), parameter :: left_by_gmres(2) = [3.0e-4_wp, 1.0e-2_wp]  !! (2) of the residual of Newton's equations: least, most [1]
@@ -85,7 +85,7 @@ contains
       most = n_newton(merge(2, 1, is_part))
       tolerance = lenient(self%controls%tolerance)
       enough = left_in_steps(tolerance, by_matrix)
-      if (is_part) enough = max(noise, part_for_rows*enough)
+      if (is_part) enough = left_in_rows(self%controls%tolerance)
       least = merge(noise, enough, is_search .or. (by_matrix .and. self%controls%fixed_step > 0.0_wp))
       eta = min(max(left_by_gmres(1), 10.0_wp*tolerance), left_by_gmres(2))
       if (is_search) eta = left_by_gmres(1)
@@ -148,6 +148,13 @@ contains
 
       left_in_steps = max(noise, tolerance*min(part_of_tolerance, merge(conservative, 1.0_wp, by_matrix)*sqrt(tolerance)))
    end function left_in_steps
+
+   !> Error that the iteration, or interpolation, may leave in a row.
+   pure real(wp) function left_in_rows(tolerance)
+      real(wp), intent(in) :: tolerance  !! TOL [1]
+
+      left_in_rows = max(noise, part_in_rows*tolerance)
+   end function left_in_rows
 
    !> Newton's equations with the matrix.
    subroutine solve_by_matrix(self, system, n, side, change)
@@ -339,8 +346,7 @@ contains
       self%filter%h = h
       self%side(:self%n) = h/real_eigenvalue*self%side(:self%n)
       call filter_side(self, system, h, status)
-      error = greatest(self, self%change(:self%n)) &
-             /max(noise, part_for_rows*left_in_steps(lenient(self%controls%tolerance), self%matrix%is_known))
+      error = greatest(self, self%change(:self%n))/left_in_rows(self%controls%tolerance)
       nullify (self%filter%system)
       self%count%n_evaluations = self%count%n_evaluations + self%filter%n_evaluation
    end procedure filter_residual

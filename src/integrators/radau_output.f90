@@ -9,7 +9,7 @@ submodule(radau) radau_output
    use interpolation, only: interpolate
    implicit none (type, external)
 
-   real(wp), parameter :: hopeless = 100.0_wp  !! error over the one allowed, above which more nodes are not tried [1]
+   real(wp), parameter :: hopeless = 100.0_wp  !! error over the one allowed, above which a full set of nodes is of no use [1]
 
 contains
 
@@ -22,39 +22,65 @@ contains
       self%count%n_output_evaluations = self%count%n_output_evaluations + self%count%n_evaluations
    end procedure radau_prepare_output
 
-   !> Film forces amplify errors of interpolated states. The Hermite polynomial gives the row if its residual is small; else a step
-   !> of that length does, whose end becomes another node.
+   !> Film forces amplify errors of interpolated states. The polynomial through the nodes gives the row if its residual is small.
+   !> Else nodes are added where they lie far apart, and in the end the row itself becomes one, by a step of that length.
    module procedure radau_reach
-      logical :: is_accurate
+      logical :: is_given
       integer :: status
 
       if ((self%is_stiff .or. system%traits%has_films) .and. t > self%step%t0 .and. t < self%t) then
          self%count%n_output_evaluations = self%count%n_output_evaluations - self%count%n_evaluations
-         call self%nodes%begin(self%step)
-         status = advance_step
-         is_accurate = .false.
-         if (self%nodes%are_of_use) call interpolate_nodes(self, system, t, y, is_accurate)
-         if (.not. is_accurate) call make_node(self, system, t, y, status)
+         call reach_by_nodes(self, system, t, y, is_given)
          self%count%n_output_evaluations = self%count%n_output_evaluations + self%count%n_evaluations
-         if (status == advance_step) return
+         if (is_given) return
       end if
       if (t < self%t) call self%prepare_output(system, status)
       call self%state_at(system, t, y)
    end procedure radau_reach
 
-   !> State at a time within the last step by the Hermite polynomial. It is accurate if its error, estimated by the residual f - y',
-   !> is at most that which Newton's iteration may leave in a row.
-   subroutine interpolate_nodes(self, system, t, y, is_accurate)
+   !> State at a time within the last step by the polynomial through the nodes, or by a step of that length.
+   subroutine reach_by_nodes(self, system, t, y, is_given)
       class(radau_t), intent(inout) :: self         !! the integrator
       class(ode_system_t), intent(inout) :: system  !! the system
       real(wp), intent(in) :: t                     !! time [s]
       real(wp), intent(inout) :: y(:)               !! (n) state [any]
-      logical, intent(out) :: is_accurate           !! whether it is
+      logical, intent(out) :: is_given              !! whether one of them has given it
 
-      real(wp) :: error
+      real(wp) :: error, place, s
+      integer :: status
+
+      s = (t - self%step%t0)/self%step%h
+      call self%nodes%begin(self%step, with_rates=.not. self%is_stiff)
+      do
+         error = huge(1.0_wp)
+         if (self%nodes%are_of_use) call interpolate_nodes(self, system, t, y, error)
+         is_given = error <= 1.0_wp
+         if (is_given) exit
+         place = s
+         if (self%nodes%are_of_use) place = self%nodes%place_for(s)
+         if (abs(place - s) > 0.0_wp) then
+            call make_node(self, system, place, y, status)
+            if (status == advance_step) cycle
+         end if
+         self%nodes%are_of_use = self%nodes%are_of_use .and. (error <= hopeless .or. .not. self%nodes%is_full())
+         call make_node(self, system, s, y, status)
+         is_given = status == advance_step
+         exit
+      end do
+      call self%nodes%note_row(s)
+   end subroutine reach_by_nodes
+
+   !> State at a time within the last step by the polynomial through the nodes. Its error is estimated by the residual f - y'.
+   subroutine interpolate_nodes(self, system, t, y, error)
+      class(radau_t), intent(inout) :: self         !! the integrator
+      class(ode_system_t), intent(inout) :: system  !! the system
+      real(wp), intent(in) :: t                     !! time [s]
+      real(wp), intent(inout) :: y(:)               !! (n) state [any]
+      real(wp), intent(out) :: error                !! over the error that a row may have [1]
+
       integer :: i, status
 
-      is_accurate = .false.
+      error = huge(1.0_wp)
       associate (f => self%scratch, f_here => self%y)
          call self%nodes%interpolate(self%step, (t - self%step%t0)/self%step%h, y, f)
          status = 0
@@ -67,22 +93,20 @@ contains
          end do
       end associate
       call filter_residual(self, system, error, status)
-      is_accurate = status == 0 .and. error <= 1.0_wp
-      self%nodes%are_of_use = is_accurate .or. error <= hopeless
+      if (status /= 0) error = huge(1.0_wp)
    end subroutine interpolate_nodes
 
-   !> State at a time within the last step by a step of that length; it becomes a node. Restores what the next step depends on.
-   subroutine make_node(self, system, t, y, status)
+   !> State within the last step by a shorter step; it becomes a node. Restores what the next step depends on.
+   subroutine make_node(self, system, s, y, status)
       class(radau_t), intent(inout) :: self         !! the integrator
       class(ode_system_t), intent(inout) :: system  !! the system
-      real(wp), intent(in) :: t                     !! time [s]
+      real(wp), intent(in) :: s                     !! its place, 0 to 1 [1]
       real(wp), intent(inout) :: y(:)               !! (n) state [any]
       integer, intent(out) :: status                !! advance_step, or a failure
 
-      real(wp) :: contraction, s
+      real(wp) :: contraction
       logical :: is_stale
 
-      s = (t - self%step%t0)/self%step%h
       contraction = self%contraction
       is_stale = self%is_stale
       self%is_row = .true.
@@ -92,7 +116,7 @@ contains
       self%is_stale = is_stale
       if (status /= advance_step .or. .not. self%nodes%are_of_use) return
       self%count%n_evaluations = self%count%n_evaluations + 1
-      call system%evaluate(t, y, self%scratch, status)
+      call system%evaluate(self%step%t0 + s*self%step%h, y, self%scratch, status)
       if (status == 0) call self%nodes%add(s, y, self%scratch)
       status = advance_step
    end subroutine make_node

@@ -1,11 +1,12 @@
-!> States within a step, the nodes of a Hermite polynomial with the two ends of the step.
+!> States within a step, the nodes of a polynomial with the two ends of the step.
 !>
 !> With places s_k of the step, 0 and 1 among them, and l_k the polynomials of Lagrange through them,
 !>
 !> $$ y(s) = \sum_k H_k(s) y_k + h G_k(s) f_k, H_k = (1 - 2 (s - s_k) l_k'(s_k)) l_k^2, G_k = (s - s_k) l_k^2 $$
 !>
 !> has the states y_k and the derivatives f_k there. With n places its error is h^(2n) y^(2n)/(2n)! times the product of
-!> (s - s_k)^2. Source: J. Stoer and R. Bulirsch, Introduction to Numerical Analysis, 3rd ed. (2002), section 2.1.5.
+!> (s - s_k)^2. Where the step is stiff, derivatives multiply the errors of states, and the polynomial of Lagrange through the
+!> states alone is taken. Source: J. Stoer and R. Bulirsch, Introduction to Numerical Analysis, 3rd ed. (2002), section 2.1.5.
 module step_nodes
    use interpolation, only: step_t
    use kinds, only: wp
@@ -14,14 +15,18 @@ module step_nodes
    private
    public :: step_nodes_t
 
-   integer, parameter :: most = 3                      !! nodes within a step, at most
+   integer, parameter :: most = 5                      !! nodes within a step, at most
    real(wp), parameter :: least_distance = 0.02_wp     !! between two nodes, over the length of the step [1]
+   real(wp), parameter :: wide = 4.0_wp                !! gap between nodes over the distance of rows, from which on a node between
+                                                       !! them saves rows [1]
 
    !> The states of one step.
    type :: step_nodes_t
       logical :: are_of_use = .true.       !! whether the polynomial may be accurate enough
+      logical, private :: with_rates = .true.  !! whether it has the derivatives of the nodes
       real(wp), private :: t0 = 0.0_wp     !! start of the step [s]
       real(wp), private :: h = 0.0_wp      !! its length, 0 before the first step [s]
+      real(wp), private :: s_row = 0.0_wp  !! place of the last row [1]
       integer, private :: n = 0            !! states within it
       real(wp), private :: s(most) = 0.0_wp  !! (n) their places in the step [1]
       real(wp), allocatable, private :: y(:, :)  !! (all, most) the states [any]
@@ -30,6 +35,9 @@ module step_nodes
       procedure :: open => nodes_open
       procedure :: begin => nodes_begin
       procedure :: add => nodes_add
+      procedure :: is_full => nodes_is_full
+      procedure :: place_for => nodes_place_for
+      procedure :: note_row => nodes_note_row
       procedure :: interpolate => nodes_interpolate
       procedure :: memory_size => nodes_memory_size
       procedure :: save => nodes_save
@@ -47,14 +55,17 @@ contains
    end subroutine nodes_open
 
    !> Discard the nodes of another step.
-   pure subroutine nodes_begin(self, step)
+   pure subroutine nodes_begin(self, step, with_rates)
       class(step_nodes_t), intent(inout) :: self  !! the states
       type(step_t), intent(in) :: step            !! the step
+      logical, intent(in) :: with_rates           !! whether the polynomial is to have the derivatives of the nodes
 
+      self%with_rates = with_rates
       if (abs(self%t0 - step%t0) <= 0.0_wp .and. abs(self%h - step%h) <= 0.0_wp) return
       self%t0 = step%t0
       self%h = step%h
       self%n = 0
+      self%s_row = 0.0_wp
       self%are_of_use = .true.
    end subroutine nodes_begin
 
@@ -72,6 +83,35 @@ contains
       self%f(:, self%n) = f
    end subroutine nodes_add
 
+   !> Whether the storage is full.
+   pure logical function nodes_is_full(self)
+      class(step_nodes_t), intent(in) :: self  !! the states
+
+      nodes_is_full = self%n == most
+   end function nodes_is_full
+
+   !> Place of the node that serves a row: the row itself, or the middle of the gap between nodes that it lies in, where many rows
+   !> may follow in that gap.
+   pure real(wp) function nodes_place_for(self, s) result(place)
+      class(step_nodes_t), intent(in) :: self  !! the states
+      real(wp), intent(in) :: s                !! place of the row, 0 to 1 [1]
+
+      real(wp) :: after, before
+
+      before = max(0.0_wp, maxval(self%s(:self%n), mask=self%s(:self%n) <= s))
+      after = min(1.0_wp, minval(self%s(:self%n), mask=self%s(:self%n) > s))
+      place = s
+      if (self%n < most .and. after - before > max(2.0_wp*least_distance, wide*abs(s - self%s_row))) place = 0.5_wp*(before + after)
+   end function nodes_place_for
+
+   !> A row was given at a place.
+   pure subroutine nodes_note_row(self, s)
+      class(step_nodes_t), intent(inout) :: self  !! the states
+      real(wp), intent(in) :: s                   !! the place, 0 to 1 [1]
+
+      self%s_row = s
+   end subroutine nodes_note_row
+
    !> State and derivative at a place of the step.
    pure subroutine nodes_interpolate(self, step, s, y, f)
       class(step_nodes_t), intent(in) :: self  !! the states
@@ -86,25 +126,26 @@ contains
 
       n = self%n + 2
       places(:n) = [0.0_wp, self%s(:self%n), 1.0_wp]
-      factor = factors(places(:n), 1, s, step%h)
+      factor = factors(places(:n), 1, s, step%h, self%with_rates)
       y = factor(1)*step%y0 + factor(2)*step%f0
       f = factor(3)*step%y0 + factor(4)*step%f0
-      factor = factors(places(:n), n, s, step%h)
+      factor = factors(places(:n), n, s, step%h, self%with_rates)
       y = y + factor(1)*step%y1 + factor(2)*step%f1
       f = f + factor(3)*step%y1 + factor(4)*step%f1
       do k = 1, self%n
-         factor = factors(places(:n), k + 1, s, step%h)
+         factor = factors(places(:n), k + 1, s, step%h, self%with_rates)
          y = y + factor(1)*self%y(:, k) + factor(2)*self%f(:, k)
          f = f + factor(3)*self%y(:, k) + factor(4)*self%f(:, k)
       end do
    end subroutine nodes_interpolate
 
    !> Coefficients of y_k and f_k in y(s), and in its derivative by time.
-   pure function factors(places, k, s, h) result(found)
+   pure function factors(places, k, s, h, with_rates) result(found)
       real(wp), intent(in) :: places(:)   !! (any) s_k [1]
       integer, intent(in) :: k            !! the node
       real(wp), intent(in) :: s           !! the place, 0 to 1 [1]
       real(wp), intent(in) :: h           !! length of the step [s]
+      logical, intent(in) :: with_rates   !! whether the polynomial is that of Hermite, else that of Lagrange
       real(wp) :: found(4)                !! (4) of y_k [1], of f_k [s], and their derivatives [1/s, 1]
 
       real(wp) :: a, b, d, l, l_rate
@@ -125,6 +166,10 @@ contains
          l_rate = l_rate + a
          l = l*(s - places(j))*b
       end do
+      if (.not. with_rates) then
+         found = [l, 0.0_wp, l_rate/h, 0.0_wp]
+         return
+      end if
       a = s - places(k)
       b = 1.0_wp - 2.0_wp*a*d
       found = [b*l*l, h*a*l*l, (2.0_wp*b*l*l_rate - 2.0_wp*d*l*l)/h, l*l + 2.0_wp*a*l*l_rate]
@@ -134,7 +179,7 @@ contains
    pure integer function nodes_memory_size(self) result(n)
       class(step_nodes_t), intent(in) :: self  !! the states, opened
 
-      n = 4 + most + 2*size(self%y)
+      n = 5 + most + 2*size(self%y)
    end function nodes_memory_size
 
    !> Write them.
@@ -146,7 +191,7 @@ contains
       integer :: k
 
       call put(row, place, self%are_of_use)
-      call put(row, place, [self%t0, self%h])
+      call put(row, place, [self%t0, self%h, self%s_row])
       call put(row, place, self%n)
       call put(row, place, self%s)
       do k = 1, most
@@ -166,6 +211,7 @@ contains
       call get(row, place, self%are_of_use)
       call get(row, place, self%t0)
       call get(row, place, self%h)
+      call get(row, place, self%s_row)
       call get(row, place, self%n)
       call get(row, place, self%s)
       do k = 1, most

@@ -27,7 +27,7 @@ def test_grip(gudgeon):
         assert_close(ours, theirs, absolute=1e-5 * np.abs(theirs).max(), what=name)
 
 
-@pytest.mark.parametrize("tolerance, method", [("1e-8", "verner"), ("1e-9", "dop853")])
+@pytest.mark.parametrize("tolerance, method", [("1.1e-8", "verner"), ("1e-8", "dop853")])
 def test_to_the_bit(gudgeon, tmp_path, tolerance, method):
     """The dry slider-crank is not stiff."""
     deck = ROOT / "inputs" / "slider_crank_dry.deck"

@@ -63,7 +63,7 @@ def test_summary_tells_cost_and_error(gudgeon):
     assert summary["factorisations"] == 0  # each body has one coordinate, and no row is left
     for key in ("energy_residual_max", "violation_max", "violation_rate_max"):
         assert 0 <= summary[key] < 1e-3, key
-    assert summary["tolerance"] == 1e-8 and summary["method"] == "auto (verner)"
+    assert summary["tolerance"] == 1e-8 and summary["method"] == "auto (dop853)"
     text = (finished(gudgeon, "--tolerance", "1e-8").directory / "summary.txt").read_text()
     assert str(summary["steps"]) in text and str(summary["rhs_evaluations"]) in text
 

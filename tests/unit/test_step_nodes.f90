@@ -17,6 +17,8 @@ contains
       type(suite_t), intent(inout) :: suite  !! where tests are registered
 
       call suite%test("step_nodes_exact", test_exact)
+      call suite%test("step_nodes_lagrange", test_lagrange)
+      call suite%test("step_nodes_places", test_places)
       call suite%test("step_nodes_kept", test_kept)
       call suite%test("step_nodes_memory", test_memory)
    end subroutine run_test_step_nodes
@@ -71,7 +73,7 @@ contains
          do k = 1, 2*n + 4
             call make_step(k, step)
             step%h = step%h*(1.0_wp + 1.0e-15_wp*k)   ! another step: states of the last one are forgotten
-            call nodes%begin(step)
+            call nodes%begin(step, with_rates=.true.)
             do i = 1, n
                call add(nodes, step, k, places(i))
             end do
@@ -88,6 +90,60 @@ contains
       end do
    end subroutine test_exact
 
+   !> Without derivatives powers up to n + 1 are exact, and the next one is wrong by h^(n + 2) times the product of (s - s_k).
+   subroutine test_lagrange(error)
+      type(error_t), allocatable, intent(out) :: error  !! what failed
+
+      real(wp) :: f(1), f_true(1), missing, s, y(1), y_true(1)
+      type(step_nodes_t) :: nodes
+      type(step_t) :: step
+      integer :: i, k
+
+      call nodes%open(1)
+      do k = 1, 5
+         call make_step(k, step)
+         step%f0 = huge(1.0_wp)   ! derivatives are not used
+         step%h = step%h*(1.0_wp + 1.0e-15_wp*k)
+         call nodes%begin(step, with_rates=.false.)
+         do i = 1, 3
+            call add(nodes, step, k, places(i))
+         end do
+         call power(k, step%t0 + step%h, step%y1, step%f1)
+         s = 0.7_wp
+         call nodes%interpolate(step, s, y, f)
+         call power(k, step%t0 + s*step%h, y_true, f_true)
+         missing = merge(step%h**k*s*(s - 1.0_wp)*product(s - places), 0.0_wp, k == 5)
+         call check_close(error, y_true(1) - y(1), missing, 1.0e-12_wp*y_true(1), "state")
+         if (k < 5) call check_close(error, f(1), f_true(1), 1.0e-10_wp*f_true(1), "derivative")
+         if (allocated(error)) return
+      end do
+   end subroutine test_lagrange
+
+   !> A node goes to the middle of a gap that is wide against the distance of rows, else to the row, and to the row when the storage
+   !> is full.
+   subroutine test_places(error)
+      type(error_t), allocatable, intent(out) :: error  !! what failed
+
+      type(step_nodes_t) :: nodes
+      type(step_t) :: step
+      integer :: i
+
+      call nodes%open(1)
+      call make_step(2, step)
+      call nodes%begin(step, with_rates=.true.)
+      call check_close(error, nodes%place_for(0.1_wp), 0.5_wp, 1.0e-15_wp, "middle of the step")
+      if (.not. allocated(error)) call check_close(error, nodes%place_for(0.3_wp), 0.3_wp, 0.0_wp, "few rows")
+      call add(nodes, step, 2, 0.5_wp)
+      call nodes%note_row(0.6_wp)
+      if (.not. allocated(error)) call check_close(error, nodes%place_for(0.7_wp), 0.75_wp, 1.0e-15_wp, "middle of a gap")
+      if (.not. allocated(error)) call check_close(error, nodes%place_for(0.8_wp), 0.8_wp, 0.0_wp, "few rows in the gap")
+      do i = 1, 4
+         call add(nodes, step, 2, 0.5_wp + 0.1_wp*i)
+      end do
+      call nodes%note_row(0.0_wp)
+      if (.not. allocated(error)) call check_close(error, nodes%place_for(0.01_wp), 0.01_wp, 0.0_wp, "no storage left")
+   end subroutine test_places
+
    !> A state near another one is not kept; of a step that is still the last one none is forgotten.
    subroutine test_kept(error)
       type(error_t), allocatable, intent(out) :: error  !! what failed
@@ -98,17 +154,17 @@ contains
 
       call nodes%open(1)
       call make_step(9, step)
-      call nodes%begin(step)
+      call nodes%begin(step, with_rates=.true.)
       call add(nodes, step, 9, 0.4_wp)
       call nodes%interpolate(step, 0.6_wp, y_before, f)
       call add(nodes, step, 9, 0.405_wp)
       call add(nodes, step, 9, 0.999_wp)
       nodes%are_of_use = .false.
-      call nodes%begin(step)
+      call nodes%begin(step, with_rates=.true.)
       call nodes%interpolate(step, 0.6_wp, y, f)
       call check_close(error, y(1), y_before(1), 0.0_wp, "the same states")
       step%t0 = 1.75_wp
-      call nodes%begin(step)
+      call nodes%begin(step, with_rates=.true.)
       call check_equal(error, merge(1, 0, nodes%are_of_use), 1, "of use in another step")
    end subroutine test_kept
 
@@ -125,7 +181,7 @@ contains
       call nodes%open(1)
       call again%open(1)
       call make_step(9, step)
-      call nodes%begin(step)
+      call nodes%begin(step, with_rates=.true.)
       call add(nodes, step, 9, 0.3_wp)
       call add(nodes, step, 9, 0.8_wp)
       allocate (row(nodes%memory_size()), source=0.0_wp)
@@ -134,7 +190,7 @@ contains
       call check_equal(error, place, size(row), "numbers")
       place = 0
       call again%load(row, place)
-      call again%begin(step)
+      call again%begin(step, with_rates=.true.)
       call nodes%interpolate(step, 0.6_wp, y, f)
       call again%interpolate(step, 0.6_wp, y_again, f_again)
       call check_close(error, [y_again(1), f_again(1)], [y(1), f(1)], 0.0_wp, "state and derivative")
