@@ -251,14 +251,16 @@ contains
       type(error_t), allocatable, intent(out) :: error     !! what failed
       logical, intent(in), optional :: has_contact         !! a contact begins; absent: it does
 
-      integer, parameter :: every = 5, most = 400  ! steps between checkpoints; checkpoints
+      integer, parameter :: every = 2, most = 1000  ! steps between checkpoints; checkpoints
       type(run_t), allocatable, target :: second
       type(run_t), target :: first
-      type(checkpoint_t) :: one, other, saved(most)
+      type(checkpoint_t) :: one, other
+      type(checkpoint_t), allocatable :: saved(:)
       integer :: k, n, n_step
       logical :: is_touching
 
       call begin(first, error, deck, setting, t_stop)
+      allocate (saved(most))
       n = 0
       n_step = 0
       do while (.not. allocated(error) .and. first%loaded%method%t < t_stop .and. n < most)

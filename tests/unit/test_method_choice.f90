@@ -64,7 +64,8 @@ contains
    end subroutine test_stretches
 
    !> A trial of 50 evaluations that leads through 1 s. The explicit method with 50 evaluations a second remains, and the next
-   !> trial waits for 20, then 40 times those 50. One with 200 a second is left as soon as it has taken 100.
+   !> trial waits for 20, then 40 times those 50. One with 400 a second is left as soon as it has taken 200, one with 4000 as
+   !> soon as it has taken 100.
    subroutine test_trials(error)
       type(error_t), allocatable, intent(out) :: error  !! what failed
 
@@ -85,8 +86,8 @@ contains
          n = n_trial + 1000_i8*k
          call check_true(error, choice%wants_trial(n, .true.), "no longer")
       end do
-      call try_and_go_on(200.0_wp)
-      call check_true(error, choice%is_implicit .and. n - n_trial == 100, "the implicit method is better")
+      call try_and_go_on(400.0_wp)
+      call check_true(error, choice%is_implicit .and. n - n_trial == 200, "the implicit method is better")
       call check_close(error, choice%t_change(1), t, 0.0_wp, "the change is kept")
       call check_close(error, choice%product(1), 4.0_wp, 0.0_wp, "with its reason")
       call check_true(error, .not. choice%wants_trial(n + 999_i8, .true.), "the explicit one is not tried at once")
@@ -97,6 +98,8 @@ contains
       call check_true(error, choice%is_implicit, "the implicit method remains")
       call try_and_go_on(55.0_wp)
       call check_true(error, .not. choice%is_implicit .and. choice%n_change == 2, "the explicit one is better")
+      call try_and_go_on(4000.0_wp)
+      call check_true(error, choice%is_implicit .and. n - n_trial == 120, "the implicit method is far better")
 
    contains
 
