@@ -25,11 +25,11 @@ contains
 
       words = counted(size(found%list), "channel", "channels")
       if (found%n_different == 0) then
-         words = words//" compared, none differs by more than is allowed"
+         words = words//" compared, all within tolerance"
       else
          words = to_text(found%n_different)//" of "//words//" differ"
          if (found%n_different == 1) words = words//"s"
-         words = words//" by more than is allowed"
+         words = words//" by more than the tolerance"
       end if
       if (found%by_statistics) words = words//" (means and RMS)"
    end function verdict_text
@@ -113,8 +113,8 @@ contains
 
       words = ""
       associate (d => difference)
-         if (d%only(1) > 0) words = words//", a number in A only at "//to_text(d%only(1))
-         if (d%only(2) > 0) words = words//", a number in B only at "//to_text(d%only(2))
+         if (d%only(1) > 0) words = words//", value only in A at "//to_text(d%only(1))
+         if (d%only(2) > 0) words = words//", value only in B at "//to_text(d%only(2))
          if (d%neither > 0) words = words//", in neither at "//to_text(d%neither)
          if (d%unsettled > 0) words = words//", A changes between its rows at "//to_text(d%unsettled)
          if (words /= "") words = "  ("//counted(d%n, "instant", "instants")//" compared"//words//")"
