@@ -35,17 +35,16 @@ module precision_results
    character(*), parameter :: error_words(n_error) = [character(64) :: &
       "maximum of position and velocity errors", "position error, relative to the largest range of a position", &
       "velocity error, relative to the largest velocity", "reaction error, relative to the largest reaction", &
-      "maximum error of onset times", "peak force error, relative to the largest peak force", "maximum error of separation "// &
-         "over "// &
-         "impact speed", &
-      "maximum residual of the energy balance, relative to the maximum energy", "maximum constraint violation"]  !! what they are
+      "maximum error of onset times", "peak force error, relative to the largest peak force", &
+      "maximum error of separation over impact speed", &
+      "maximum energy error, relative to the maximum energy", "maximum constraint violation"]  !! what they are
 
    integer, parameter :: rung_unrun = 0    !! no time was left for it
    integer, parameter :: rung_done = 1     !! ran to the end
    integer, parameter :: rung_failed = 2   !! failed
    integer, parameter :: rung_other = 3    !! ran to its end, with other contacts than the reference, or another end
-   character(*), parameter :: rung_states(0:3) = [character(26) :: "not run", "done", "failed", "different contact "// &
-      "sequence"]  !! in words
+   character(*), parameter :: rung_states(0:3) = [character(26) :: "not run", "done", "failed", &
+      "different contact sequence"]  !! in words
 
    ! statistics of the time that is not compared
    integer, parameter :: statistic_rate = 1         !! contacts that begin
