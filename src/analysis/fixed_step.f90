@@ -40,7 +40,7 @@ contains
          if (arrives_in_parts) exit
       end do
       if (.not. arrives_in_parts) return
-      words = " s is too long for the motion from t = "//real_text(h, 3)//" s on: "//real_text(t0, 9)//" s on: "
+      words = "the step of "//real_text(h, 3)//" s is too long for the motion from t = "//real_text(t0, 9)//" s on: "
       if (.not. arrives) then
          words = words//"the step fails, but steps of "//real_text(h/4.0_wp**k, 3)//" s succeed"
          return

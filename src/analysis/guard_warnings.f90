@@ -24,7 +24,7 @@ contains
             words = "penetration up to "//millimetres(breach%value)//", more than the clearance, "//millimetres(limit)
          case (guard_law_range)
             words = "penetration up to "//millimetres(breach%value)//", but the law is valid up to "//millimetres(limit)// &
-                    " , and its tangent beyond"
+                    ", and its tangent beyond"
          case (guard_impact_speed)
             words = "impact speed up to "//real_text(breach%value, 3)//" m/s, but the law is quasi-static: it neglects elastic "// &
                "waves, "// &

@@ -179,11 +179,11 @@ contains
       call add_channel(info, "normal_force", "N", "none", 1, "normal contact force", of_normal_force)
       call add_channel(info, "friction_force", "N", "none", 1, "friction force on the "//who//" along "//along, of_friction_force)
       call add_channel(info, "state", "1", "none", 1, "0 free, 1 contact, 2 film, 3 mixed", of_state)
-      call add_channel(info, "contact_point", "m", "world", 2, "point of action of the force on the "//who//" ; of the "// &
+      call add_channel(info, "contact_point", "m", "world", 2, "point of action of the force on the "//who//"; of the "// &
          "possible contact if "// &
          "separated", of_contact_point)
       if (info%space == in_plane) then
-         call add_channel(info, "contact_angle", "rad", "body", 1, "direction of the normal force of the "//who//" , in the "// &
+         call add_channel(info, "contact_angle", "rad", "body", 1, "direction of the normal force of the "//who//", in the "// &
             "frame of " &
                           //"the body of i, from -pi to pi", of_contact_angle)
       end if

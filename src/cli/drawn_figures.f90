@@ -127,7 +127,7 @@ contains
       wanted%times = min(wanted%times, instant(times, last_instant(times)))
       if (size(wanted%times)*(scene%bodies%n + 1) > most_places) then
          call mistakes%add(location, to_text(size(wanted%times))//" pictures of "//to_text(scene%bodies%n)// &
-                           " bodies exceed the limit for '"//figure%word//"'", " bodies exceed the limit for '", "too many")
+                           " bodies exceed the limit for '"//figure%word//"'", "too many", "use fewer pictures: n=2, or one time")
       end if
    end subroutine want
 

@@ -106,10 +106,9 @@ contains
          call follow(set, c, mass, speeds(v), time, theirs, fit)
          call say("impact at "//to_text(speeds(v))//" m/s: force differs by up to "// &
                   real_text(100.0_wp*maxval(abs(force_of(fit, ours%p, ours%rate) - ours%force))/maxval(ours%force), 2)// &
-                  " % of its peak at equal penetration and rate; peak "//real_text(maxval(theirs%force), 4)//" N with "// &
-                     "gudgeon's law, "// &
-                  real_text(maxval(ours%force), 4)//" N with IMPACT, restitution "//real_text(theirs%restitution, 3)//" for "// &
-                  real_text(ours%restitution, 3), 4)
+                  " % of its peak at equal penetration and rate; peak "//real_text(maxval(theirs%force), 4)//" N (law: "// &
+                  real_text(maxval(ours%force), 4)//" N), restitution "//real_text(theirs%restitution, 3)//" (law: "// &
+                  real_text(ours%restitution, 3)//")", 4)
       end do
    end subroutine explain_item
 

@@ -53,7 +53,7 @@ contains
       do k = 1, size(found%list)
          width = max(width, len(found%list(k)%name) + len(found%list(k)%unit) + 4)
       end do
-      call lines%line(padded("channel", width)//heads([character(10) :: "RMS", "greatest", "at [s]", "allowed", "peak A", &
+      call lines%line(padded("channel", width)//heads([character(10) :: "RMS", "maximum", "at [s]", "tolerance", "peak A", &
                       "peak B", "lag [s]"], cell_width)//trim(heads([character(5) :: "magn.", "phase"], short_width)))
       do k = 1, size(found%list)
          associate (d => found%list(k))

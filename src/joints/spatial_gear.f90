@@ -223,7 +223,7 @@ contains
          words = words//" and the distance of their centres "//real_text(between(2), 4)//" m (initially 0 deg and "// &
                  real_text(self%between(2, k), 4)//" m)"
       else
-         words = words//" (the sine of that angle was initially "//real_text(self%between(1, k), 4)//" , is now "// &
+         words = words//" (the sine of that angle was initially "//real_text(self%between(1, k), 4)//", is now "// &
                  real_text(between(1), 4)//", and must be at least 0.25)"
       end if
       words = words//": add joints that keep the gears in mesh"

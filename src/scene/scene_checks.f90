@@ -94,7 +94,7 @@ contains
       subroutine report_reserved(item)
          type(item_t), intent(in) :: item  !! the row
 
-         call diagnostics%add(item%location, "name '"//item%name//"choose another name", "choose another name", &
+         call diagnostics%add(item%location, "name '"//item%name//"' is reserved", "choose another name", &
                               "reserved:"//reserved)
       end subroutine report_reserved
 

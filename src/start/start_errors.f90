@@ -29,13 +29,13 @@ contains
 
       row = maxloc(abs(linkage%rows%phi)*linkage%solution%row_weight, dim=1)
       open = abs(linkage%rows%phi(row))
-      place = "has a residual that remains"
+      place = "has a residual of "
       call evaluate_rows(linkage, 0.0_wp, q, v)
       dead = dead_row(linkage)
       if (dead > 0) then
          row = dead
          open = abs(linkage%rows%phi(row))
-         place = "has a residual at the given positions of the bodies,"
+         place = "has, at the given positions of the bodies, a residual of "
          hint = "its axes are perpendicular but must be parallel, or vice versa, so the direction "// &
                 "of rotation is undetermined"//new_line("a")//"  = give other axes, or rotate one of its bodies in the deck"
       else
@@ -44,7 +44,7 @@ contains
       end if
       if (misfit /= "") hint = misfit//new_line("a")//"  = "//hint
       call set_error(error, exit_assembly, "the mechanism cannot be assembled: joint '"//linkage%row_name(row)// &
-                     "' "//place//" by "//real_text(open, 4)// &
+                     "' "//place//real_text(open, 4)// &
                      trim(merge(" rad", " m  ", linkage%rows%is_angle(row)))//new_line("a")//"  = "//hint)
    end subroutine position_error
 
