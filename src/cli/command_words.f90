@@ -41,13 +41,12 @@ module command_words
                 "--set --ideal --analysis --tolerance --method --legacy"), &
       command_t("explain", "DECK", "report the model, unused items, defaults and numerical settings", &
                 "--set --ideal --analysis --tolerance --method --legacy --adams"), &
-      command_t("compare", "A B", "compare two runs, or a run with columns of another program: differences, peaks, impacts, "// &
-         "figure", &
+      command_t("compare", "A B", "compare two runs, or a run with external columns: differences, peaks, impacts, figure", &
                 "--out --channel --time --table --absolute --relative --statistics --quiet --json"), &
       command_t("import", "MODEL", "convert an Adams dataset MODEL.adm to a deck, with a list of unsupported items", "--out"), &
       command_t("new", "NAME", "write a commented starting deck NAME.deck", ""), &
       command_t("list", "[KIND]", "list all tables and settings of a deck, or one group: gudgeon list contact", ""), &
-      command_t("help", "[KIND]", "show this page, a type (gudgeon help joint revolute), or a verb; also gudgeon VERB --help", &
+      command_t("help", "[KIND]", "show this page, or help on a type (joint revolute) or a verb; also gudgeon VERB --help", &
                 "--manual --man --completion"), &
       command_t("version", "", "show versions of the program and its libraries; also --version", "")]
       !! in the order of the help
@@ -93,7 +92,7 @@ module command_words
    character(*), parameter :: exit_meanings(size(exit_codes)) = [character(60) :: &
       "done", "comparison found differences", "invalid command line", "invalid deck", &
       "assembly failed: open loop, shaky, or at a dead centre", "integration failed", &
-      "energy error, constraint violation or accuracy outside its limit", "interrupted by a signal; results saved", &
+      "energy error, constraint violation or accuracy over limit", "interrupted by a signal; results saved", &
       "some runs of a sweep failed", "file, disk or memory error", &
       "internal error of the program"]
       !! what they mean

@@ -29,7 +29,7 @@ contains
       call find_used(scene, "friction.", is_used)
       do k = 1, size(scene%frictions)
          if (.not. scene%frictions(k)%law%is_active()) then
-            call drop("friction law '"//scene%frictions(k)%law%name//"': always zero")
+            call drop("friction law '"//scene%frictions(k)%law%name//"': zero coefficient")
          else if (.not. is_used(k)) then
             call drop("friction law '"//scene%frictions(k)%law%name//"': no joint refers to it")
          end if

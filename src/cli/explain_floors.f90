@@ -76,23 +76,23 @@ contains
 
       select case (of)
       case (of_speed)
-         words = "of the characteristic speed"
+         words = "times the characteristic speed"
       case (of_pace)
-         words = "of the characteristic rate"
+         words = "times the characteristic rate"
       case (of_step)
-         words = "of the step size"
+         words = "times the step size"
       case (of_contact)
-         words = "of the scale of the contact"
+         words = "(ratio)"
       case (of_acceleration)
-         words = "of the acceleration by the normal force"
+         words = "times the acceleration by the normal force"
       case (of_mobility)
-         words = "of the mobility of free bodies"
+         words = "times the mobility of free bodies"
       case (of_run)
-         words = "of size over duration of the run"
+         words = "times size over duration of the run"
       case (of_time)
          words = "times the spacing of floating-point numbers at t"
       case (of_tolerance)
-         words = "of the tolerance times the characteristic speed"
+         words = "times the tolerance times the characteristic speed"
       case default
          words = ""
       end select

@@ -35,7 +35,8 @@ contains
       associate (guards => limits%guards)
          call say_contacts(loaded%scene, loaded%system, guards)
          if (loaded%system%ledger%is_kept .and. guards%energy > 0.0_wp) then
-            call say("stops if the energy error exceeds "//real_text(guards%energy, 3)//" of the maximum energy (energy)", 2)
+            call say("stops if the energy error exceeds "// &
+                     real_text(100.0_wp*guards%energy, 3)//" % of the maximum energy (energy)", 2)
          end if
          if (guards%speed < huge(1.0_wp)) call say("stops if a body exceeds "//real_text(guards%speed, 3)// &
                                                    " m/s (speed)", 2)
@@ -67,7 +68,7 @@ contains
                associate (limit => guards%limit(:, m), name => set%names(i)%s)
                   if (limit(guard_penetration) < huge(1.0_wp)) then
                      call say(name//": stops at a penetration of "//real_text(1.0e3_wp*limit(guard_penetration), 3)//" mm, "// &
-                              real_text(guards%penetration, 3)//" of the surface size (penetration)", 2)
+                              real_text(guards%penetration, 3)//" times the surface size (penetration)", 2)
                   end if
                   if (limit(guard_clearance) < huge(1.0_wp)) then
                      call say(name//": "//verb_of(scene, "clearance")//" at a penetration of "// &

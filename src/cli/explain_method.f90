@@ -65,7 +65,7 @@ contains
 
       call say("from 0 to "//to_text(loaded%plan%end)//" s; output from "//to_text(loaded%plan%first_output)// &
                " s every "//to_text(loaded%plan%every)//" s, "// &
-               counted(1 + int(last_instant(loaded%plan)), "instant", "instants"), 2)
+               counted(1 + int(last_instant(loaded%plan)), "output time", "output times"), 2)
       words = contact_rows_text(loaded%scene, loaded%system)
       if (len(words) > 0) call say(words, 2)
       words = grouping_words(loaded%scene)

@@ -43,8 +43,8 @@ contains
          end do
       end associate
       if (system%linkage%rows%n > system%linkage%rows%n_solve) then
-         call say(counted(system%n_position, "coordinate", "coordinates")//" unknown, "// &
-                  counted(system%linkage%rows%n_solve, "row", "rows")//" solved", 2)
+         call say(counted(system%n_position, "unknown coordinate", "unknown coordinates")//", "// &
+                  counted(system%linkage%rows%n_solve, "constraint row", "constraint rows")//" in the equations", 2)
       end if
       do k = 1, size(scene%joints)
          call count_kind(scene%joints(k)%info, scene%joints(k)%items)
@@ -59,10 +59,10 @@ contains
          call say(counted(system%linkage%ideal(1)%set%n, "joint", "joints")//" with clearance treated as ideal, "// &
                   to_text(system%linkage%ideal(1)%set%n_row_item*system%linkage%ideal(1)%set%n)//" rows", 2)
       end if
-      words = trim(merge("rates      ", "coordinates", scene%settings%is_spatial))//" minus rows "
-      call say(counted(system%linkage%rows%n, "constraint row", "constraint rows")//": "//words// &
-               to_text(size(system%linkage%mass) - system%linkage%rows%n)//"; with all joints ideal "// &
-               to_text(size(twin%linkage%mass) - twin%linkage%rows%n), 2)
+      words = trim(merge("rates      ", "coordinates", scene%settings%is_spatial))//" minus rows: "
+      call say(counted(system%linkage%rows%n, "constraint row", "constraint rows")//"; "//words// &
+               to_text(size(system%linkage%mass) - system%linkage%rows%n)//" ("// &
+               to_text(size(twin%linkage%mass) - twin%linkage%rows%n)//" with all joints ideal)", 2)
       if (norm2(system%loading%gravity) > 0.0_wp) then
          words = ""
          do k = 1, system%linkage%coordinates%n_axis

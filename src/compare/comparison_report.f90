@@ -46,7 +46,7 @@ contains
 
       call lines%line("A          "//first)
       call lines%line("B          "//second)
-      call lines%line("compared   "//counted(size(found%t), "instant", "instants")//" of B, "//real_text(found%t(1), 6)//" to "// &
+      call lines%line("compared   "//counted(size(found%t), "time", "times")//" of B, "//real_text(found%t(1), 6)//" to "// &
                       real_text(found%t(size(found%t)), 6)//" s")
       call lines%line("")
       width = 20
@@ -117,7 +117,7 @@ contains
          if (d%only(2) > 0) words = words//", value only in B at "//to_text(d%only(2))
          if (d%neither > 0) words = words//", in neither at "//to_text(d%neither)
          if (d%unsettled > 0) words = words//", A changes between its rows at "//to_text(d%unsettled)
-         if (words /= "") words = "  ("//counted(d%n, "instant", "instants")//" compared"//words//")"
+         if (words /= "") words = "  ("//counted(d%n, "time", "times")//" compared"//words//")"
       end associate
    end function of_instants
 

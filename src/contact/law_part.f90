@@ -109,7 +109,7 @@ contains
       real(wp), intent(in) :: parameters(n_law_parameter)  !! (n_law_parameter) of the other law [any]
       character(:), allocatable :: words                   !! as "stiffness 6.6e10 N/m^1.5, at each base 0.5 of it"
 
-      words = self%law%story(parameters)//", at each base "//to_text(self%share)//" times the law"
+      words = self%law%story(parameters)//", at each end "//to_text(self%share)//" times the law"
    end function part_story
 
 end module law_part

@@ -50,7 +50,7 @@ module floors
    type :: floor_t
       real(wp) :: part = 0.0_wp             !! the number [1]
       integer :: of = 0                     !! of what, one of the above
-      character(80) :: meaning = ""         !! what it is for
+      character(96) :: meaning = ""         !! what it is for
    end type floor_t
 
 contains
@@ -59,22 +59,23 @@ contains
    pure function all_floors() result(list)
       type(floor_t), allocatable :: list(:)  !! (floors) in the order of the rooms
 
-      list = [floor_t(gentle, of_contact, "minimum impact speed in damping terms, of the speed that reaches the initial overlap"), &
+      list = [floor_t(gentle, of_contact, "minimum impact speed in damping terms, over the speed of the present penetration"), &
               floor_t(remembered, of_speed, "minimum speed for error control during slow motion"), &
               floor_t(late, of_run, "minimum speed for error control, from rest"), &
               floor_t(idle_part, of_run, "characteristic speed of a mechanism that never moves"), &
               floor_t(least_hold, of_pace, "minimum gain of baumgarte_adaptive"), &
-              floor_t(at_rest, of_speed, "zero sliding speed, at onset and where drivers prescribe it"), &
+              floor_t(at_rest, of_speed, "negligible sliding speed, at onset and where drivers prescribe it"), &
               floor_t(standstill, of_speed, "sliding speed at the slip-to-stick transition"), &
               floor_t(captured, of_tolerance, "sliding speed at the slip-to-stick transition, in space"), &
-              floor_t(contact_lever, of_contact, "penetration; in space: lever arm of rotation without friction torque"), &
-              floor_t(torn, of_speed, "sliding speed that ends sticking"), &
+              floor_t(contact_lever, of_contact, "lever arm of spin without friction torque, in space, over the penetration"), &
+              floor_t(torn, of_speed, "sliding speed that ends sticking by drift"), &
               floor_t(least_band, of_speed, "reverse-slip tolerance after stick-slip chatter, initial"), &
               floor_t(widest_band, of_speed, "reverse-slip tolerance after stick-slip chatter, final"), &
               floor_t(settling, of_pace, "decay rate of residual sliding while sticking"), &
-              floor_t(chatter_time, of_contact, "chatter: time between slip and stick, of sqrt(depth m/F_N)"), &
-              floor_t(look_ahead, of_step, "look-ahead time to find driver motion of a contact at rest"), &
-              floor_t(no_acceleration, of_acceleration, "zero sliding acceleration, if no force changes it"), &
+              floor_t(chatter_time, of_contact, &
+                      "stick-slip interval that counts as chatter, over sqrt(penetration m/F_N)"), &
+              floor_t(look_ahead, of_step, "look-ahead time for driver motion of a contact at rest"), &
+              floor_t(no_acceleration, of_acceleration, "negligible sliding acceleration"), &
               floor_t(least_mobility, of_mobility, "negligible compliance"), &
               floor_t(shortest_difference, of_time, "time for the rates of event functions")]
    end function all_floors

@@ -66,7 +66,7 @@ contains
             call emit(parser, op_number, symbol%number)
             call resolve(parser, i, term%first, last)
          case (symbol_word)
-            call fail(parser, term%first, last, "the parameter '"//symbol%name//"' is a keyword, '" &
+            call fail(parser, term%first, last, "the parameter '"//symbol%name//"' has the value '" &
                     & //symbol%word//"', not a number")
          case (symbol_function)
             call fail(parser, term%first, last, "the function '"//symbol%name &

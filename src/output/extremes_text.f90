@@ -60,7 +60,7 @@ contains
       if (extremes%has_course() .and. .not. extremes%has_time()) call lines%line( &
          "           -: no mean of a single output time")
       if (n > size(list)) call lines%line("           "//to_text(n - size(list))//" more in summary.json and in run.h5, /extremes")
-      call rest(count([(extremes%is_nothing(k), k=1, size(extremes%channels))]), "that are zero, or round-off")
+      call rest(count([(extremes%is_nothing(k), k=1, size(extremes%channels))]), "that are zero or round-off")
       call rest(count([(.not. extremes%has_values(k), k=1, size(extremes%channels))]), "without values")
 
    contains
@@ -70,7 +70,7 @@ contains
          integer, intent(in) :: how_many    !! their number
          character(*), intent(in) :: what   !! what they are
 
-         if (how_many > 0) call lines%line("           "//to_text(how_many)//" "//what)
+         if (how_many > 0) call lines%line("           "//to_text(how_many)//" channels "//what)
       end subroutine rest
 
    end subroutine channel_table
