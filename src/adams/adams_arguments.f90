@@ -26,7 +26,7 @@ contains
          associate (name => statement%arguments(k)%name)
             if (len(name) == 0) cycle
             if (any([(index(known(i)%s, name) == 1, i=1, size(known))])) cycle
-            call leave_out(model, statement, "its "//name//" has no place in a deck", statement%arguments(k)%at)
+            call leave_out(model, statement, "its "//name//" has no equivalent in a deck", statement%arguments(k)%at)
          end associate
       end do
    end subroutine name_unknown_arguments
@@ -56,8 +56,8 @@ contains
                end if
                last = at + 1 + verify(text(at + 2:)//" ", digits) - 1
                call model%changed%add(line_words(it%at)//"'"//it%values(1)%s(first:last)//"' is "//text(first:at - 1)// &
-                     merge(" degrees plus", " degrees less", text(at + 1:at + 1) == "+")//" "//text(at + 2:last)// &
-                     "; an exponent is written with E")
+                     merge(" degrees plus ", " degrees minus", text(at + 1:at + 1) == "+")//" "//text(at + 2:last)// &
+                     "; use E for the exponent")
             end do
          end associate
       end do

@@ -114,8 +114,8 @@ contains
 
       if (size(statements) == 0) return
       if (any([(is_known(statements(k)), k=1, size(statements))])) return
-      call mistake(mistakes, statements(1)%at, "no statement of an Adams dataset is in this file; this is the first line that "// &
-                   "is none", &
+      call mistake(mistakes, statements(1)%at, "the file has no statement of an Adams dataset; the first line "// &
+                   "is invalid", &
                    "a statement is a name with a slash, as PART/2, MASS = 1; a deck needs no import: gudgeon run DECK")
    end subroutine name_foreign
 
@@ -129,8 +129,8 @@ contains
       do k = 1, size(statements)
          if (.not. (is_refused(statements(k)%keyword) .and. statements(k)%has_slash)) cycle
          call mistake(mistakes, statements(k)%at, statements(k)%keyword//"/"//to_text(statements(k)%id)// &
-            " is an elastic body; gudgeon has rigid ones only", &
-            "take it out of the dataset, or put a SPRINGDAMPER or a FIXED joint in its place")
+            " is an elastic body; gudgeon supports rigid bodies only", &
+            "remove it from the dataset, or replace it by a SPRINGDAMPER or a FIXED joint")
       end do
    end subroutine name_refused
 
@@ -148,7 +148,7 @@ contains
             if (.not. is_understood(it%keyword) .or. it%id < 0) cycle
             name = it%keyword//"/"//to_text(it%id)
             call seen%enter(name, k, first)
-            if (first > 0) call mistake(mistakes, it%at, name//" is there twice", "first in line "// &
+            if (first > 0) call mistake(mistakes, it%at, name//" is defined twice", "first in line "// &
                                         to_text(statements(first)%at%line))
          end associate
       end do
@@ -167,9 +167,9 @@ contains
       real(wp), allocatable :: numbers(:)
       character(5), parameter :: names(3) = ["IGRAV", "JGRAV", "KGRAV"]
 
-      call buffer%line("# Made of the Adams dataset "//one_line(file)//" by gudgeon import.")
-      call add_list(buffer, "Not in this deck:", imported%left_out)
-      call add_list(buffer, "Otherwise than in the dataset, or assumed:", imported%changed)
+      call buffer%line("# Made from the Adams dataset "//one_line(file)//" by gudgeon import.")
+      call add_list(buffer, "Not supported, omitted from this deck:", imported%left_out)
+      call add_list(buffer, "Changed or assumed:", imported%changed)
       call buffer%line("deck = 1")
       call buffer%line("")
       call buffer%line("[scene]")
@@ -186,7 +186,7 @@ contains
       call buffer%line("gravity  = "//real_text(gravity(1), 15)//" "//real_text(gravity(2), 15)//" "//real_text(gravity(3), 15)// &
                        " m/s^2")
       call buffer%line("")
-      call buffer%line("[parameters]               # a dataset does not say how long to run:  --set end=5s")
+      call buffer%line("[parameters]               # a dataset has no end time:  --set end=5s")
       call buffer%line("end      = 1 s")
       call buffer%line("every    = 10 ms")
    end subroutine write_head
@@ -300,7 +300,7 @@ contains
          call argument_numbers(it, "VM", id, mistakes)
          if (size(id) > 0) then
             marker = model%marker(nint(id(1)))
-            if (marker == 0) call mistake(mistakes, it%at, "the VM marker is not there", "")
+            if (marker == 0) call mistake(mistakes, it%at, "its VM marker is missing", "")
             if (marker > 0) a = model%axes(marker)
          end if
          call velocity_cells(it, ["VX", "VY", "VZ"], a, factor, velocity, mistakes)
@@ -313,12 +313,12 @@ contains
          if (size(id) == 0) call argument_numbers(it, "CM", id, mistakes)
          if (size(id) > 0) then
             marker = model%marker(nint(id(1)))
-            if (marker == 0) call mistake(mistakes, it%at, "the WM marker is not there", "")
+            if (marker == 0) call mistake(mistakes, it%at, "its WM marker is missing", "")
             if (marker > 0) a = model%axes(marker)
          end if
          call velocity_cells(it, ["WX", "WY", "WZ"], a, 1.0_wp/model%units%time, turn, mistakes)
          if (has_word(it, "EXACT")) call model%changed%add(line_words(it%at)//"EXACT of PART/"//to_text(part%id)// &
-                                                            ": all bodies are moved as little as possible at the start")
+                                                            ": assembly moves all bodies as little as possible")
       end associate
       do k = 1, 3
          if (.not. allocated(turn(k)%s)) turn(k)%s = ""

@@ -85,7 +85,7 @@ contains
          return
       end if
       call read_sum(tree, tree%root)
-      if (tree%message == "" .and. next(tree) /= " ") tree%message = "'"//tree%text(tree%at:)//"' is not understood"
+      if (tree%message == "" .and. next(tree) /= " ") tree%message = "'"//tree%text(tree%at:)//"' is not supported"
    end subroutine parse_tree
 
    !> The next character that is no blank; blank at the end.
@@ -223,7 +223,7 @@ contains
       if (next(tree) == "(") then
          tree%at = tree%at + 1
          call read_sum(tree, node)
-         if (tree%message == "" .and. next(tree) /= ")") tree%message = "a parenthesis is not closed"
+         if (tree%message == "" .and. next(tree) /= ")") tree%message = "missing closing parenthesis"
          tree%at = tree%at + 1
       else if (scan(next(tree), "0123456789.") > 0) then
          call read_digits(tree, node)
@@ -234,9 +234,9 @@ contains
          tree%at = tree%at + length
          if (next(tree) == "(") call read_arguments(tree, node)
       else if (next(tree) == " ") then
-         tree%message = "it ends too early"
+         tree%message = "it is incomplete"
       else
-         tree%message = "'"//tree%text(tree%at:)//"' is not understood"
+         tree%message = "'"//tree%text(tree%at:)//"' is not supported"
       end if
    end subroutine read_primary
 
@@ -256,7 +256,7 @@ contains
       is_finite = length > 0
       if (is_finite) call read_number(tree%text(tree%at:tree%at + length - 1), 0, x, is_finite)
       if (.not. is_finite) then
-         tree%message = "'"//tree%text(tree%at:)//"' is no number"
+         tree%message = "'"//tree%text(tree%at:)//"' is not a number"
          return
       end if
       tree%nodes(node)%value = x
@@ -285,7 +285,7 @@ contains
          arguments = [arguments, one]
          if (scan(next(tree), ",:") == 0) exit
       end do
-      if (next(tree) /= ")") tree%message = "a parenthesis of "//tree%nodes(node)%name//" is not closed"
+      if (next(tree) /= ")") tree%message = "missing closing parenthesis of "//tree%nodes(node)%name//""
       tree%at = tree%at + 1
       tree%nodes(node)%arguments = arguments
    end subroutine read_arguments

@@ -78,7 +78,7 @@ contains
       real(wp), allocatable :: id(:)
 
       call argument_numbers(statement, "JOINTS", id, mistakes, 1)
-      message = "it is not of two revolute joints of the deck"
+      message = "it does not couple two revolute joints of the deck"
       if (size(id) /= 2) return
       do k = 1, 2
          do i = 1, size(draft%joints)
@@ -89,7 +89,7 @@ contains
          joints(k) = draft%joints(i)
          parts(:, k) = [model%markers(joints(k)%marker(1))%part, model%markers(joints(k)%marker(2))%part]
       end do
-      message = "its joints have no part in common that carries both"
+      message = "its joints have no common carrier part"
       common = 0
       do i = 2, 1, -1
          if (any(parts(:, 2) == parts(i, 1))) common = parts(i, 1)
@@ -103,11 +103,11 @@ contains
             wheel%axis = third_axis(model, joints(k)%marker(2))
          end associate
       end do
-      message = "both its joints are of the same part"
+      message = "both its joints belong to the same part"
       if (wheels(1)%part == wheels(2)%part) return
       message = "the axes of its joints are not parallel"
       if (norm2(cross(wheels(1)%axis, wheels(2)%axis)) > same) return
-      message = "its joints have one axis"
+      message = "its joints have the same axis"
       span = model%place(wheels(1)%marker) - model%place(wheels(2)%marker)
       if (norm2(cross(wheels(1)%axis, span)) <= same*model%units%length) return
       message = ""
@@ -138,11 +138,11 @@ contains
 
       mark = model%marker(id_of(statement, "CV", mistakes))
       if (mark == 0) then
-         call mistake(mistakes, statement%at, "the CV of GEAR/"//to_text(statement%id)//" is no MARKER of a rigid part", "")
+         call mistake(mistakes, statement%at, "the CV of GEAR/"//to_text(statement%id)//" is not a MARKER of a rigid part", "")
          return
       end if
       if (model%markers(mark)%part /= wheels(1)%carrier) then
-         message = "its CV marker is not on the part that carries both gears"
+         message = "its CV marker is not on the carrier part"
          return
       end if
       z = third_axis(model, mark)
@@ -150,7 +150,7 @@ contains
          arm(k) = dot_product(cross(wheels(1)%axis, model%place(mark) - model%place(wheels(k)%marker)), z)
       end do
       if (minval(abs(arm)) <= same*maxval(abs(arm))) then
-         message = "a gear that turns does not move the place where they touch along z of the CV marker"
+         message = "neither gear moves the contact point along z of the CV marker"
          return
       end if
       wheels(1)%radius = abs(arm(1))
@@ -168,7 +168,7 @@ contains
 
       call argument_numbers(statement, "SCALES", scales, mistakes, 1)
       if (size(scales) /= 2) then
-         message = "it has no two SCALES"
+         message = "it does not have two SCALES"
          return
       end if
       if (.not. minval(abs(scales)) > 0.0_wp) then

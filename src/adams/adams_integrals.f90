@@ -31,7 +31,7 @@ contains
             text = grouped(a)//"*"//words%time
             return
          end if
-         message = "its integral over the time has no words in a deck"
+         message = "its time integral is not supported"
          select case (it%kind)
          case (node_name)
             message = ""

@@ -59,10 +59,10 @@ contains
                if (has_word(it, trim(adams(i)), 2)) exit
             end do
             if (i > size(adams)) then
-               call leave_out(model, it, "a deck's space has no such joint ("//first_word(it)//")")
+               call leave_out(model, it, "gudgeon has no such spatial joint ("//first_word(it)//")")
             else if (trim(adams(i)) == "CYLINDRICAL" .and. is_of_screw(model, marker, mistakes)) then
                call model%changed%add(line_words(it%at)//"JOINT/"//to_text(it%id)// &
-                                      " (cylindrical) and the screw on the same axis are one joint.screw")
+                                      " (cylindrical) and the screw on the same axis are merged to one joint.screw")
             else
                call add_joint(model, draft, it, "joint."//trim(deck(i)), axes_of(trim(adams(i))), marker, "")
                call add_start(model, draft, draft%joints(size(draft%joints)), it, mistakes)
@@ -107,7 +107,7 @@ contains
          id = id_of(statement, names(k), mistakes)
          marker(k) = model%marker(id)
          if (marker(k) == 0) call mistake(mistakes, statement%at, "marker "//names(k)//" = "//to_text(id)//" of "// &
-                                          statement%keyword//"/"//to_text(statement%id)//" is no MARKER of a rigid part", "")
+                                          statement%keyword//"/"//to_text(statement%id)//" is not a MARKER of a rigid part", "")
       end do
    end subroutine two_markers
 
@@ -139,7 +139,7 @@ contains
       case ("joint.rigid", "joint.orientation", "joint.translational")
          if (kind == "joint.translational") axis_i = direction_cell(body_axis(model, marker(2), axis(2)))
          if (maxval(abs(a - b)) > same) call model%changed%add(line_words(statement%at)//statement%keyword//"/"// &
-            to_text(statement%id)//" holds the orientation that the dataset begins with, in which I and J differ")
+            to_text(statement%id)//" keeps the initial orientation of the dataset, in which I and J differ")
       case ("joint.constant_velocity")
          axis_i = direction_cell(body_axis(model, marker(2), 3))
          x = body_axis(model, marker(1), 3)
@@ -152,7 +152,7 @@ contains
              dot_product(a(:, axis(1)), b(:, axis(2))) < 0.0_wp) then
             x = -x
             call model%changed%add(line_words(statement%at)//statement%keyword//"/"//to_text(statement%id)// &
-                                   ": the axes z of I and J are opposed; that of I is turned over")
+                                   ": the z axes of I and J are opposed; that of I is reversed")
          end if
          axis_j = direction_cell(x)
          if (kind == "joint.inline" .or. kind == "joint.inplane") axis_j = ""
@@ -174,9 +174,9 @@ contains
 
       place = line_words(statement%at)//"JOINT/"//to_text(statement%id)//" (constant velocity)"
       if (dot_product(a(:, 3), b(:, 3)) >= 0.0_wp) then
-         call model%changed%add(place//": the axes z of I and J do not point away from one another; they are taken as the shafts")
+         call model%changed%add(place//": the z axes of I and J do not point away from one another; they are used as the shafts")
       else if (abs(dot_product(a(:, 1), b(:, 2)) + dot_product(a(:, 2), b(:, 1))) > same) then
-         call model%changed%add(place//" holds the twist that the dataset begins with, in which the axes x of I and J differ")
+         call model%changed%add(place//" keeps the initial twist of the dataset, in which the x axes of I and J differ")
       end if
    end subroutine check_shafts
 
@@ -197,7 +197,7 @@ contains
 
       call argument_numbers(statement, "PD", diameter, mistakes, 2)
       if (size(diameter) == 0) then
-         call mistake(mistakes, statement%at, "a rack and pinion have a pitch diameter PD", "")
+         call mistake(mistakes, statement%at, "a rack and pinion needs a pitch diameter PD", "")
          return
       end if
       do k = 1, 2
@@ -208,15 +208,16 @@ contains
          if (dot_product(axes(:, 1, k), axes(:, 3, 3 - k)) > 1.0_wp - same) pinion = pinion + k
       end do
       if (pinion /= 1 .and. pinion /= 2) then
-         call leave_out(model, statement, "which marker is the pinion's follows from its x, along z of the rack; here "// &
-                        trim(merge("neither is so ", "both are so   ", pinion == 0)))
+         call leave_out(model, statement, "the marker of the pinion is identified by its x axis, along z of the rack; here "// &
+                        trim(merge("neither matches", "both match     ", pinion == 0)))
          return
       end if
       rack = 3 - pinion
       radius = 0.5_wp*diameter(1)*model%units%length
       side = dot_product(model%place(marker(pinion)) - model%place(marker(rack)), cross(axes(:, 3, pinion), axes(:, 3, rack)))
       if (abs(abs(side) - abs(radius)) > near*abs(radius)) call model%changed%add(line_words(statement%at)//"JOINT/"// &
-         to_text(statement%id)//" (rack and pinion): the axes are "//exact_text(abs(side))//" m apart; half of PD holds")
+         to_text(statement%id)//" (rack and pinion): the distance of the axes is "//exact_text(abs(side))//" m, but half of PD "// &
+            "is used")
       call draft%new_name(named(statement), statement%id, name)
       call draft%point(model, marker(rack), point_i)
       call draft%point(model, marker(pinion), point_j)
@@ -251,12 +252,12 @@ contains
 
       call argument_numbers(statement, "PITCH", pitch, mistakes, 2)
       if (size(pitch) == 0) then
-         call mistake(mistakes, statement%at, "a screw has a PITCH", "")
+         call mistake(mistakes, statement%at, "a screw needs a PITCH", "")
          return
       end if
       call add_joint(model, draft, statement, "joint.screw", [3, 3], marker, exact_text(pitch(1)*model%units%length)//"m")
       if (.not. any_cylinder(model, marker, mistakes)) call model%changed%add(line_words(statement%at)//"JOINT/"// &
-         to_text(statement%id)//" (screw) holds its axis too, as there is no cylindrical joint beside it")
+         to_text(statement%id)//" (screw) constrains its axis too, as there is no cylindrical joint beside it")
       call add_start(model, draft, draft%joints(size(draft%joints)), statement, mistakes)
    end subroutine add_screw
 
@@ -324,7 +325,7 @@ contains
                if (has_word(it, trim(adams(i)), 3)) exit
             end do
             if (i > size(adams)) then
-               call leave_out(model, it, "a deck's space has no such primitive ("//first_word(it)//")")
+               call leave_out(model, it, "gudgeon has no such spatial primitive ("//first_word(it)//")")
             else
                call add_joint(model, draft, it, "joint."//trim(deck(i)), [3, 3], marker, "")
             end if

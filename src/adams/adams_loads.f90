@@ -53,7 +53,7 @@ contains
       integer :: k
 
       if (.not. axes_of_load(model, marker(2), marker(1), frame)) then
-         call leave_out(model, statement, "its direction is that of another moving part")
+         call leave_out(model, statement, "its direction moves with another part")
          return
       end if
       z = body_axis(model, marker(2), 3)
@@ -124,20 +124,20 @@ contains
       reference = model%marker(id_of(statement, "RM", mistakes))
       if (marker == 0 .or. reference == 0) then
          call mistake(mistakes, statement%at, "I and RM of "//statement%keyword//"/"//to_text(statement%id)// &
-                      " are no markers of rigid parts", "")
+                      " are not markers of rigid parts", "")
          return
       end if
       if (find_argument(statement, "FUNCTION", 3) > 0 .or. all([((find_argument(statement, names(k, pass)) == 0, &
                                                                   k=1, 3), pass=1, 2)])) then
-         call leave_out(model, statement, "its components are code outside the dataset, or not there")
+         call leave_out(model, statement, "its components are missing, or user code outside the dataset")
          return
       end if
       if (.not. floats_on_ground(model, statement, mistakes)) then
-         call leave_out(model, statement, "its reaction is on a moving part")
+         call leave_out(model, statement, "its reaction acts on a moving part")
          return
       end if
       if (.not. axes_of_load(model, reference, marker, frame)) then
-         call leave_out(model, statement, "its axes are those of another moving part")
+         call leave_out(model, statement, "its axes move with another part")
          return
       end if
       do pass = 1, 2

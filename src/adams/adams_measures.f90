@@ -40,14 +40,14 @@ contains
       do k = 1, tree%n       ! before any row goes to the deck
          if (tree%nodes(k)%kind /= node_call) cycle
          if (.not. is_measure(tree%nodes(k)%name)) cycle
-         if (index(measures, " "//tree%nodes(k)%name//" ") == 0) message = tree%nodes(k)%name//" has no words in a deck"
+         if (index(measures, " "//tree%nodes(k)%name//" ") == 0) message = tree%nodes(k)%name//" is not supported"
          if (message /= "") return
       end do
       do k = 1, tree%n
          if (tree%nodes(k)%kind /= node_call) cycle
          if (.not. is_measure(tree%nodes(k)%name)) cycle
          call name_one(model, draft, tree, k, n_seen, message)
-         if (message == "" .and. n_seen > most_seen) message = "it depends on more components of motion than an expression may"
+         if (message == "" .and. n_seen > most_seen) message = "it depends on more components of motion than an expression supports"
          if (message /= "") return
       end do
    end subroutine name_measures
@@ -101,13 +101,13 @@ contains
       associate (it => tree%nodes(node))
          do k = 1, min(4, size(it%arguments))
             if (tree%nodes(it%arguments(k))%kind /= node_number) then
-               message = "an argument of "//it%name//" is no number of a marker"
+               message = "an argument of "//it%name//" is not the number of a marker"
                return
             end if
             id = nint(min(max(tree%nodes(it%arguments(k))%value, 0.0_wp), 1.0e9_wp))
             if (id == 0) cycle
             marker(k) = model%marker(id)
-            if (marker(k) == 0) message = "marker "//to_text(id)//" of "//it%name//" is no MARKER of a rigid part"
+            if (marker(k) == 0) message = "marker "//to_text(id)//" of "//it%name//" is not a MARKER of a rigid part"
          end do
          if (marker(1) == 0 .and. message == "") message = it%name//" has no marker"
       end associate
@@ -132,7 +132,7 @@ contains
       words = ""
       is_true = is_rate .and. is_fixed(model, marker(4)) .and. .not. is_fixed(model, marker(3))
       if (is_rate .and. .not. is_true .and. part_of(model, marker(3)) /= part_of(model, marker(4))) then
-         message = "a velocity that one part sees, along the axes of another one"
+         message = "a velocity observed from one part, in axes of another part"
          return
       end if
       call name_row(model, draft, marker(:2), marker(3), is_true, row, message)
@@ -166,7 +166,7 @@ contains
       name = ""
       from = "none"
       if (marker(2) == 0 .and. .not. is_fixed(model, frame)) then
-         message = "a place seen from the global origin along the axes of a part that moves"
+         message = "a position relative to the global origin in axes of a moving part"
          return
       end if
       call draft%point(model, marker(1), point)
@@ -193,7 +193,7 @@ contains
 
       words = ""
       if (.not. is_fixed(model, marker(3))) then
-         message = "an angular velocity along the axes of a part that moves"
+         message = "an angular velocity in axes of a moving part"
          return
       end if
       direction = 0.0_wp
@@ -202,7 +202,7 @@ contains
       do side = 1, 2
          if (is_fixed(model, marker(side))) cycle
          associate (part => model%parts(model%markers(marker(side))%part))
-            if (index(part%name, "-") > 0) message = "the name of its part, "//part%name//", has no place in expressions"
+            if (index(part%name, "-") > 0) message = "the name of its part, "//part%name//", is not allowed in expressions"
             do k = 1, 3
                if (abs(direction(k)) <= nothing) cycle
                words = words//" + "//factor(merge(1.0_wp, -1.0_wp, side == 1)*direction(k))//part%name//".angular_velocity."// &

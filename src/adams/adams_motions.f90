@@ -51,7 +51,7 @@ contains
             if (i > size(draft%joints)) then
                if (find_statement(model, "JOINT", j) == 0) then
                   call mistake(mistakes, it%at, "MOTION/"//to_text(it%id)//" drives JOINT/"//to_text(j)// &
-                        ", which is not there", "")
+                        ", which does not exist", "")
                else
                   call leave_out(model, it, "its joint is not in the deck")
                end if
@@ -65,7 +65,7 @@ contains
             else if (draft%joints(i)%kind == "joint.translational" .or. draft%joints(i)%kind == "joint.cylindrical") then
                call add_way(model, draft, it, marker, 3, mistakes)
             else
-               call leave_out(model, it, "a deck drives no "//draft%joints(i)%kind)
+               call leave_out(model, it, "gudgeon has no driver for "//draft%joints(i)%kind)
             end if
          end associate
       end do
@@ -87,7 +87,7 @@ contains
          if (has_word(statement, axes(axis))) exit
       end do
       if (axis > 3) then
-         call leave_out(model, statement, "a deck drives no angle between two markers without a joint")
+         call leave_out(model, statement, "gudgeon has no driver for an angle between two markers without a joint")
       else
          call add_way(model, draft, statement, marker, axis, mistakes)
       end if
@@ -173,7 +173,7 @@ contains
       call name_splines(model, draft, tree, message)
       if (message == "") bits = depends_on(tree, tree%root, [0, 0], .false.)
       if (message == "") then
-         if (iand(bits, not(on_time)) /= 0) message = "it is no function of the time alone"
+         if (iand(bits, not(on_time)) /= 0) message = "it depends on more than time"
       end if
       words%time = "(t/"//model%units%time_text()//")"
       words%stretch = ""
@@ -185,7 +185,7 @@ contains
       if (message /= "") then
          continue
       else if (by_acceleration) then
-         if (bits /= 0) message = "an ACCELERATION that is no constant"
+         if (bits /= 0) message = "an ACCELERATION that is not constant"
          call deck_text(tree, tree%root, words, first, message)
          if (size(speed) == 0) speed = [0.0_wp]
          text = grouped(first)//"*"//words%time//"^2/2 + "//real_text(speed(1), 15)//"*"//words%time
@@ -209,7 +209,7 @@ contains
       if (by_velocity .or. by_acceleration) then
          if (size(given) > 0) then
             if (abs(given(1) - start) > same*(1.0_wp + abs(start))) call leave_out(model, statement, "ICDISP = "// &
-               real_text(given(1), 6)//"; the motion begins at "//real_text(start, 6)//", where the markers are")
+               real_text(given(1), 6)//"; the motion starts at "//real_text(start, 6)//", the position of the markers")
          end if
          if (.not. turns .and. abs(start) > 0.0_wp) text = real_text(start, 17)//" + "//text
       end if

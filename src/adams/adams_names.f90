@@ -79,20 +79,20 @@ contains
       character(:), allocatable :: reason          !! one line
 
       select case (keyword)
-      case ("BUSHING"); reason = "its axes and its reaction move with J; force.spring and force.torsion_spring come near to it"
+      case ("BUSHING"); reason = "its axes and its reaction move with J; use force.spring and force.torsion_spring instead"
       case ("CONTACT"); reason = "its solids are not in the dataset; see the joints with clearance, clearance.*"
       case ("FRICTION")
-         reason = "its law is none of a deck's; joints of a deck name a row of friction.* in their column 'friction'"
+         reason = "its law is not supported; joints of a deck name a row of friction.* in their column 'friction'"
       case ("MFORCE", "CURVE", "MATRIX", "STRING", "ARRAY")
-         reason = "it is for statements that a deck does not have"
-      case ("CVCV", "PTCV", "CVSF", "PTSF", "SFSF", "SURFACE"); reason = "a deck has no curves and surfaces that touch"
+         reason = "it belongs to statements that are not supported"
+      case ("CVCV", "PTCV", "CVSF", "PTSF", "SFSF", "SURFACE"); reason = "contact of curves and surfaces is not supported"
       case ("DIFF", "GSE", "LSE", "TFSISO", "DV", "PINPUT", "POUTPUT", "SENSOR", "RULE")
-         reason = "a deck has no equations of one's own, and no control"
-      case ("UCON", "USERCON"); reason = "a deck has no constraints of one's own"
-      case ("GCON"); reason = "a deck has no constraints of one's own, but distances"
-      case ("POINT_MASS"); reason = "a deck has bodies with inertia only"
-      case ("TIRE", "FORCE"); reason = "it is code outside the dataset"
-      case default; reason = "a deck has no such thing"
+         reason = "user-defined equations and control are not supported"
+      case ("UCON", "USERCON"); reason = "user-defined constraints are not supported"
+      case ("GCON"); reason = "user-defined constraints except distances are not supported"
+      case ("POINT_MASS"); reason = "gudgeon supports only bodies with inertia"
+      case ("TIRE", "FORCE"); reason = "user code outside the dataset"
+      case default; reason = "not supported"
       end select
    end function reason_against
 

@@ -53,13 +53,13 @@ contains
             is_finite = lower(word(length + 1:)) == "d"
             x = x*pi/180.0_wp
          end if
-         if (.not. is_finite) call mistake(mistakes, statement%arguments(k)%at, "'"//word//"' of "//name//" is no number", "")
+         if (.not. is_finite) call mistake(mistakes, statement%arguments(k)%at, "'"//word//"' of "//name//" is not a number", "")
          numbers = [numbers, x]
       end do
       if (.not. present(wanted)) return
       if (size(numbers) /= wanted) call mistake(mistakes, statement%arguments(k)%at, name//" has "//to_text(size(numbers))// &
                                     trim(merge(" number ", " numbers", size(numbers) == 1))//" where "// &
-                                    trim(counts(wanted))//trim(merge(" is needed ", " are needed", wanted == 1)), "")
+                                    trim(counts(wanted))//trim(merge(" is expected ", " are expected", wanted == 1)), "")
    end subroutine argument_numbers
 
    !> Three numbers of an argument, zeros without it.

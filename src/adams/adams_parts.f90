@@ -43,7 +43,7 @@ contains
          call read_units(statements(k), model%units, message)
          if (message /= "") call mistake(mistakes, statements(k)%at, message, "")
       end do
-      if (.not. model%units%is_given) call model%changed%add("no UNITS: all numbers are taken in m, kg, N, s")
+      if (.not. model%units%is_given) call model%changed%add("no UNITS: m, kg, N, s are assumed")
       call read_parts(model, mistakes)
       call read_markers(model, mistakes)
       do k = 1, size(model%parts)
@@ -76,8 +76,8 @@ contains
             model%parts(n) = new
          end associate
       end do
-      if (size(model%parts) == 0) call mistake(mistakes, location_t(1, 1, 1, 1), "there is no PART in the dataset", &
-                                                     "is it an Adams dataset (.adm)?")
+      if (size(model%parts) == 0) call mistake(mistakes, location_t(1, 1, 1, 1), "the dataset has no PART", &
+                                                     "check that it is an Adams dataset (.adm)")
    end subroutine read_parts
 
    !> Origin and axes of a part or marker.
@@ -113,7 +113,7 @@ contains
             a = reshape([cross(a(:, 1), a(:, 2)), a(:, 1), a(:, 2)], [3, 3])
          end if
          if (.not. any(abs(a) > 0.0_wp)) call mistake(mistakes, statement%at, "the points "//on_z//" and "//on_x// &
-                                                      " lie on one line, or at the origin", "")
+                                                      " are collinear, or at the origin", "")
       end if
       where (abs(a) < nothing) a = 0.0_wp
       where (abs(abs(a) - 1.0_wp) < nothing) a = sign(1.0_wp, a)
@@ -143,7 +143,7 @@ contains
             new = marker_t(id=it%id)
             new%part = findloc(ids, id, dim=1)
             if (new%part == 0) then
-               call mistake(mistakes, it%at, "MARKER/"//to_text(it%id)//" is on PART/"//to_text(id)//", which is not there", "")
+               call mistake(mistakes, it%at, "MARKER/"//to_text(it%id)//" is on PART/"//to_text(id)//", which does not exist", "")
                cycle
             end if
             new%name = "MARKER_"//to_text(it%id)
@@ -177,7 +177,7 @@ contains
          call argument_numbers(it, "IP", ip, mistakes)
          if (size(ip) > 0 .and. size(ip) /= 3 .and. size(ip) /= 6) call mistake(mistakes, &
                                                              it%arguments(find_argument(it, "IP"))%at, &
-                                                             "IP has three numbers, or six", "")
+                                                             "IP needs three or six numbers", "")
          if (min(part%mass, minval(ip(:min(3, size(ip))))) < 0.0_wp) call mistake(mistakes, it%at, "PART/"//to_text(part%id)// &
                                                                          " has a negative mass or moment of inertia", "")
          j = 0.0_wp
@@ -212,7 +212,7 @@ contains
                part%inertia(k, k) = 1.0e-6_wp*part%mass
             end do
             call model%changed%add(line_words(it%at)//words// &
-                  " has no moments of inertia: 1e-6 m^2 of its mass assumed")
+                  " has no moments of inertia: mass times 1e-6 m^2 assumed")
          end if
       end associate
    end subroutine read_mass
@@ -228,7 +228,7 @@ contains
 
       marker = model%marker(id_of(statement, name, mistakes))
       k = find_argument(statement, name)
-      if (marker == 0 .and. k > 0) call mistake(mistakes, statement%arguments(k)%at, "the "//name//" marker is not there", "")
+      if (marker == 0 .and. k > 0) call mistake(mistakes, statement%arguments(k)%at, "the "//name//" marker does not exist", "")
    end function marker_of
 
 end module adams_parts

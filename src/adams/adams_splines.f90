@@ -69,7 +69,7 @@ contains
          if (size(it%arguments) > 3) then
             associate (order => tree%nodes(it%arguments(4)))
                if (order%kind /= node_number .or. abs(order%value) > 0.0_wp) message = "a derivative by "//it%name// &
-                                                                                       " has no words in a deck"
+                                                                                       " is not supported"
             end associate
             if (message /= "") return
          end if
@@ -77,7 +77,7 @@ contains
          if (tree%nodes(it%arguments(3))%kind == node_number) id = nint(min(tree%nodes(it%arguments(3))%value, 1.0e9_wp))
          k = find_statement(model, "SPLINE", id)
          if (k == 0) then
-            message = "the spline of "//it%name//" is not there"
+            message = "the spline of "//it%name//" does not exist"
             return
          end if
          key = merge(cubic, akimas, it%name == "CUBSPL")//to_text(id)
@@ -99,7 +99,7 @@ contains
 
       if (statement%keyword /= "SPLINE") return
       if (draft%place_of(cubic//to_text(statement%id)) > 0 .or. draft%place_of(akimas//to_text(statement%id)) > 0) return
-      call leave_out(model, statement, "nothing that a deck has takes it")
+      call leave_out(model, statement, "it is not used by the deck")
    end subroutine name_idle_splines
 
    !> The samples of a spline.
@@ -113,17 +113,17 @@ contains
       call argument_numbers(statement, "X", x, mistakes)
       call argument_numbers(statement, "Y", y, mistakes)
       if (has_word(statement, "Z", 1)) then
-         message = "it is a surface, of two arguments"
+         message = "it is a surface, with two arguments"
       else if (has_word(statement, "FILE", 1)) then
-         message = "its samples stand in a file"
+         message = "its samples are in a separate file"
       else if (mistakes%count() > 0) then
-         message = "one of its samples is no number"
+         message = "one of its samples is not a number"
       else if (size(x) /= size(y)) then
          message = "it has "//to_text(size(y))//" values at "//to_text(size(x))//" places"
       else if (size(x) < least_samples) then
          message = "it has fewer than "//to_text(least_samples)//" samples"
       else if (any(x(2:) <= x(:size(x) - 1))) then
-         message = "its places do not increase"
+         message = "its abscissas do not increase"
       end if
       if (message /= "") message = "SPLINE/"//to_text(statement%id)//": "//message
    end subroutine take_samples
@@ -144,7 +144,7 @@ contains
       associate (it => model%statements(statement))
          goes_on = has_word(it, "LINEAR_EXTRAPOLATE", 1)
          if (.not. goes_on) call model%changed%add(line_words(it%at)//"SPLINE/"//to_text(it%id)//": "//name// &
-                                                   " ends with its samples, where Adams goes on")
+                                                   " ends at its last sample, where Adams extrapolates")
       end associate
       if (draft%functions%n == 0) then   ! at most one of each kind for a spline
          call draft%functions%start(2*count([(model%statements(k)%keyword == "SPLINE", k=1, size(model%statements))]))

@@ -36,18 +36,18 @@ contains
       call initial_conditions(statement, turn, way, mistakes)
       if (size(turn) > 0) then
          now = angle_at_start(model, joint%marker)
-         if (abs(sin(0.5_wp*(turn(1) - now))) > same) call leave_out(model, statement, "it asks for the angle "// &
-            real_text(turn(1), 6)//" rad at the start; it is "//real_text(now, 6)//" rad where the markers are")
+         if (abs(sin(0.5_wp*(turn(1) - now))) > same) call leave_out(model, statement, "it requests the initial angle  "// &
+            real_text(turn(1), 6)//" rad; the markers give "//real_text(now, 6)//" rad")
       end if
       if (size(way) > 0) then
          now = displacement_at_start(model, joint%marker)
          if (abs(way(1)*model%units%length - now) > same*(abs(now) + model%units%length)) call leave_out(model, statement, &
-            "it asks for the displacement "//real_text(way(1), 6)//" at the start; it is "// &
-            real_text(now/model%units%length, 6)//" where the markers are")
+            "it requests the initial displacement "//real_text(way(1), 6)//"; the markers give "// &
+            real_text(now/model%units%length, 6)//"")
       end if
       if (size(way) > 1) then
          call slide_of(model, statement, joint%marker, part, velocity, mistakes)
-         if (part == 0) call leave_out(model, statement, "the speed of its slide: give a body a velocity instead")
+         if (part == 0) call leave_out(model, statement, "the speed of its displacement: give a body a velocity instead")
       end if
       if (size(turn) < 2) return
       if (joint%kind /= "joint.revolute" .and. joint%kind /= "joint.cylindrical") then

@@ -59,7 +59,7 @@ contains
             case ("PI"); text = "pi"
             case ("DTOR"); text = "(pi/180)"
             case ("RTOD"); text = "(180/pi)"
-            case default; message = it%name//" is not known"
+            case default; message = it%name//" is not supported"
             end select
          case (node_negate)
             call deck_text(tree, it%arguments(1), words, a, message)
@@ -189,7 +189,7 @@ contains
             text = text//")"
          case ("IMPACT", "BISTOP")
             if (.not. is_undamped(tree, node) .and. is_zero(tree, it%arguments(least_arguments(it%name)))) then
-               message = it%name//" with a damping that is there at once"
+               message = it%name//" with a damping that starts abruptly"
                return
             end if
             k = merge(1, 0, it%name == "BISTOP")
@@ -202,7 +202,7 @@ contains
             else if (index(same_of_two, " "//it%name//" ") > 0) then
                text = lower(it%name)//"("//a(1)%s//", "//a(2)%s//")"
             else
-               message = it%name//" has no words in a deck"
+               message = it%name//" is not supported"
             end if
          end select
       end associate

@@ -77,7 +77,7 @@ contains
             end select
          end associate
       end do
-      if (has_word(statement, "NONE")) message = "UNITS without units is not a set of units"
+      if (has_word(statement, "NONE")) message = "UNITS is empty"
    end subroutine read_units
 
    !> A unit by its name, or by the beginning of it.

@@ -198,8 +198,9 @@ contains
          if (.not. is_linear) parts%message = "its damping is not linear in the rate"
          parts%of_rate = sum_of(parts%of_rate, factor//text)
       case default
-         parts%message = "a term of the stretch, its rate or the time together"
-         if (iand(bits, on_other) /= 0) parts%message = "it depends on motion other than that of its own markers along their line"
+         parts%message = "a term that combines elongation, its rate or time"
+         if (iand(bits, on_other) /= 0) parts%message = "it depends on motion other than the relative motion of its markers "// &
+            "along their line"
          if (iand(bits, on_other) /= 0 .and. turns) parts%message = "it depends on motion other than AZ and WZ of its own markers"
       end select
    end subroutine add_terms

@@ -72,9 +72,9 @@ contains
       real(wp), intent(in) :: t                           !! time reached [s]
       type(error_t), allocatable, intent(out) :: error    !! the message
 
-      call set_error(error, exit_integration, "the processor time allowed (limit_cpu) is used up"//new_line("a")// &
+      call set_error(error, exit_integration, "the run exceeded its CPU time limit (limit_cpu)"//new_line("a")// &
                      "  = at t = "//real_text(t, 9)//" s"//new_line("a")// &
-                     "  = everything up to the last output instant was saved; allow more, or fewer output instants")
+                     "  = results up to the last output time are saved; raise the limit, or reduce the output times")
    end subroutine refuse
 
 end module cpu_budget

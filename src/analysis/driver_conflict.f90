@@ -58,9 +58,9 @@ contains
       end do
       was = error%message
       if (index(was, new_line("a")) > 0) was = piece(was, 1, index(was, new_line("a")) - 1)
-      call set_error(error, exit_assembly, names//" contradict each other at the start"//new_line("a")// &
-                     "  = the mechanism can be assembled without any one of them, not with all: "//was//new_line("a")// &
-                     "  = remove one, or let them prescribe positions and speeds that agree")
+      call set_error(error, exit_assembly, names//" prescribe contradictory motion at t = 0"//new_line("a")// &
+                     "  = the mechanism can be assembled without any one of them, but not with all: "//was//new_line("a")// &
+                     "  = remove one, or make their positions and speeds consistent")
    end subroutine name_conflict
 
    !> Whether the mechanism can be assembled without a driver.

@@ -32,9 +32,10 @@ contains
             if (.not. set%laws%films%is_alone) cycle
             item = set%item_of(contact)
             thickness = set%items%clearance(item)*(1.0_wp - set%laws%films%eps_max(item))
-            words = "the film of joint '"//set%names(item)%s//"' ("//set%laws%films%law%name//") ends: an eccentricity of "// &
-                    real_text(set%laws%films%eps_max(item), 8)//" of the clearance (eps_max), "// &
-                    real_text(1.0e6_wp*thickness, 3)//" um of film"
+            words = "the film of joint '"//set%names(item)%s//"' ("//set%laws%films%law%name//") reached its limit: the "// &
+               "eccentricity is "// &
+                    real_text(set%laws%films%eps_max(item), 8)//" times the clearance (eps_max), film thickness "// &
+                    real_text(1.0e6_wp*thickness, 3)//" um"
             return
          end associate
       end do

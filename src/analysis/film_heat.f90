@@ -51,9 +51,9 @@ contains
          steps = steps + begun
          if (.not. is_balanced(system, balance, tolerance)) exit
       end do
-      call set_error(error, exit_assembly, "the heat of the film of joint '"//worst//"' finds no balance: "// &
-                     real_text(missing, 3)//" K are missing"//new_line("a")// &
-                     "  = with heat = off the film has the temperature of the lubricant")
+      call set_error(error, exit_assembly, "the heat of the film of joint '"//worst//"' has no thermal equilibrium: "// &
+                     real_text(missing, 3)//" K remain"//new_line("a")// &
+                     "  = with heat = off the film keeps the temperature of the lubricant")
    end subroutine balance_heat
 
    !> Bring the temperature of each heated film half the way to what its heat asks for.
@@ -78,9 +78,9 @@ contains
                   motion = films%motion_of(i, items%body(:, i), items%s_i(:, i), items%s_j(:, i), system%linkage%motion)
                   associate (state => films%state_of(i, items%body(:, i), motion, system%linkage%motion))
                      if (.not. state%has_flow) then
-                        call set_error(error, exit_assembly, "no lubricant leaves the film of joint '"//set%names(i)%s// &
-                                       "', so that its heat has no balance"//new_line("a")// &
-                                       "  = with heat = off the film has the temperature of the lubricant")
+                        call set_error(error, exit_assembly, "film of joint '"//set%names(i)%s// &
+                                       "' has no side flow, so its heat balance has no solution"//new_line("a")// &
+                                       "  = with heat = off the film keeps the temperature of the lubricant")
                         return
                      end if
                      change = films%oil(i)%temperature + 0.5_wp*state%rise - films%place(i)%temperature

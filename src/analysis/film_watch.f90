@@ -175,13 +175,15 @@ contains
       type(text_t), allocatable, intent(inout) :: warnings(:)    !! (any) appended to
 
       if (lean%tilt > most_tilt) then
-         call append_text(warnings, "joint '"//joint//"', film '"//film//"': a tilt that adds "//real_text(lean%tilt, 2)// &
-                          " of the gap left in the middle at an end, at t = "//real_text(lean%tilt_time, 6)// &
-                          " s; it holds for tilts up to "//real_text(most_tilt, 1)//", film.grid for any")
+         call append_text(warnings, "joint '"//joint//"', film '"//film//"': the tilt changes the film thickness at an end by "// &
+            ""//real_text(lean%tilt, 2)// &
+                          " of that in the middle, at t = "//real_text(lean%tilt_time, 6)// &
+                          " s; the model is valid up to "//real_text(most_tilt, 1)//"; film.grid has no such limit")
       end if
       if (lean%engaged < least_engaged) then
-         call append_text(warnings, "joint '"//joint//"': the pin fills only "//real_text(lean%engaged, 3)// &
-                          " of the length of its film, at t = "//real_text(lean%engaged_time, 6)//" s; the film acts by that part")
+         call append_text(warnings, "joint '"//joint//"': the pin covers only "//real_text(lean%engaged, 3)// &
+                          " of the film length, at t = "//real_text(lean%engaged_time, 6)//" s; the film force is "// &
+                             "reduced in proportion")
       end if
    end subroutine warn_of_lean
 
@@ -212,9 +214,9 @@ contains
                associate (joint => self%joint(first))
                   call warn_of_lean(set%names(i)%s, set%laws%films%law%name, joint%lean, warnings)
                   if (set%laws%films%place(i)%is_heated) call append_text(warnings, "joint '"//set%names(i)%s// &
-                     "': heat = balance is for a static analysis; in this run the film keeps the temperature of its lubricant")
+                     "': heat = balance needs a static analysis; this run uses the temperature of the lubricant")
                   if (.not. any(joint%is_below)) cycle
-                  words = "joint '"//set%names(i)%s//"', film '"//set%laws%films%law%name//"': as thin as "// &
+                  words = "joint '"//set%names(i)%s//"', film '"//set%laws%films%law%name//"': minimum thickness "// &
                           micrometres(max(joint%least, 0.0_wp))//" at t = "//real_text(joint%time, 6)//" s"
                   do limit = 1, n_limit
                      if (joint%is_below(limit)) words = words//"; below "//limit_words(limit, joint%limit(limit))// &
@@ -251,10 +253,10 @@ contains
                   decay = set%laws%films%decay_of(i, joint%motion, inverse)
                   if (joint%step*decay < stiff_from .or. joint%step*decay > stiff_to) cycle
                   call append_text(warnings, "joint '"//set%names(i)%s//"', film '"//set%laws%films%law%name// &
-                                   "' is stiff: where it is thinnest it brings the journal to rest within "// &
+                                   "' is stiff: at its minimum thickness it stops the journal within "// &
                                    real_text(1.0e6_wp/decay, 2)//" us, and '"//method//"' takes steps of "// &
-                                   real_text(1.0e6_wp*joint%step, 2)//" us; method = bdf, or radau, takes steps that "// &
-                                   "follow the motion")
+                                   real_text(1.0e6_wp*joint%step, 2)//" us; method = bdf or radau "// &
+                                   "takes longer steps")
                end associate
             end do
          end associate
@@ -271,7 +273,7 @@ contains
       case (limit_machined)
          words = micrometres(value)//" (machined surfaces, Hamrock)"
       case (limit_diameter)
-         words = micrometres(value)//" (1.5e-4 of the journal's diameter, Phelan)"
+         words = micrometres(value)//" (1.5e-4 of the journal diameter, Phelan)"
       case default
          words = micrometres(value)//" (20 times the roughness)"
       end select

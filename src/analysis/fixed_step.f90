@@ -40,9 +40,9 @@ contains
          if (arrives_in_parts) exit
       end do
       if (.not. arrives_in_parts) return
-      words = "the step of "//real_text(h, 3)//" s is too long for the motion, from t = "//real_text(t0, 9)//" s on: "
+      words = "the step of "//real_text(h, 3)//" s is too long for the motion from t = "//real_text(t0, 9)//" s on: "
       if (.not. arrives) then
-         words = words//"it cannot be made, steps of "//real_text(h/4.0_wp**k, 3)//" s can"
+         words = words//"the step fails, but steps of "//real_text(h/4.0_wp**k, 3)//" s succeed"
          return
       end if
       n = system%n - system%n_quadrature
@@ -51,7 +51,7 @@ contains
       if (far <= apart) then
          words = ""
       else
-         words = words//"steps of "//real_text(h/4.0_wp**k, 3)//" s lead elsewhere"
+         words = words//"steps of "//real_text(h/4.0_wp**k, 3)//" s give a different motion"
       end if
 
    contains

@@ -50,10 +50,10 @@ contains
                if (.not. any(value%expression%curves%beyond == beyond_error)) cycle
                t = first_gap(value%expression, end)
                if (t > end) cycle
-               call mistakes%add(value%location, "a named function does not reach over the motion, in column "// &
+               call mistakes%add(value%location, "the domain of a function does not cover the motion, in column "// &
                                  table%info%columns(c)%name//" of "//table%info%name, &
-                                 "there is no value at t = "//real_text(t, 4)//" s, the motion ends at "//real_text(end, 4)//" s", &
-                                 "let its samples reach further, or set beyond = hold, linear or periodic")
+                                 "undefined at t = "//real_text(t, 4)//" s, the motion ends at "//real_text(end, 4)//" s", &
+                                 "extend the samples, or set beyond = hold, linear or periodic")
             end associate
          end do
       end do

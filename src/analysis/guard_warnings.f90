@@ -18,20 +18,21 @@ contains
       associate (breach => self%breach(g, m), limit => self%limit(g, m))
          select case (g)
          case (guard_penetration)
-            words = "a penetration of "//millimetres(breach%value)//", beyond "//real_text(self%penetration, 3)// &
-                    " of the size of the surfaces, "//millimetres(limit)//" (guard 'penetration')"
+            words = "penetration "//millimetres(breach%value)//", limit "//real_text(self%penetration, 3)// &
+                    " of the surface size, "//millimetres(limit)//" (guard 'penetration')"
          case (guard_clearance)
-            words = "penetrations of up to "//millimetres(breach%value)//", beyond the clearance itself, "//millimetres(limit)
+            words = "penetration up to "//millimetres(breach%value)//", more than the clearance, "//millimetres(limit)
          case (guard_law_range)
-            words = "penetrations of up to "//millimetres(breach%value)//", but the law ends at "//millimetres(limit)// &
-                    " and was continued along its tangent"
+            words = "penetration up to "//millimetres(breach%value)//", but the law is valid up to "//millimetres(limit)// &
+                    ", and its tangent beyond"
          case (guard_impact_speed)
-            words = "impacts of up to "//real_text(breach%value, 3)//" m/s, but the law is quasi-static: elastic waves, which "// &
-                    "it leaves out, take "//real_text(100.0_wp*share_of_waves(breach%value, bar_speed(limit)), 2)// &
+            words = "impact speed up to "//real_text(breach%value, 3)//" m/s, but the law is quasi-static: it neglects elastic "// &
+               "waves, "// &
+                    "which take "//real_text(100.0_wp*share_of_waves(breach%value, bar_speed(limit)), 2)// &
                     " % of the energy (limit "//real_text(100.0_wp*most_share, 2)//" %, "//real_text(limit, 3)// &
-                    " m/s; Hunter 1957): take a restitution measured at that speed, or lower the speed"
+                    " m/s; Hunter 1957): use a restitution measured at that speed, or reduce the speed"
          case default
-            words = "normal forces of up to "//real_text(breach%value, 3)//" N, but the strength of the material is reached at "// &
+            words = "normal force up to "//real_text(breach%value, 3)//" N, but the strength limit of the material is "// &
                     real_text(limit, 3)//" N"
          end select
          words = words//", at t = "//real_text(breach%time, 6)//" s"
@@ -79,9 +80,9 @@ contains
       k = greatest_of(self%travel)
       if (k == 0) return
       call append_text(warnings, "body '"//system%linkage%bodies%names(k)%s//"' is "//real_text(self%travel(k)%value, 3)// &
-                       " m from its start at t = "//real_text(self%travel(k)%time, 6)//" s, "// &
+                       " m from its initial position at t = "//real_text(self%travel(k)%time, 6)//" s, "// &
                        real_text(self%travel(k)%value/self%size, 3)// &
-                       " times the size of the scene: does a driver or load go on too long, or did it miss a surface?")
+                       " times the size of the model: check for a driver or load that acts too long, or a missed contact")
    end procedure guards_warn
 
    !> The breach with the greatest value, 0: none.

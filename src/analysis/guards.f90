@@ -241,8 +241,8 @@ contains
          if (are_near(system%linkage%bodies%n, motion%r, motion%v, self%start, self%way**2, self%speed**2)) return
          do k = 1, system%linkage%bodies%n
             if (motion%v(1, k)**2 + motion%v(2, k)**2 > self%speed**2) then
-               call end_run(self, "body '"//system%linkage%bodies%names(k)%s//"' moves with "//real_text(hypot(motion%v(1, k), &
-                            motion%v(2, k)), 3)//" m/s, faster than the guard 'speed' allows: "//real_text(self%speed, 3)//" m/s")
+               call end_run(self, "body '"//system%linkage%bodies%names(k)%s//"' has a speed of "//real_text(hypot(motion%v(1, k), &
+                            motion%v(2, k)), 3)//" m/s, above the guard 'speed': "//real_text(self%speed, 3)//" m/s")
             end if
             way = (motion%r(1, k) - self%start(1, k))**2 + (motion%r(2, k) - self%start(2, k))**2
             if (way > self%way**2) call raise(self%travel(k), sqrt(way), t)
@@ -316,8 +316,8 @@ contains
       self%n_wrong = self%n_wrong + 1
       if (abs(residual) <= self%energy*largest .or. abs(residual) <= noise*eps*added) self%n_wrong = 0
       if (self%n_wrong < most_wrong) return
-      call end_run(self, "the motion is not that of the mechanism: "//real_text(residual, 3)//" J were made of nothing, "// &
-                   real_text(abs(residual)/largest, 3)//" of the largest energy (guard 'energy')")
+      call end_run(self, "the motion is not physical: an energy error of "//real_text(residual, 3)//" J, which is "// &
+                   real_text(abs(residual)/largest, 3)//" of the maximum energy (guard 'energy')")
    end subroutine guards_look_at_energy
 
    !> What a contact made of nothing that began where its surfaces overlapped. It is booked as its loss, so that no residual has it.
@@ -327,9 +327,9 @@ contains
       real(wp), intent(in) :: largest             !! largest energy before [J]
 
       if (.not. self%energy > 0.0_wp .or. made <= self%energy*(largest + made)) return
-      call end_run(self, "the motion is not that of the mechanism: a contact that began overlapping made "// &
-                   real_text(made, 3)//" J of nothing, "//real_text(made/(largest + made), 3)// &
-                   " of the largest energy (guard 'energy')")
+      call end_run(self, "the motion is not physical: a contact with initial overlap created "// &
+                   real_text(made, 3)//" J, which is "//real_text(made/(largest + made), 3)// &
+                   " of the maximum energy (guard 'energy')")
    end subroutine guards_look_at_made
 
    !> The first reason stands.

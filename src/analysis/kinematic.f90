@@ -75,7 +75,7 @@ contains
       summary%quality%energy_residual_max = not_a_number()
       allocate (summary%warnings(0))
       if (size(system%linkage%ideal) > 0) then
-         call append_text(summary%warnings, "joints with clearance are taken as ideal in a kinematic analysis")
+         call append_text(summary%warnings, "a kinematic analysis treats joints with clearance as ideal")
       end if
       call recorder%start(catalogue, error)
       call cpu_time(cpu_0)
@@ -141,8 +141,8 @@ contains
          if (mod(k, progress_every) == 0_i8) call recorder%progress(state%t/plan%end)
          if (recorder%wish(.false.) == wish_stop .and. k < last_instant(plan)) then
             summary%status = status_stopped
-            call set_error(error, exit_integration, "stopped from outside at t = "//real_text(state%t, 9)// &
-                           " s; what was written before can be read")
+            call set_error(error, exit_integration, "interrupted by a signal at t = "//real_text(state%t, 9)// &
+                           " s; the results written so far are readable")
             return
          end if
          if (budget%is_spent() .and. k < last_instant(plan)) then
@@ -365,24 +365,24 @@ contains
       row = maxloc(abs(system%linkage%rows%phi)*system%linkage%solution%row_weight, dim=1)
       select case (outcome)
       case (not_finite_rows)
-         message = new_line("a")//"  = a driver or a derivative of it is not a finite number there"
+         message = new_line("a")//"  = a driver, or one of its derivatives, is not finite there"
       case (open_rows)
-         message = new_line("a")//"  = '"//system%linkage%row_name(row)//"' would stay open by "// &
+         message = new_line("a")//"  = '"//system%linkage%row_name(row)//"' has a position residual of "// &
                    real_text(abs(system%linkage%rows%phi(row)), 3)//trim(merge(" rad", " m  ", &
                           system%linkage%rows%is_angle(row)))// &
                    " at t = "//real_text(t, 9)//" s: a dead centre, or a jump of a driver"
       case (singular)
-         message = new_line("a")//"  = rows depend on each other there: a dead centre, or branches of the motion meet"
+         message = new_line("a")//"  = constraint rows are linearly dependent there: a dead centre, or a bifurcation of the motion"
       case default
-         message = new_line("a")//"  = no finite velocities and accelerations fulfil all rows there"
+         message = new_line("a")//"  = no finite velocities and accelerations satisfy all constraints there"
       end select
       call evaluate_rows(system%linkage, state%t, state%q, state%v)
       call find_mobility(system%linkage, mobility)
       driver = system%linkage%row_name(stiffest_driver(mobility))
       call set_error(error, exit_integration, "the mechanism cannot follow driver '"//driver//"' beyond t = "// &
                      real_text(state%t, 9)//" s"//message//new_line("a")// &
-                     "  = everything up to the last output instant was saved; end the motion before, let the driver turn back "// &
-                     "earlier, drive another joint, or put the output instants beside the dead centre")
+                     "  = results up to the last output time are saved; end the run earlier, reverse the driver "// &
+                     "earlier, drive another joint, or shift the output times away from the dead centre")
    end subroutine describe_failure
 
 end module kinematic

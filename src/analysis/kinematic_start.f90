@@ -73,13 +73,13 @@ contains
       character(:), allocatable :: left
 
       left = ""
-      if (mobility%n_left > 0) left = new_line("a")//"  = and "//freedoms(mobility%n_left)//" left without a driver: "// &
+      if (mobility%n_left > 0) left = new_line("a")//"  = and "//freedoms(mobility%n_left)//" without a driver: "// &
                                       moving_bodies(system%linkage, mobility%freedom)//" can still move"
       call set_error(error, exit_assembly, "the mechanism is over-driven: "//drivers(mobility%n_driver)//" for "// &
                      freedoms(mobility%n_freedom)//", and "//joint_names(system%linkage, mobility%is_excess)// &
-                     " prescribes what joints and other drivers determine already"//left//new_line("a")// &
+                     " prescribes motion that joints and other drivers already determine"//left//new_line("a")// &
                      "  = drivers: "//joint_names(system%linkage, mobility%is_driver)//new_line("a")// &
-                     "  = a kinematic analysis needs one driver for each degree of freedom; remove the one in excess")
+                     "  = a kinematic analysis needs exactly one driver per degree of freedom; remove the extra one")
    end subroutine refuse_excess
 
    !> Freedoms that no driver prescribes.
@@ -96,12 +96,12 @@ contains
       is_shared(report%shared) = .true.
       dead_centre = ""
       if (any(is_shared)) dead_centre = new_line("a")//"  = rows of "//joint_names(system%linkage, is_shared)// &
-                                   " depend on each other here: if this is a dead centre, start beside it"
+                                   " are linearly dependent here: at a dead centre, start at another position"
       call set_error(error, exit_assembly, "the motion is not determined: "//freedoms(mobility%n_left)//" left; "// &
                      drivers(mobility%n_driver)//" for "//freedoms(mobility%n_freedom)//new_line("a")// &
-                     "  = bodies that can still move: "//moving_bodies(system%linkage, &
+                     "  = bodies that can move: "//moving_bodies(system%linkage, &
                           mobility%freedom)//dead_centre//new_line("a")// &
-                     "  = add a driver for each freedom, or let forces move it: [analysis.dynamic]")
+                     "  = add one driver per degree of freedom, or use [analysis.dynamic]")
    end subroutine refuse_missing
 
    !> A number of freedoms in words.

@@ -54,10 +54,11 @@ contains
             if (n == 0) return
             place = system%loose%functions%place(touch_function, set%before%contacts + deepest)
             call append_text(warnings, joint_words(set, deepest)//": "//to_text(n)// &
-                             trim(merge(" contact was  ", " contacts were", n == 1))//" passed over, begun and ended within a "// &
-                             "step (contact_onset = "//onset_word()//"): the deepest by "// &
+                             trim(merge(" contact was  ", " contacts were", n == 1))//" missed, with onset and separation "// &
+                                "within one "// &
+                             "step (contact_onset = "//onset_word()//"): maximum penetration "// &
                              real_text(1.0e3_wp*passed%deepest(place), 3)//" mm at t = "//real_text(passed%at(place), 6)// &
-                             " s, the first at "//real_text(first, 6)//" s; take shorter steps (step, maximum_step) or "// &
+                             " s, the first at "//real_text(first, 6)//" s; use shorter steps (step, maximum_step) or "// &
                              "contact_onset = located")
          end associate
       end subroutine warn_of_joint

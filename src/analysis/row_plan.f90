@@ -35,7 +35,7 @@ contains
       words = ""
       if (scene%analysis /= analysis_dynamic .or. system%loose%n_contact == 0) return
       associate (word => scene%settings%output%values(place_of(scene%settings%output, "contact_rows"))%text)
-         words = "rows at the onset, peak and end of every contact"
+         words = "output rows at onset, peak and separation of every contact"
          if (.not. has_contact_rows(scene, system)) words = "no "//words
          words = words//" (contact_rows = "//word
          if (word == "auto") words = words//": up to "//to_text(most_row_contacts)//" contacts, here "// &

@@ -41,15 +41,15 @@ contains
          associate (quality => summary%quality)
             if (quality%energy_residual_max > careful_ledger*quality%energy_max .and. &
                 .not. is_round_off(quality%energy_residual_max, added)) then
-               call append_text(summary%warnings, "the energy ledger does not close: its residual reached "// &
+               call append_text(summary%warnings, "energy balance violated: the energy error reached "// &
                                 real_text(quality%energy_residual_max/quality%energy_max, 3)// &
-                                " of the largest energy (limit "//real_text(careful_ledger, 1)//"); try a smaller tolerance")
+                                " of the maximum energy (limit "//real_text(careful_ledger, 1)//"); reduce the tolerance")
             end if
          end associate
          if (lost < -careful_energy*summary%quality%energy_max) then
-            call append_text(summary%warnings, "contacts made up to "//real_text(-lost, 3)//" J out of nothing: a law "// &
-                             "without a potential, as faces = blend and book are (foundation has one), or, with faces, a "// &
-                             "corner that overlapped as it came over an end of its guide")
+            call append_text(summary%warnings, "contacts created up to "//real_text(-lost, 3)//" J: possible causes are a law "// &
+                             "without a potential (faces = blend or book; foundation has one), or, with faces, a "// &
+                             "corner that overlapped as it passed an end of its guide")
          end if
       end if
       if (worst > careful_violation) then
@@ -57,7 +57,7 @@ contains
                           real_text(worst, 3)// &
                           trim(merge(" rad                      ", " of the size of the bodies", &
                                      system%linkage%rows%is_angle(worst_row)))// &
-                          "; a jump in a driver, or too large a tolerance?")
+                          "; check for a jump of a driver, or reduce the tolerance")
       end if
    end subroutine warn_of_errors
 
@@ -79,18 +79,18 @@ contains
       if (limits%energy > 0.0_wp .and. summary%quality%has_ledger) then
          if (.not. (summary%quality%energy_residual_max <= limits%energy*summary%quality%energy_max .or. &
                     is_round_off(summary%quality%energy_residual_max, added))) then
-            call set_error(error, exit_audit, "audit failed: the ledger's residual reached "// &
+            call set_error(error, exit_audit, "audit failed: the energy error reached "// &
                            real_text(summary%quality%energy_residual_max/summary%quality%energy_max, 3)// &
-                           " of the largest energy, allowed are "//real_text(limits%energy, 3)//new_line("a")// &
-                           "  = everything was saved; try a smaller tolerance")
+                           " of the maximum energy, allowed "//real_text(limits%energy, 3)//new_line("a")// &
+                           "  = results are saved; reduce the tolerance")
             return
          end if
       end if
       if (limits%violation > 0.0_wp .and. .not. summary%quality%violation_max <= limits%violation) then
          call set_error(error, exit_audit, "audit failed: a constraint was violated by "// &
-                        real_text(summary%quality%violation_max, 3)//" m (or rad), allowed are "// &
+                        real_text(summary%quality%violation_max, 3)//" m (or rad), allowed "// &
                         real_text(limits%violation, 3)//new_line("a")// &
-                        "  = everything was saved; try a smaller tolerance or greater gains of the stabilisation")
+                        "  = results are saved; reduce the tolerance or raise the stabilisation gains")
       end if
    end subroutine audit
 

@@ -41,7 +41,7 @@ contains
       where_singular = ""
       if (system%is_direct) call system%gather_loads()
       associate (linkage => system%linkage, bad_row => system%linkage%solution%bad_row)
-         if (bad_row > 0) where_singular = ": they are singular at joint or driver '"//linkage%row_name(bad_row)//"'"
+         if (bad_row > 0) where_singular = ": they are singular; check joint or driver '"//linkage%row_name(bad_row)//"'"
          if (linkage%rows%n > linkage%rows%n_solve) then
             call linkage%list_wanted(spread(.true., 1, linkage%rows%n), wanted)
             call linkage%find_reactions(linkage%reduced%known%t, system%loading%g, wanted)
@@ -50,24 +50,25 @@ contains
       end associate
       select case (status)
       case (advance_too_many_steps)
-         message = "the number of steps allowed (maximum_steps, MXSTEP) is used up"
+         message = "the run reached the maximum number of steps (maximum_steps, MXSTEP)"
       case (advance_too_many_evaluations)
-         message = "the number of evaluations allowed (maximum_evaluations, MXFCN) is used up"
+         message = "the run reached the maximum number of evaluations (maximum_evaluations, MXFCN)"
       case (advance_failed_evaluation)
          message = "the equations of motion cannot be solved"//where_singular
       case (constraints_lost)
-         message = "the constraints are lost: a joint is open by a tenth of the size of the bodies, or an angle is off by a radian"
+         message = "the constraints are violated: a joint is open by a tenth of the size of the bodies, or an angle error "// &
+            "reached one radian"
       case (events_without_end)
-         message = "one event follows another at '"//last_event(system, method)//"' and no time passes"
+         message = "events accumulate at '"//last_event(system, method)//"' without progress in time"
       case (guard_reached, film_ended, off_branch)
          message = reason
       case (advance_no_memory)
-         message = "there is no memory for the matrices of the method, of "//to_text(system%n)//" states"
+         message = "not enough memory for the matrices of the method, of "//to_text(system%n)//" states"
       case (time_used_up)
-         message = "the processor time allowed (limit_cpu) is used up"
+         message = "the run exceeded its CPU time limit (limit_cpu)"
       case default
-         message = "the error cannot be kept within the tolerance: the step would be smaller than allowed"
-         if (where_singular /= "") message = message//", the equations cannot be solved"//where_singular
+         message = "the error exceeds the tolerance even at the minimum step"
+         if (where_singular /= "") message = message//", the equations of motion have no solution"//where_singular
       end select
       message = message//new_line("a")//"  = at t = "//real_text(method%t, 9)//" s, after "//to_text(method%count%n_steps)// &
                 " steps, the last of "//real_text(method%step%h, 3)//" s"
@@ -75,11 +76,12 @@ contains
       call system%evaluate(method%t, method%step%y1, ydot, code)
       if (system%linkage%rows%n_solve > 0) then
          row = maxloc(abs(system%linkage%rows%phi(:system%linkage%rows%n_solve)), dim=1)
-         message = message//new_line("a")//"  = worst constraint there: '"//system%linkage%row_name(row)//"', violated by "// &
+         message = message//new_line("a")//"  = largest constraint violation there: '"//system%linkage%row_name(row)//"', "// &
+            "violated by "// &
                    real_text(abs(system%linkage%rows%phi(row)), 3)//trim(merge(" rad", " m  ", system%linkage%rows%is_angle(row)))
       end if
       message = message//wedged_joint(system)//deepest_contact(system, method)//new_line("a")// &
-                "  = everything up to the last output instant was saved; "
+                "  = results up to the last output time are saved; "
       call blame_step(system, method, status, message)
       call set_error(error, merge(exit_file, exit_integration, status == advance_no_memory), message)
    end subroutine describe_failure
@@ -101,7 +103,7 @@ contains
       if (cause == "") then
          message = message//advice(status)
       else
-         message = cause//new_line("a")//"  = seen by: "//message//"take a shorter step, or a method that chooses its steps"
+         message = cause//new_line("a")//"  = reported by: "//message//"use a shorter step, or a method with step-size control"
       end if
    end subroutine blame_step
 
@@ -118,7 +120,7 @@ contains
             do k = 1, rows%n
                if (ieee_is_finite(rows%phi_t(k)) &
                    .and. (pass == 1 .or. (ieee_is_finite(rows%phi(k)) .and. ieee_is_finite(rows%gam(k))))) cycle
-               words = ": '"//system%linkage%row_name(k)//"' or a derivative of it is not a finite number"
+               words = ": '"//system%linkage%row_name(k)//"', or one of its derivatives, is not finite"
                return
             end do
          end associate
@@ -127,7 +129,7 @@ contains
          if (all(ieee_is_finite(system%loading%g(:, k)))) cycle
          words = bad_element(system)
          if (words /= "") return
-         words = ": a load on body '"//system%linkage%bodies%names(k)%s//"' is not a finite number"
+         words = ": a load on body '"//system%linkage%bodies%names(k)%s//"' is not finite"
          return
       end do
    end function not_finite
@@ -158,7 +160,7 @@ contains
                end do
             end associate
             if (words == "") cycle
-            words = ": the load of force element"//words(2:)//" is not a finite number"
+            words = ": the load of force element"//words(2:)//" is not finite"
             return
          end do
       end associate
@@ -174,7 +176,7 @@ contains
       associate (set => system%linkage%joints(system%friction%rubbing%slot(system%friction%rubbing%wedged))%set, &
                  m => system%friction%rubbing%place(system%friction%rubbing%wedged))
          words = new_line("a")//"  = friction in '"//set%names(set%friction%item(m))%s// &
-                 "' presses it harder than it is pressed: the joint wedges"
+                 "' raises its own normal force: the joint jams"
       end associate
    end function wedged_joint
 
@@ -224,23 +226,23 @@ contains
 
       select case (status)
       case (advance_too_many_steps, advance_too_many_evaluations, time_used_up)
-         words = "allow more, or a larger tolerance"
+         words = "raise the limit, or use a larger tolerance"
       case (advance_no_memory)
-         words = "try method = verner or adams, which have no matrices"
+         words = "use method = verner or adams, which need no matrices"
       case (constraints_lost)
-         words = "try a smaller tolerance"
+         words = "reduce the tolerance"
       case (events_without_end)
-         words = "try a smaller tolerance; where friction sticks and slips, method = radau, or a law that does not stick"
+         words = "reduce the tolerance; with stick-slip friction, use method = radau or a friction law without sticking"
       case (guard_reached)
-         words = "look for loads, drivers or clearances that no mechanism has, or set the guard otherwise in section [guards]"
+         words = "check loads, drivers and clearances, or change the guard in section [guards]"
       case (off_branch)
-         words = "try a smaller tolerance or step; where the deck means to go there, choose a joint that can"
+         words = "reduce the tolerance or the step; if this motion is intended, choose a joint that permits it"
       case (film_ended)
-         words = "take level = hybrid, which goes on with dry contact, or a lubricant of more viscosity"
+         words = "set level = hybrid to continue with dry contact, or use a lubricant of higher viscosity"
       case (advance_failed_evaluation)
-         words = "look for a dead centre, or for a load or driver that does not exist at that time"
+         words = "check for a dead centre, or for a load or driver undefined at that time"
       case default
-         words = "try a larger tolerance or a smaller minimum_step, or look for a dead centre or a jump in a load or driver"
+         words = "use a larger tolerance or a smaller minimum_step, or check for a dead centre or a jump of a load or driver"
       end select
    end function advice
 
@@ -251,13 +253,13 @@ contains
       integer, intent(in) :: n_part          !! parts with steps of their own
       character(:), allocatable :: words     !! one line
 
-      words = "stopped from outside at t = "//real_text(t, 9)//" s"
+      words = "interrupted by a signal at t = "//real_text(t, 9)//" s"
       if (saved_at >= 0.0_wp) then
-         words = words//"; it was saved at t = "//real_text(saved_at, 9)//" s, and --resume goes on from there"
+         words = words//"; saved at t = "//real_text(saved_at, 9)//" s; --resume continues from there"
       else
-         words = words//"; it was not saved: "//trim(merge("groups of bodies with steps of their own", &
-                                                           "a method that keeps a history           ", n_part > 1))// &
-                 " can be at the instants only that the key 'checkpoint' of [analysis.dynamic] sets"
+         words = words//"; not saved: "//trim(merge("groups of bodies with separate steps", &
+                                                           "a method with history               ", n_part > 1))// &
+                 " can be saved only at the times of the key 'checkpoint' in [analysis.dynamic]"
       end if
    end function stopped_words
 

@@ -76,8 +76,8 @@ contains
       cpu = 0.0_wp
       associate (n => size(whole%parts), tape => saved%motion)
          if (size(saved%parts) /= merge(n + 1, n, n > 1)) then
-            call set_error(error, exit_usage, "the checkpoint does not belong to this run: it holds "// &
-                           to_text(size(saved%parts))//" parts, and "//to_text(merge(n + 1, n, n > 1))//" are wanted")
+            call set_error(error, exit_usage, "the checkpoint does not belong to this run: it has "// &
+                           to_text(size(saved%parts))//" parts, expected "//to_text(merge(n + 1, n, n > 1))//"")
             return
          end if
          do p = 1, n
@@ -102,7 +102,7 @@ contains
          call stop%load(tape)
          if (tape%is_at_end()) return
       end associate
-      call set_error(error, exit_usage, "the checkpoint does not belong to this run: what it holds of samples and sums is of "// &
+      call set_error(error, exit_usage, "the checkpoint does not belong to this run: its samples and sums have "// &
                      "another length")
    end subroutine load_run
 

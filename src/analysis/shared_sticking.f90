@@ -33,10 +33,10 @@ contains
          end do
       end do
       if (names == "") return
-      call append_text(warnings, "friction of contacts that stick is not unique in"//names//", first at t = "// &
-                       real_text(first, 6)//" s: forces of least norm are taken; accelerations are exact, but when a contact "// &
-                       "slips may depend on these forces; take friction with bristles (friction.dahl, friction.lugre), which "// &
-                       "determines them, or fewer contacts that act at once")
+      call append_text(warnings, "friction forces of sticking contacts are not unique in"//names//", first at t = "// &
+                       real_text(first, 6)//" s: the minimum-norm forces are used; accelerations are exact, but the onset of "// &
+                       "slip may depend on these forces; use friction with bristles (friction.dahl, friction.lugre), which "// &
+                       "makes them unique, or fewer simultaneous contacts")
 
    contains
 

@@ -53,7 +53,7 @@ contains
       integer :: at_start
       logical :: is_shared, starts_ideal
 
-      call memory_is_for("the start of "//to_text(size(scene%bodies%names))//" bodies")
+      call memory_is_for("the initial state of "//to_text(size(scene%bodies%names))//" bodies")
       call system%linkage%deck_state(q, v)
       associate (start => scene%settings%dynamic%values(place_of(scene%settings%dynamic, "start"))%text)
          starts_ideal = start == "ideal"
@@ -124,9 +124,9 @@ contains
 
       if (size(report%dependent) == 0 .or. system%friction%rubbing%n == 0) return
       if (scene%settings%dynamic%word("method") /= "ida") return
-      call set_error(error, exit_deck, "method ida leaves out rows that depend on others, and friction in joints needs the " &
-                     //"multipliers of all"//new_line("a")//"  = "//redundancy_text(system, report)//new_line("a") &
-                     //"  = take another method, or joints that are not redundant")
+      call set_error(error, exit_deck, "method ida drops redundant rows, but joint friction needs the " &
+                     //"multipliers of all rows"//new_line("a")//"  = "//redundancy_text(system, report)//new_line("a") &
+                     //"  = use another method, or joints without redundancy")
    end subroutine check_method
 
    !> The static equilibrium at t = 0, its contacts begun.
@@ -168,17 +168,18 @@ contains
          names = names//" '"//system%linkage%row_name(report%shared(k))//"'"
       end do
       words = words//"redundant constraints: "//to_text(size(report%dependent) - size(report%set_aside))//" of "// &
-              to_text(system%linkage%rows%n)//" rows depend on others at the start; "
+              to_text(system%linkage%rows%n)//" rows are linearly dependent at t = 0; "
       if (allocated(report%rubbing)) then
          if (size(report%rubbing) > 0) then
-            words = words//"the reactions of"//names//" are not unique: those of least norm are taken, and the motion "// &
-                    "depends on them by friction in"//rubbing_names()//"; give one of these joints compliance (clearance, or "// &
-                    "springs in its place) or take a kind with fewer rows"
+            words = words//"the reactions of"//names//" are not unique: the minimum-norm reactions are used, and the motion "// &
+                    "depends on them through friction in"//rubbing_names()//"; give one of these joints compliance (clearance, "// &
+                       "or "// &
+                    "springs in its place) or choose joint types with fewer rows"
             return
          end if
       end if
       words = words//"accelerations are exact, but the reactions of"//names// &
-              " are not unique: those of least norm are given"
+              " are not unique: the minimum-norm reactions are used"
 
    contains
 
@@ -222,9 +223,9 @@ contains
                   cycle
                end if
                call set_error(error, exit_assembly, "initial overlap: joint '"//set%names(set%item_of(i))%s// &
-                              "' begins with its surfaces "//to_text(delta(set%before%contacts + i))//" m into each other"// &
-                              new_line("a")//"  = move its bodies, enlarge the clearance, begin with start = ideal, "// &
-                              "or say overlap = preload")
+                              "' has initially overlapping surfaces, by "//to_text(delta(set%before%contacts + i))//" m"// &
+                              new_line("a")//"  = move its bodies, enlarge the clearance, set start = ideal, "// &
+                              "or accept it with overlap = preload")
                return
             end do
          end associate

@@ -144,8 +144,8 @@ contains
 
       do k = 1, system%linkage%bodies%n
          if (all(ieee_is_finite(system%loading%g(:, k)))) cycle
-         call set_error(error, exit_assembly, "no static equilibrium can be found: the load on '"// &
-                        system%linkage%bodies%names(k)%s//"' is not a finite number at t = 0")
+         call set_error(error, exit_assembly, "no static equilibrium exists: the load on '"// &
+                        system%linkage%bodies%names(k)%s//"' is not finite at t = 0")
          return
       end do
    end subroutine check_loads
@@ -225,24 +225,24 @@ contains
          call look_at(system, equilibrium%q)
          call gather_films(system, linear%films)
          if (.not. is_steady(system)) then
-            equilibrium%words = "of this instant only: the drivers accelerate bodies; stability is not judged"
+            equilibrium%words = "instantaneous only: the drivers accelerate bodies; stability is not determined"
             return
          end if
          call find_eigenvalues(system, equilibrium%q, balance, linear%eigenvalues)
          if (size(linear%eigenvalues) == 0) then
-            equilibrium%words = "stable: no body can move beside the drivers"
+            equilibrium%words = "stable: drivers prescribe the motion of all bodies"
             return
          end if
          linear%is_judged = .true.
          floor_growth = no_growth(linear%eigenvalues)
          if (linear%eigenvalues(1, 1) < -floor_growth) then
-            equilibrium%words = "steady and stable: a push dies, at last "//mode_words(linear)
+            equilibrium%words = "asymptotically stable; slowest mode decays "//mode_words(linear)
          else if (linear%eigenvalues(1, 1) > floor_growth) then
-            equilibrium%words = "steady but unstable: a push grows "//mode_words(linear)
-            equilibrium%warning = "the steady state is unstable: the least push grows "//mode_words(linear)
+            equilibrium%words = "unstable; fastest mode grows "//mode_words(linear)
+            equilibrium%warning = "the steady state is unstable: its fastest mode grows "//mode_words(linear)
          else
-            equilibrium%words = "steady and indifferent: a push neither grows nor dies"
-            equilibrium%warning = "the steady state is indifferent: what a push leaves behind neither grows nor dies"
+            equilibrium%words = "marginally stable: a mode neither grows nor decays"
+            equilibrium%warning = "the steady state is marginally stable: a perturbation neither grows nor decays"
             return
          end if
          range = scene%settings%static%number("whirl_search")
@@ -273,16 +273,17 @@ contains
          n_flat = count(abs(stiffness) <= limit)
          if (n_steep > 0) then
             equilibrium%words = "unstable in "//to_text(n_steep)//" of "//to_text(size(stiffness))// &
-                                " freedoms; a push grows e-fold in "//real_text(1.0_wp/sqrt(-square(1)), 4)//" s"
-            equilibrium%warning = "the equilibrium is unstable: the least push moves "// &
+                                " degrees of freedom; the fastest mode grows e-fold in "//real_text(1.0_wp/sqrt(-square(1)), 4)// &
+                                   " s"
+            equilibrium%warning = "the equilibrium is unstable: a small perturbation moves "// &
                                   moving_bodies(system%linkage, bodies_in(system, balance%modes(:, 1:1)))// &
-                                  "; begin the search beside it to find a stable one"
+                                  "; start the search at another position to find a stable one"
          else if (n_flat > 0) then
-            equilibrium%words = "indifferent in "//to_text(n_flat)//" of "//to_text(size(stiffness))//" freedoms"
-            equilibrium%warning = "the equilibrium is indifferent: nothing holds "// &
+            equilibrium%words = "neutrally stable in "//to_text(n_flat)//" of "//to_text(size(stiffness))//" freedoms"
+            equilibrium%warning = "the equilibrium is neutral: no force holds "// &
                                   moving_bodies(system%linkage, bodies_in(system, balance%modes(:, &
                                                 pack_range(abs(stiffness) <= limit))))// &
-                                  " where the search left them"
+                                  " at the computed position"
          else
             equilibrium%words = "stable; lowest natural frequency "//real_text(sqrt(square(1))/two_pi, 6)//" Hz"
          end if
@@ -318,8 +319,10 @@ contains
       type(equilibrium_t), intent(in) :: equilibrium  !! with residual and measures
       character(:), allocatable :: words              !! as "residual 2e-16 of the forces that act"
 
-      words = "residual "//real_text(equilibrium%residual/max(equilibrium%acting, tiny(1.0_wp)), 2)//" of the forces that act"
-      if (max(equilibrium%acting, equilibrium%residual) <= equilibrium%rounding) words = "residual within the rounding of positions"
+      words = "residual "//real_text(equilibrium%residual/max(equilibrium%acting, tiny(1.0_wp)), 2)//" relative to the acting "// &
+         "forces"
+      if (max(equilibrium%acting, equilibrium%residual) <= equilibrium%rounding) words = "force residual below the round-off "// &
+         "of positions"
    end function residual_words
 
    !> The search did not settle: say what still moves, and what to try.
@@ -337,9 +340,9 @@ contains
       where (part < 0.1_wp) part = 0.0_wp
       call set_error(error, exit_assembly, "no static equilibrium was found after "//to_text(equilibrium%steps)// &
                      " steps: "//residual_words(equilibrium)//", allowed "//real_text(equilibrium%tolerance, 2)//new_line("a")// &
-                     "  = loads still move "//moving_bodies(system%linkage, part)//new_line("a")// &
-                     "  = hold what can fall or turn freely by a joint, spring or driver; begin nearer to the equilibrium; or "// &
-                     "allow more maximum_iterations or a larger tolerance in [analysis.static]")
+                     "  = unbalanced loads act on "//moving_bodies(system%linkage, part)//new_line("a")// &
+                     "  = constrain free bodies by a joint, spring or driver; start closer to the equilibrium; or "// &
+                     "raise maximum_iterations or the tolerance in [analysis.static]")
    end subroutine refuse
 
    !> One sample of all channels, at rest at t = 0.

@@ -247,7 +247,7 @@ contains
          if (.not. frequency > 0.0_wp) return
          words = words//", at "//real_text(frequency/two_pi, 6)//" Hz"
          speed = maxval([0.0_wp, abs(linear%films%journal_speed)])
-         if (speed > 0.0_wp) words = words//", "//real_text(frequency/speed, 4)//" of the speed of the journal"
+         if (speed > 0.0_wp) words = words//", "//real_text(frequency/speed, 4)//" times the journal speed"
       end associate
    end function mode_words
 

@@ -85,9 +85,9 @@ contains
          end select
          factor = real(method%n_new_stage + 1, wp)/h*(trial%t_end - trial%t_begin)/real(trial%n_evaluation, wp)
          if (factor < worth) return
-         words = "stiff for method = "//name_of(method)//": stability keeps its steps short, at "//real_text(h, 2)// &
-                 " s; at the end of the motion radau takes about "//real_text(factor, 2)// &
-                 " times fewer evaluations: set method = auto or radau"
+         words = "stiff for method = "//name_of(method)//": stability limits its steps to "//real_text(h, 2)// &
+                 " s; radau needs about "//real_text(factor, 2)// &
+                 " times fewer evaluations at the end of the motion: set method = auto or radau"
       end select
    end function stiffness_warning
 

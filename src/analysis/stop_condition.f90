@@ -252,7 +252,7 @@ contains
       class(stop_t), intent(in) :: self      !! the conditions, one of them met
       character(:), allocatable :: words     !! condition and time
 
-      words = "stopped by intent at t = "//real_text(self%t, 9)//" s: "//self%list(self%met)%words
+      words = "stopped as requested at t = "//real_text(self%t, 9)//" s: "//self%list(self%met)%words
    end function stop_message
 
    !> Write how far each condition is from being met.

@@ -83,14 +83,14 @@ contains
          if (dynamic%word("groups") == "together") then
             reason = "groups = together"
          else if (size(guards%values(place_of(guards, "stop"))%conditions) > 0) then
-            reason = "a condition that ends the run looks at all of them"
+            reason = "a stop condition applies to all of them"
          else if (dynamic%number("maximum_steps") > 0.0_wp .or. dynamic%number("maximum_evaluations") > 0.0_wp) then
-            reason = "their steps or evaluations are counted together"
+            reason = "a limit applies to the sum of their steps or evaluations"
          else if (any([(scene%forces(k)%info%counts_turns .and. size(scene%forces(k)%items) > 0, k=1, n_force_kinds)]) .or. &
                   any([(scene%joints(k)%info%counts_turns .and. size(scene%joints(k)%items) > 0, k=1, n_joint_kinds)])) then
-            reason = "turns are counted from step to step"
+            reason = "accumulated angles need common steps"
          else if (sees_motion(scene)) then
-            reason = "loads see the motion"
+            reason = "loads depend on the motion"
          end if
       end associate
    end function reason_to_stay
@@ -107,8 +107,8 @@ contains
       call find_groups(scene, groups)
       if (groups%n <= 1) return
       reason = reason_to_stay(scene)
-      words = to_text(groups%n)//" groups of bodies that nothing joins, integrated apart"
-      if (reason /= "") words = to_text(groups%n)//" groups of bodies that nothing joins, integrated together ("//reason//")"
+      words = to_text(groups%n)//" independent groups of bodies, integrated separately"
+      if (reason /= "") words = to_text(groups%n)//" independent groups of bodies, integrated together ("//reason//")"
    end function grouping_words
 
    !> The loose joints of the whole, by name.

@@ -18,8 +18,8 @@ module time_plan
    real(wp), parameter :: most_checkpoints = 1.0e5_wp  !! of a motion [1]
 
    !> What a user can do about too many instants.
-   character(*), parameter :: most_help = "each takes 8 bytes in run.h5 and up to 25 in a .dat file for every number kept; " &
-                              //"a greater 'instants_limit' in [output] allows them"
+   character(*), parameter :: most_help = "each takes 8 bytes in run.h5 and up to 25 in a .dat file for every channel; " &
+                              //"raise 'instants_limit' in [output] to allow them"
 
    !> Times of a motion and of its output.
    type :: time_plan_t
@@ -60,9 +60,9 @@ contains
          if (scene%analysis == analysis_dynamic) call plan_checkpoints(scene, system, plan, diagnostics)
          if (diagnostics%count() > 0) return
          if (plan%end <= 0.0_wp) then
-            call diagnostics%add(end%location, "the end must be after the start", "not positive", "a motion begins at t = 0")
+            call diagnostics%add(end%location, "the end time must be positive", "not positive", "a motion starts at t = 0")
          else if (plan%first_output < 0.0_wp) then
-            call diagnostics%add(from%location, "'from' must not be negative", "before the start", "a motion begins at t = 0")
+            call diagnostics%add(from%location, "'from' must not be negative", "before the start", "a motion starts at t = 0")
          else if (last < 0.0_wp) then
             call diagnostics%add(stretch%location, "'last' must not be negative", "a negative time")
          else if (plan%first_output > 0.0_wp .and. last > 0.0_wp) then
@@ -70,19 +70,19 @@ contains
          else if (last > plan%end) then
             call diagnostics%add(stretch%location, "'last' is longer than the motion", "longer than the motion")
          else if (plan%first_output >= plan%end) then
-            call diagnostics%add(from%location, "'from' is not before the end", "after the end of the motion")
+            call diagnostics%add(from%location, "'from' must be before the end", "after the end of the motion")
          end if
          if (last > 0.0_wp) plan%first_output = plan%end - last
          if (plan%every <= 0.0_wp) plan%every = (plan%end - plan%first_output)/intervals
          if (plan%every > (plan%end - plan%first_output)*(1.0_wp + 1.0e-9_wp) .and. diagnostics%count() == 0) then
             call diagnostics%add(every%location, "'every' is longer than what is written", "longer than the output window", &
-                                 "there would be one instant and no curve")
+                                 "output would have one time point and no curve")
          end if
          if (diagnostics%count() == 0) then
             associate (span => plan%end - plan%first_output, at => merge(every%location, most%location, every%given))
                if (span >= most%number*plan%every) then
-                  call diagnostics%add(at, "there would be "//count_text(span/plan%every + 1.0_wp)// &
-                                       " output instants, allowed are "//count_text(most%number), "too many", most_help)
+                  call diagnostics%add(at, "the run would have "//count_text(span/plan%every + 1.0_wp)// &
+                                       " output times, the limit is "//count_text(most%number), "too many", most_help)
                end if
             end associate
          end if
@@ -115,8 +115,8 @@ contains
          if (plan%checkpoint < 0.0_wp) then
             call diagnostics%add(value%location, "'checkpoint' must not be negative", "a negative time")
          else if (plan%checkpoint > 0.0_wp .and. plan%end > most_checkpoints*plan%checkpoint) then
-            call diagnostics%add(value%location, "there would be "//count_text(plan%end/plan%checkpoint)// &
-                                 " checkpoints, allowed are "//count_text(most_checkpoints), "too many")
+            call diagnostics%add(value%location, "the run would have "//count_text(plan%end/plan%checkpoint)// &
+                                 " checkpoints, the limit is "//count_text(most_checkpoints), "too many")
          end if
       end associate
    end subroutine plan_checkpoints
@@ -140,19 +140,19 @@ contains
          if (period%given) call find_driver(period, "period", system, slot, item, diagnostics)
          if (diagnostics%count() > 0) return
          if (plan%after < 0.0_wp) then
-            call diagnostics%add(after%location, "'after' must not be negative", "before the start", "a motion begins at t = 0")
+            call diagnostics%add(after%location, "'after' must not be negative", "before the start", "a motion starts at t = 0")
          else if (plan%after >= plan%end) then
-            call diagnostics%add(after%location, "'after' is not before the end", "after the end of the motion")
+            call diagnostics%add(after%location, "'after' must be before the end", "after the end of the motion")
          else if (plan%after < plan%first_output*(1.0_wp - 1.0e-9_wp)) then
-            call diagnostics%add(after%location, "'after' is before the first output instant", "nothing is sampled there", &
-                                 "statistics are taken on the output instants: see 'from' and 'last' of [output]")
+            call diagnostics%add(after%location, "'after' is before the first output time", "no samples there", &
+                                 "statistics use the output times: see 'from' and 'last' of [output]")
          else if (period%given .and. period%number <= 0.0_wp) then
-            call diagnostics%add(period%location, "the period must be positive", "no period")
+            call diagnostics%add(period%location, "the period must be positive", "not positive")
          end if
          if (diagnostics%count() > 0 .or. .not. period%given) return
          t = period_start(period, most, system, slot, item)
          if (t >= 0.0_wp .and. t <= plan%end) then
-            call diagnostics%add(period%location, "there would be more than "//to_text(most)//" periods up to the end at "// &
+            call diagnostics%add(period%location, "the run would have more than "//to_text(most)//" periods up to the end at "// &
                                  to_text(plan%end)//" s", "too many", most_help)
             return
          end if
@@ -179,7 +179,7 @@ contains
             plan%period = (plan%strobes(n) - plan%strobes(1))/real(n - 1, wp)
             return
          end if
-         call diagnostics%add(period%location, "there is less than one period between 'after' and the end", "too long")
+         call diagnostics%add(period%location, "less than one period remains between 'after' and the end", "too long")
       end associate
    end subroutine plan_statistics
 
@@ -243,7 +243,7 @@ contains
       type(value_t), intent(in) :: value                  !! the setting
       type(diagnostics_t), intent(inout) :: diagnostics   !! receives the mistake
 
-      call diagnostics%add(value%location, "driver '"//value%text//"' never makes so many turns", "never reached")
+      call diagnostics%add(value%location, "driver '"//value%text//"' never completes so many turns", "never reached")
    end subroutine report_turns
 
    !> The driver whose turns a duration counts.

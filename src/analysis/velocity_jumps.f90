@@ -106,11 +106,11 @@ contains
       type(text_t), allocatable, intent(inout) :: warnings(:) !! the line is added
 
       if (self%n == 0) return
-      call append_text(warnings, "velocities of drivers jumped at "//to_text(self%n)//trim(merge(" instant ", " instants", &
+      call append_text(warnings, "driver velocities jump at "//to_text(self%n)//trim(merge(" instant ", " instants", &
                                                                                                  self%n == 1))// &
-                       ", most that of '"//system%linkage%row_name(self%row)//"', by "//real_text(self%jump, 3)// &
+                       ", the largest at '"//system%linkage%row_name(self%row)//"', by "//real_text(self%jump, 3)// &
                        trim(merge(" rad/s", " m/s  ", system%linkage%rows%is_angle(self%row)))//" at t = "//real_text(self%t, 6)// &
-                       " s; the bodies followed at once, and took "//real_text(self%work, 3)//" J from the drivers")
+                       " s; the bodies follow instantaneously and take "//real_text(self%work, 3)//" J from the drivers")
    end subroutine warn
 
    !> Write what is remembered.

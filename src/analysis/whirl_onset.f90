@@ -63,7 +63,7 @@ contains
       linear%searched_to = here%speed
       so_far = trim(merge("stable up to    ", "unstable down to", is_stable))//" "//real_text(here%speed, 4)//" times this speed"
       if (.not. is_found) then
-         linear%onset_words = so_far//"; no steady state was found beyond"
+         linear%onset_words = so_far//"; no steady state found beyond"
       else if (next%growth < 0.0_wp .eqv. is_stable) then
          linear%onset_words = so_far
       else
@@ -72,8 +72,8 @@ contains
          linear%onset_frequency = next%frequency
          linear%searched_to = next%speed
          linear%onset_words = "stable below "//real_text(next%speed, 6)//" times this speed"
-         if (next%frequency > 0.0_wp) linear%onset_words = linear%onset_words//", where a whirl of "// &
-                                                           real_text(next%frequency/two_pi, 6)//" Hz sets in"
+         if (next%frequency > 0.0_wp) linear%onset_words = linear%onset_words//"; whirl onset at "// &
+                                                           real_text(next%frequency/two_pi, 6)//" Hz"
       end if
       balance%speed = 1.0_wp
       call look_at(system, q)

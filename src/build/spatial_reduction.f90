@@ -104,7 +104,7 @@ contains
          seen%in_body = merge(set%axes%frame_i(:, :, k), set%axes%frame_j(:, :, k), side == 1)
          seen%in_base = merge(set%axes%frame_j(:, :, k), set%axes%frame_i(:, :, k), side == 1)
       class default
-         error stop "spatial_reduction: a joint of the plane"
+         error stop "spatial_reduction: a planar joint"
       end select
       seen%s_body = merge(set%s_i(:, k), set%s_j(:, k), side == 1)
       seen%s_base = merge(set%s_j(:, k), set%s_i(:, k), side == 1)

@@ -36,7 +36,7 @@ contains
       items = names_of_items(catalogue)
       item = parts(1)%s
       if (item == "energy" .and. size(catalogue%rooms(room_energy)%names) == 0) then
-         hint = "there are energies with 'ledger = on' in [analysis.dynamic]"
+         hint = "energies need 'ledger = on' in [analysis.dynamic]"
          return
       end if
       if (item /= "*" .and. .not. is_listed(item, items)) then
@@ -54,14 +54,14 @@ contains
       quantity = parts(size(parts))%s
       if (size(parts) > 2) quantity = parts(2)%s
       if (quantity == "film_pressure" .and. is_listed("film_force", quantities) .and. .not. is_listed(quantity, quantities)) then
-         hint = "the film of '"//item//"' gives forces and no pressures; film.grid, squeeze, the short and the long films have some"
+         hint = "the film of '"//item//"' has no pressure field; film.grid, squeeze, the short and the long films have one"
          return
       end if
       if (.not. (quantity == "*" .or. is_listed(quantity, quantities))) quantity = nearest_word(quantity, quantities)
       hint = "channels of "//item//": "//listed(quantities)
       if (len(quantity) == 0) return
       if (size(parts) > 2 .and. quantity == parts(min(2, size(parts)))%s .and. item == parts(1)%s) then
-         hint = "'"//item//"."//quantity//"' has no part '"//parts(3)%s//"'; "//hint
+         hint = "'"//item//"."//quantity//"' has no component '"//parts(3)%s//"'; "//hint
       else
          if (size(parts) > 2) call append_text(meant, item//"."//quantity//"."//parts(3)%s)
          call append_text(meant, item//"."//quantity)

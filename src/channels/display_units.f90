@@ -131,9 +131,9 @@ contains
       call parse_unit(si, own, message, first, last)
       if (len(message) > 0) return
       if (.not. same_dimension(unit%dimension, own%dimension)) then
-         message = "unit '"//name//"' does not measure what is given in "//si
+         message = "unit '"//name//"' does not match the dimension of "//si
       else if (abs(unit%offset) > 0.0_wp) then
-         message = "an axis has no room for the offset of '"//name//"'; take K"
+         message = "an axis cannot use the offset of '"//name//"'; use K"
       end if
       if (len(message) > 0) return
       shown%factor = unit_factor(own)/unit_factor(unit)

@@ -25,16 +25,16 @@ module event_list
       "N.s", "s", "s"]
    !> What they are.
    character(*), parameter :: number_long_names(n_event_numbers) = [character(64) :: &
-      "time of the event; of a contact: of its onset", &
+      "time of the event; for a contact: of its onset", &
       "normal approach speed at onset", &
-      "normal force at its located maximum", &
-      "penetration at its located maximum", &
-      "from onset to end; NaN: not ended with the run", &
-      "normal separation speed at the end", &
-      "energy lost in the contact; NaN without ledger", &
+      "maximum normal force, located", &
+      "maximum penetration, located", &
+      "from onset to separation; NaN: still in contact at the end of the run", &
+      "normal speed at separation", &
+      "energy lost in the contact; NaN if the energy balance is off", &
       "impulse of the normal force over the contact", &
-      "when the normal force was greatest", &
-      "when the penetration was greatest"]
+      "time of the maximum normal force", &
+      "time of the maximum penetration"]
    !> Names of the words of an event, in files.
    character(*), parameter :: word_names(n_event_words) = [character(21) :: "kind", "item", "contact", &
       "state_before", "state_after"]

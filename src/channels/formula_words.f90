@@ -97,7 +97,7 @@ contains
                at%first = value%location%first + fault%first
                at%last = value%location%first + fault%last
             end if
-            call mistakes%add(at, "wrong expression "//place, fault%message, fault%help)
+            call mistakes%add(at, "invalid expression "//place, fault%message, fault%help)
             return
          end if
       end associate
@@ -131,9 +131,9 @@ contains
          if (.not. value%given) return
          call parse_unit(value%text, unit, message, first, last)
          if (len(message) > 0) then
-            call mistakes%add(value%location, "wrong unit "//place, message)
+            call mistakes%add(value%location, "invalid unit "//place, message)
          else if (.not. dimension_agrees(dimension, expression%is_soft, unit%dimension)) then
-            call mistakes%add(value%location, "wrong unit "//place, "the value of '"//item%name//"' is "// &
+            call mistakes%add(value%location, "invalid unit "//place, "the value of '"//item%name//"' is "// &
                               dimension_name(dimension)//", this is "//dimension_name(unit%dimension), &
                               "its SI unit is "//unit_text(dimension))
          else
@@ -177,14 +177,14 @@ contains
             deallocate (message)
          else
             message = "there is no request '"//word(len(prefix) + 1:)//"' before this one"
-            help = "a request may use those that stand above it"
+            help = "a request may use only requests above it"
          end if
          return
       end if
       call find_scalars(word, self%catalogue, self%items, scalars, message, help)
       if (len(message) > 0) return
       if (size(scalars) > 1) then
-         message = "'"//word//"' is "//"no single number"
+         message = "'"//word//"' has several components"
          help = "write "//word//".x or .y"
          return
       end if

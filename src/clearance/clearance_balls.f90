@@ -35,7 +35,7 @@ contains
 
       info%name = "clearance.discs"
       info%space = in_space
-      info%help = "two balls that touch from outside; without an ideal twin, so that --ideal keeps their contact"
+      info%help = "external contact of two balls; --ideal keeps it, as no ideal joint corresponds to it"
       info%source = "Flores et al. (2008), sections 3.1 and 6.2"
       call add_disc_columns(info, "ball")
       call add_contact_channels(info, "second ball", "its sliding velocity")

@@ -47,12 +47,13 @@ contains
 
       info%name = "clearance.translational"
       info%space = in_space
-      info%help = "a block loose in a straight guide: dry contact of its corners with four surfaces"
+      info%help = "a block with clearance in a straight guide: dry contact of its corners with four surfaces"
       info%source = "Flores et al. (2008), section 4.3"
-      call add_reference(info, "guide", "points", "point on the guide's line")
+      call add_reference(info, "guide", "points", "point on the guide axis")
       call add_reference(info, "slider", "points", "centre of the block")
       call add_direction(info, "axis_i", "axis of the guide, in the frame of its body", default='"0 0 1"')
-      call add_direction(info, "axis_j", "axis of the block, in the frame of its body; left out: as the deck puts the bodies", &
+      call add_direction(info, "axis_j", "axis of the block, in the frame of its body; default: consistent with the given "// &
+         "positions", &
                          default="")
       call add_direction(info, "width_axis", "direction of the width, in the frame of the guide's body; left out: x of &
                          &the joint", default="")
@@ -60,16 +61,16 @@ contains
       call add_number(info, "height", dim_length, "height of the block, across axis and width", lower=0.0_wp, open_lower=.true.)
       call add_number(info, "length", dim_length, "length of the block, along the axis", lower=0.0_wp, open_lower=.true.)
       call add_number(info, "gap", dim_length, "clearance on each of the four sides", lower=0.0_wp)
-      call add_number(info, "corner_radius", dim_length, "radius of the block's corners, for their stiffness", lower=0.0_wp, &
+      call add_number(info, "corner_radius", dim_length, "radius of the block corners, for the contact stiffness", lower=0.0_wp, &
                       open_lower=.true.)
       call add_guide_ends(info)
       call add_reference(info, "material", "material", "material of block and guide")
-      call add_reference(info, "guide_material", "material", "material of the guide, if another", default="none")
-      call add_word(info, "level", "fidelity: an ideal translational joint, or clearance", default="clearance", &
+      call add_reference(info, "guide_material", "material", "material of the guide, if different", default="none")
+      call add_word(info, "level", "model: an ideal translational joint, or clearance", default="clearance", &
                     choices="ideal clearance")
       call add_reference(info, "law", "contact.", "normal law of the corners, a row of a contact table")
       call add_reference(info, "friction", "friction.", "friction law, a row of a friction table, or none", default="none")
-      call add_channel(info, "eccentricity", "m", "world", 2, "centre of the block from the guide's line", of_eccentricity)
+      call add_channel(info, "eccentricity", "m", "world", 2, "centre of the block relative to the guide axis", of_eccentricity)
       call add_channel(info, "force", "N", "world", 2, "force on the block", of_force)
       call add_channel(info, "moment", "N.m", "world", 2, "moment on the block about its centre", of_moment)
       call add_channel(info, "tilt", "rad", "joint", 1, "angle between the axes of block and guide", of_tilt)

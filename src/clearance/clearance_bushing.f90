@@ -49,31 +49,36 @@ contains
 
       info%name = "clearance.revolute"
       info%space = in_space
-      info%help = "a pin loose in a bushing: dry contact at each of its two bases, or lubricant film"
+      info%help = "a pin with clearance in a bushing: dry contact at each of its two ends, or lubricant film"
       info%source = "Flores et al. (2008), section 6.3"
       call add_reference(info, "bearing", "points", "middle of the bushing, on its axis")
       call add_reference(info, "journal", "points", "middle of the pin, on its axis")
       call add_direction(info, "axis_i", "axis of the bushing, in the frame of its body", default='"0 0 1"')
-      call add_direction(info, "axis_j", "axis of the pin, in the frame of its body; left out: as the deck puts the bodies", &
+      call add_direction(info, "axis_j", "axis of the pin, in the frame of its body; default: consistent with the given "// &
+         "positions", &
                          default="")
       call add_direction(info, "x_i", "where the angle of a film's supply is zero, in the frame of the bushing's body; left out: &
                          &the body axis after the one nearest to the axis", default="")
       call add_socket_columns(info, "bushing", "pin")
       call add_number(info, "length", dim_length, "length of the bushing along its axis", lower=0.0_wp, open_lower=.true.)
-      call add_number(info, "journal_length", dim_length, "distance of the pin's bases; left out: the length of the bushing", &
+      call add_number(info, "journal_length", dim_length, "distance between the ends of the pin; default: length of the bushing", &
                       default="", lower=0.0_wp, open_lower=.true.)
-      call add_word(info, "ends", "whether the bushing ends, or the pin touches it beyond its ends too", default="clipped", &
+      call add_word(info, "ends", "clipped: contact only within the length of the bushing; endless: also beyond its ends", &
+         default="clipped", &
                     choices="clipped endless")
-      call add_word(info, "stiffness", "of each base: half that of the pin, or all of it as in the book", default="half", &
+      call add_word(info, "stiffness", "contact stiffness at each end: half that of the pin, or full as in Flores et al. "// &
+         "(2008)", default="half", &
                     choices="half full")
       call add_film_columns(info, .false.)
-      call add_channel(info, "eccentricity", "m", "world", 2, "middle of the pin from the axis of the bushing", of_eccentricity)
-      call add_channel(info, "force", "N", "world", 2, "force on the pin, of both bases and of the film", of_force)
+      call add_channel(info, "eccentricity", "m", "world", 2, "middle of the pin relative to the axis of the bushing", &
+         of_eccentricity)
+      call add_channel(info, "force", "N", "world", 2, "force on the pin, from contacts at both ends and film", of_force)
       call add_channel(info, "moment", "N.m", "world", 2, "moment on the pin about its middle", of_moment)
       call add_channel(info, "tilt", "rad", "joint", 1, "angle between the axes of pin and bushing", of_tilt)
-      call add_channel(info, "axial_displacement", "m", "joint", 1, "middle of the pin from that of the bushing, along its axis", &
+      call add_channel(info, "axial_displacement", "m", "joint", 1, "middle of the pin relative to that of the bushing, along "// &
+         "its axis", &
                        of_axial_displacement)
-      call add_channel(info, "engagement", "m", "joint", 1, "length of the pin that is in the bushing, along its axis", &
+      call add_channel(info, "engagement", "m", "joint", 1, "length of the pin inside the bushing, along its axis", &
                        of_engagement)
       call add_spatial_film_channels(info, .false.)
       call add_contact_channels(info, "pin", "its sliding velocity")

@@ -37,7 +37,7 @@ contains
 
       info%name = "clearance.discs"
       info%space = in_plane
-      info%help = "two discs or balls that touch from outside; without an ideal twin, so that --ideal keeps their contact"
+      info%help = "external contact of two discs or balls; --ideal keeps it, as no ideal joint corresponds to it"
       info%source = "Flores et al. (2008), sections 3.1 and 4.2"
       call add_disc_columns(info, "disc")
       call add_contact_channels(info, "second disc", "t = R90 n")
@@ -53,10 +53,10 @@ contains
       call add_number(info, "radius_i", dim_length, "radius of the first "//disc, lower=0.0_wp, open_lower=.true.)
       call add_number(info, "radius_j", dim_length, "radius of the second "//disc, lower=0.0_wp, open_lower=.true.)
       call add_reference(info, "material", "material", "material of both "//disc//"s")
-      call add_reference(info, "material_j", "material", "material of the second "//disc//", if another", default="none")
+      call add_reference(info, "material_j", "material", "material of the second "//disc//", if different", default="none")
       call add_reference(info, "law", "contact.", "normal law, a row of a contact table")
       call add_reference(info, "friction", "friction.", "friction law, a row of a friction table, or none", default="none")
-      call add_channel(info, "eccentricity", "m", "world", 2, "centre of the second "//disc//" from that of the first", &
+      call add_channel(info, "eccentricity", "m", "world", 2, "centre of the second "//disc//" relative to that of the first", &
                        of_eccentricity)
       call add_channel(info, "force", "N", "world", 2, "force on the second "//disc, of_force)
    end subroutine add_disc_columns

@@ -45,7 +45,7 @@ contains
 
       info%name = "clearance.stop"
       info%space = in_space
-      info%help = "stops of a joint's angle or of its way; without an ideal twin, so that --ideal keeps their contact"
+      info%help = "stops for the angle or displacement of a joint; --ideal keeps them, as no ideal joint corresponds to them"
       info%source = "Flores et al. (2008), section 3.1"
       call add_stop_columns(info, "joint.revolute joint.cylindrical joint.translational joint.screw")
       call add_contact_channels(info, "body of j", "its sliding velocity")

@@ -39,14 +39,14 @@ contains
 
       info%name = "clearance.plane"
       info%space = in_plane
-      info%help = "a ball or disc on a plane; it has no ideal twin, so that --ideal keeps its contact"
+      info%help = "a ball or disc on a plane; --ideal keeps its contact, as no ideal joint corresponds to it"
       info%source = "Flores et al. (2008), sections 3.1 and 3.6"
       call add_reference(info, "plane", "points", "a point of the plane")
       call add_reference(info, "ball", "points", "centre of the ball or disc")
-      call add_axis_columns(info, "normal of the plane, out of its body,")
+      call add_axis_columns(info, "outward normal of the plane,")
       call add_number(info, "radius", dim_length, "radius of the ball", lower=0.0_wp, open_lower=.true.)
       call add_reference(info, "material", "material", "material of plane and ball")
-      call add_reference(info, "ball_material", "material", "material of the ball, if another", default="none")
+      call add_reference(info, "ball_material", "material", "material of the ball, if different", default="none")
       call add_reference(info, "law", "contact.", "normal law, a row of a contact table")
       call add_reference(info, "friction", "friction.", "friction law, a row of a friction table, or none", default="none")
       call add_channel(info, "force", "N", "world", 2, "force on the ball", of_force)

@@ -42,25 +42,25 @@ contains
 
       info%name = "clearance.revolute"
       info%space = in_plane
-      info%help = "a pin loose in a hole: dry contact or lubricant film of a journal in a bearing"
+      info%help = "a pin with clearance in a hole: dry contact, or a journal bearing with lubricant film"
       info%source = "Flores et al. (2008), section 4.2"
       call add_reference(info, "bearing", "points", "centre of the hole")
       call add_reference(info, "journal", "points", "centre of the pin")
       call add_number(info, "bearing_radius", dim_length, "radius of the hole", lower=0.0_wp, open_lower=.true.)
-      call add_number(info, "clearance", dim_length, "radial clearance, radius of the hole less that of the pin", &
+      call add_number(info, "clearance", dim_length, "radial clearance, radius of the hole minus radius of the pin", &
                       lower=0.0_wp, open_lower=.true.)
       call add_reference(info, "material", "material", "material of hole and pin, for dry contact", default="none")
-      call add_reference(info, "journal_material", "material", "material of the pin, if another", default="none")
-      call add_word(info, "level", "fidelity: an ideal pin joint, dry contact, a film, or a film and dry contact", &
+      call add_reference(info, "journal_material", "material", "material of the pin, if different", default="none")
+      call add_word(info, "level", "model: an ideal pin joint, dry contact, a film, or film and dry contact", &
                     default="clearance", choices="ideal clearance lubricated hybrid")
       call add_reference(info, "law", "contact.", "normal law of dry contact, a row of a contact table", default="none")
       call add_reference(info, "friction", "friction.", "friction law, a row of a friction table, or none", default="none")
-      call add_word(info, "form", "formulas: corrected, or as the book prints them", default="corrected", &
+      call add_word(info, "form", "formulas: corrected, or as printed in Flores et al. (2008)", default="corrected", &
                     choices="corrected book")
-      call add_number(info, "length", dim_length, "length of the bearing along its axis, for laws of cylinders; 0: not known", &
+      call add_number(info, "length", dim_length, "length of the bearing along its axis, for laws of cylinders; 0: unknown", &
                       default="0 m", lower=0.0_wp)
       call add_film_columns(info, .false.)
-      call add_channel(info, "eccentricity", "m", "world", 2, "centre of the journal from that of the bearing", &
+      call add_channel(info, "eccentricity", "m", "world", 2, "centre of the journal relative to that of the bearing", &
                        of_eccentricity)
       call add_channel(info, "force", "N", "world", 2, "force on the journal", of_force)
       call add_film_channels(info)
@@ -123,8 +123,8 @@ contains
       associate (radius => item%number("bearing_radius"), clearance => item%number("clearance"))
          if (.not. clearance < radius) then
             column = place_of(item, "clearance")
-            message = "clearance must be less than bearing_radius"
-            help = "the journal's radius is bearing_radius less clearance: here "//to_text(1.0e3_wp*(radius - clearance))//" mm"
+            message = "clearance must be smaller than bearing_radius"
+            help = "the journal radius is bearing_radius minus clearance: here "//to_text(1.0e3_wp*(radius - clearance))//" mm"
             return
          end if
       end associate

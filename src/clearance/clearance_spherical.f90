@@ -40,13 +40,13 @@ contains
 
       info%name = "clearance.spherical"
       info%space = in_space
-      info%help = "a ball loose in a socket"
+      info%help = "a ball with clearance in a socket"
       info%source = "Flores et al. (2008), section 6.2"
       call add_reference(info, "bearing", "points", "centre of the socket")
       call add_reference(info, "journal", "points", "centre of the ball")
       call add_socket_columns(info, "socket", "ball")
       call add_film_columns(info, .true.)
-      call add_channel(info, "eccentricity", "m", "world", 2, "centre of the ball from that of the socket", of_eccentricity)
+      call add_channel(info, "eccentricity", "m", "world", 2, "centre of the ball relative to that of the socket", of_eccentricity)
       call add_channel(info, "force", "N", "world", 2, "force on the ball", of_force)
       call add_channel(info, "moment", "N.m", "world", 2, "moment on the ball about its centre", of_moment)
       call add_spatial_film_channels(info, .true.)
@@ -60,11 +60,11 @@ contains
       character(*), intent(in) :: pin           !! what is inside
 
       call add_number(info, "bearing_radius", dim_length, "radius of the "//hole, lower=0.0_wp, open_lower=.true.)
-      call add_number(info, "clearance", dim_length, "radial clearance, radius of the "//hole//" less that of the "//pin, &
+      call add_number(info, "clearance", dim_length, "radial clearance, radius of the "//hole//" minus that of the "//pin, &
                       lower=0.0_wp, open_lower=.true.)
       call add_reference(info, "material", "material", "material of "//hole//" and "//pin, default="none")
-      call add_reference(info, "journal_material", "material", "material of the "//pin//", if another", default="none")
-      call add_word(info, "level", "fidelity: an ideal joint, dry contact, a film, or a film and dry contact", &
+      call add_reference(info, "journal_material", "material", "material of the "//pin//", if different", default="none")
+      call add_word(info, "level", "model: an ideal joint, dry contact, a film, or film and dry contact", &
                     default="clearance", choices="ideal clearance lubricated hybrid")
       call add_reference(info, "law", "contact.", "normal law of dry contact, a row of a contact table", default="none")
       call add_reference(info, "friction", "friction.", "friction law, a row of a friction table, or none", default="none")
@@ -130,8 +130,8 @@ contains
       associate (radius => item%number("bearing_radius"), clearance => item%number("clearance"))
          if (.not. clearance < radius) then
             column = place_of(item, "clearance")
-            message = "clearance must be less than bearing_radius"
-            help = "the inner radius is bearing_radius less clearance: here "//to_text(1.0e3_wp*(radius - clearance))//" mm"
+            message = "clearance must be smaller than bearing_radius"
+            help = "the inner radius is bearing_radius minus clearance: here "//to_text(1.0e3_wp*(radius - clearance))//" mm"
             return
          end if
       end associate

@@ -52,7 +52,8 @@ contains
 
       info%name = "clearance.stop"
       info%space = in_plane
-      info%help = "stops of a pin's angle or of a guide's way; without an ideal twin, so that --ideal keeps their contact"
+      info%help = "stops for the angle of a pin or the displacement of a guide; --ideal keeps them, as no ideal joint "// &
+         "corresponds to them"
       info%source = "Flores et al. (2008), section 3.1"
       call add_stop_columns(info, "joint.revolute joint.translational")
       call add_contact_channels(info, "body of j", "t = R90 n")
@@ -63,10 +64,11 @@ contains
       type(kind_info_t), intent(inout) :: info  !! the geometry
       character(*), intent(in) :: joints        !! kinds of joints that it stops, blank-separated
 
-      call add_reference(info, "joint", joints, "the joint that is stopped")
-      call add_any_number(info, "lower", "least angle of j relative to i, or least way along the axis; left out: none", default="")
-      call add_any_number(info, "upper", "greatest angle or way; left out: none", default="")
-      call add_number(info, "lever", dim_length, "of an angle: distance of the stop from the pin", default="0 m", lower=0.0_wp)
+      call add_reference(info, "joint", joints, "the joint with stops")
+      call add_any_number(info, "lower", "lower limit of the angle of j relative to i, or of the displacement along the axis; "// &
+         "default: none", default="")
+      call add_any_number(info, "upper", "upper limit of the angle or displacement; default: none", default="")
+      call add_number(info, "lever", dim_length, "for an angle: lever arm of the stop about the pin", default="0 m", lower=0.0_wp)
       call add_reference(info, "law", "contact.", "normal law with a stiffness, a row of a contact table")
       call add_channel(info, "force", "N", "world", 2, "force on the body of j", of_force)
    end subroutine add_stop_columns
@@ -134,7 +136,7 @@ contains
          is_angle = same_dimension(low%dimensions(1), dim_angle)
          if (high%given .and. .not. same_dimension(low%dimensions(1), high%dimensions(1))) then
             column = place_of(item, "upper")
-            message = "the limits of stop '"//item%name//"' are not of one dimension"
+            message = "the limits of stop '"//item%name//"' have different dimensions"
             help = "two angles, or two lengths"
          else if (.not. is_angle .and. .not. same_dimension(low%dimensions(1), dim_length)) then
             column = first
@@ -142,16 +144,16 @@ contains
             help = "an angle for a pin, a length for a guide"
          else if (item%is_given("lower") .and. high%given .and. high%number <= low%number) then
             column = place_of(item, "upper")
-            message = "stop '"//item%name//"' leaves nothing between its limits"
-            help = "upper is greater than lower"
+            message = "stop '"//item%name//"' leave no range of motion"
+            help = "upper must be greater than lower"
          else if (is_angle .and. item%is_given("lower") .and. high%given .and. high%number - low%number >= pi) then
             column = place_of(item, "upper")
-            message = "the limits of stop '"//item%name//"' are half a turn apart or more"
-            help = "two stops, each with one limit, have the same bound: half a turn from where they are"
+            message = "the limits of stop '"//item%name//"' are half a revolution apart or more"
+            help = "two stops with one limit each have the same restriction"
          else if (is_angle .and. item%number("lever") <= 0.0_wp) then
             column = place_of(item, "lever")
-            message = "stop '"//item%name//"' of an angle has no lever"
-            help = "give the distance of the stop from the pin"
+            message = "stop '"//item%name//"' of an angle has no lever arm"
+            help = "give the lever arm of the stop about the pin"
          end if
       end associate
    end subroutine check_stop

@@ -46,29 +46,32 @@ contains
 
       info%name = "clearance.thrust"
       info%space = in_space
-      info%help = "two collars loose between the faces of a bearing; it has no ideal twin, so that --ideal keeps its contact"
+      info%help = "two collars with clearance between the faces of a bearing; --ideal keeps the contact, as no ideal joint "// &
+         "corresponds to it"
       info%source = "Flores et al. (2008), section 6.3, and the definition"
       call add_reference(info, "bearing", "points", "middle between the faces, on the bearing's axis")
       call add_reference(info, "journal", "points", "middle between the collars, on the pin's axis")
       call add_direction(info, "axis_i", "axis of the bearing, in the frame of its body", default='"0 0 1"')
-      call add_direction(info, "axis_j", "axis of the pin, in the frame of its body; left out: as the deck puts the bodies", &
+      call add_direction(info, "axis_j", "axis of the pin, in the frame of its body; default: consistent with the given "// &
+         "positions", &
                          default="")
       call add_direction(info, "x_i", "direction of the first points from the axis, in the frame of the body of the bearing; left &
                          &out: that of its axes which comes after the one nearest to the axis", default="")
-      call add_number(info, "length", dim_length, "distance of the faces", lower=0.0_wp, open_lower=.true.)
-      call add_number(info, "gap", dim_length, "clearance along the axis at each end", lower=0.0_wp, open_lower=.true.)
-      call add_number(info, "face_radius", dim_length, "radius of the circle on which faces and collars meet", lower=0.0_wp, &
+      call add_number(info, "length", dim_length, "distance between the faces", lower=0.0_wp, open_lower=.true.)
+      call add_number(info, "gap", dim_length, "axial clearance at each end", lower=0.0_wp, open_lower=.true.)
+      call add_number(info, "face_radius", dim_length, "radius of the contact circle of faces and collars", lower=0.0_wp, &
                       open_lower=.true.)
-      call add_number(info, "edge_radius", dim_length, "radius of the rounded edge of a collar, for its stiffness", lower=0.0_wp, &
+      call add_number(info, "edge_radius", dim_length, "edge radius of a collar, for the contact stiffness", lower=0.0_wp, &
                       open_lower=.true.)
       call add_reference(info, "material", "material", "material of bearing and collars")
-      call add_reference(info, "journal_material", "material", "material of the collars, if another", default="none")
-      call add_reference(info, "law", "contact.", "normal law of the points, a row of a contact table")
+      call add_reference(info, "journal_material", "material", "material of the collars, if different", default="none")
+      call add_reference(info, "law", "contact.", "normal law of the contact points, a row of a contact table")
       call add_reference(info, "friction", "friction.", "friction law, a row of a friction table, or none", default="none")
       call add_channel(info, "force", "N", "world", 2, "force on the collars", of_force)
       call add_channel(info, "moment", "N.m", "world", 2, "moment on the collars about the pin's point", of_moment)
       call add_channel(info, "tilt", "rad", "joint", 1, "angle between the axes of bearing and pin", of_tilt)
-      call add_channel(info, "axial_displacement", "m", "joint", 1, "middle of the pin from that of the bearing, along its axis", &
+      call add_channel(info, "axial_displacement", "m", "joint", 1, "middle of the pin relative to that of the bearing, along "// &
+         "its axis", &
                        of_axial_displacement)
       call add_contact_channels(info, "collar", "its sliding velocity")
    end function thrust_info

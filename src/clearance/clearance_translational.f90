@@ -56,38 +56,39 @@ contains
 
       info%name = "clearance.translational"
       info%space = in_plane
-      info%help = "a slider loose in a straight guide: dry contact of its corners or faces with two surfaces"
+      info%help = "a slider with clearance in a straight guide: dry contact of its corners or faces with two surfaces"
       info%source = "Flores et al. (2008), section 4.3"
-      call add_reference(info, "guide", "points", "point on the guide's line")
+      call add_reference(info, "guide", "points", "point on the guide axis")
       call add_reference(info, "slider", "points", "centre of the slider")
       call add_axis_columns(info, "guide")
       call add_number(info, "length", dim_length, "length of the slider, along its axis", lower=0.0_wp, open_lower=.true.)
-      call add_number(info, "height", dim_length, "height of the slider, across", lower=0.0_wp, open_lower=.true.)
-      call add_number(info, "width", dim_length, "width of the slider, out of the plane, for the face law; 0: not known", &
+      call add_number(info, "height", dim_length, "height of the slider, across the guide", lower=0.0_wp, open_lower=.true.)
+      call add_number(info, "width", dim_length, "width of the slider, normal to the plane, for the face law; 0: unknown", &
                       default="0 m", lower=0.0_wp)
-      call add_number(info, "gap", dim_length, "clearance on each side, where gap_upper or gap_lower does not say otherwise", &
+      call add_number(info, "gap", dim_length, "clearance on each side; gap_upper and gap_lower override it", &
                       default="0 m", lower=0.0_wp)
-      call add_number(info, "gap_upper", dim_length, "clearance on the side of R90 axis; left out: gap", default="0 m", &
+      call add_number(info, "gap_upper", dim_length, "clearance on the side of R90 axis; default: gap", default="0 m", &
                       lower=0.0_wp)
-      call add_number(info, "gap_lower", dim_length, "clearance on the other side; left out: gap", default="0 m", lower=0.0_wp)
-      call add_number(info, "corner_radius", dim_length, "radius of the slider's corners, for their stiffness", lower=0.0_wp, &
+      call add_number(info, "gap_lower", dim_length, "clearance on the other side; default: gap", default="0 m", lower=0.0_wp)
+      call add_number(info, "corner_radius", dim_length, "radius of the slider corners, for the contact stiffness", lower=0.0_wp, &
                       open_lower=.true.)
-      call add_word(info, "slider_axis", "direction of the slider's length: an axis of its body", default="x", choices="x y")
-      call add_number(info, "slider_angle", dim_angle, "angle from that axis to the slider's length, counter-clockwise", &
+      call add_word(info, "slider_axis", "direction of the slider length: an axis of its body", default="x", choices="x y")
+      call add_number(info, "slider_angle", dim_angle, "angle from that axis to the slider length, counter-clockwise", &
                       default="0 rad")
       call add_guide_ends(info)
       call add_reference(info, "material", "material", "material of slider and guide")
-      call add_reference(info, "guide_material", "material", "material of the guide, if another", default="none")
-      call add_word(info, "level", "fidelity: an ideal translational joint, or clearance", default="clearance", &
+      call add_reference(info, "guide_material", "material", "material of the guide, if different", default="none")
+      call add_word(info, "level", "model: an ideal translational joint, or clearance", default="clearance", &
                     choices="ideal clearance")
       call add_reference(info, "law", "contact.", "normal law of the corners, a row of a contact table")
       call add_reference(info, "face_law", "contact.", "normal law of the faces, a row of contact.plane_face, or none", &
                          default="none")
-      call add_word(info, "faces", "both corners of a long side at one surface: each for itself, the book's switch to the " &
-                    //"face law with its jump, or one of two ways without", default="corners", &
+      call add_word(info, "faces", "contact of both corners of a long side: separate corners, the discontinuous switch of "// &
+         "Flores et al. (2008) to the " &
+                    //"face law (book), or continuous transitions (blend, foundation)", default="corners", &
                     choices="corners book blend foundation")
       call add_reference(info, "friction", "friction.", "friction law, a row of a friction table, or none", default="none")
-      call add_channel(info, "eccentricity", "m", "world", 2, "centre of the slider from the guide's line", &
+      call add_channel(info, "eccentricity", "m", "world", 2, "centre of the slider relative to the guide axis", &
                        of_eccentricity)
       call add_channel(info, "force", "N", "world", 2, "force on the slider", of_force)
       call add_channel(info, "moment", "N.m", "world", 1, "moment on the slider about its centre", of_moment)
@@ -98,9 +99,9 @@ contains
    subroutine add_guide_ends(info)
       type(kind_info_t), intent(inout) :: info  !! the geometry
 
-      call add_number(info, "guide_start", dim_length, "where the surfaces begin, along the axis from the point guide", &
+      call add_number(info, "guide_start", dim_length, "start of the guide surfaces, along the axis from the point guide", &
                       default="0 m")
-      call add_number(info, "guide_end", dim_length, "where they end; both 0: they do not end", default="0 m")
+      call add_number(info, "guide_end", dim_length, "end of the guide surfaces; both 0: unlimited", default="0 m")
    end subroutine add_guide_ends
 
    !> Without clearance a translational joint.
@@ -180,12 +181,12 @@ contains
       if (column > 0) return
       if (.not. item%is_given("gap") .and. .not. (item%is_given("gap_upper") .and. item%is_given("gap_lower"))) then
          column = place_of(item, "gap")
-         message = "no clearance is given"
+         message = "the clearance is missing"
          help = "give the column gap, or gap_upper and gap_lower"
       else if (item%word("faces") /= "corners" .and. item%reference("face_law") == 0) then
          column = place_of(item, "faces")
          message = "faces = "//item%word("faces")//" needs the column face_law"
-         help = "name a row of contact.plane_face there, or take faces = corners"
+         help = "name a row of contact.plane_face there, or set faces = corners"
       end if
    end subroutine translational_mistake
 
@@ -204,12 +205,12 @@ contains
              .not. max(abs(item%number("guide_start")), abs(item%number("guide_end"))) > 0.0_wp) return
          column = place_of(item, "guide_end")
          if (length > 0.0_wp) then
-            message = "the guide is "//to_text(length)//" m long, shorter than the block: its corners are never all in it"
-            help = "a contact is one of a corner: give guide_start and guide_end at least "//to_text(item%number("length")) &
+            message = "the guide is "//to_text(length)//" m long, shorter than the block: its corners cannot all be inside"
+            help = "contact acts at single corners: set guide_start and guide_end at least "//to_text(item%number("length")) &
                    //" m apart"
          else
             message = "guide_end must be beyond guide_start"
-            help = "leave both out, or give 0, for surfaces without ends"
+            help = "for unlimited surfaces omit both, or set both to 0"
          end if
       end associate
    end subroutine find_end_mistake

@@ -173,20 +173,23 @@ contains
       character(*), intent(in) :: who           !! what has the friction force, as "slider"
       character(*), intent(in) :: along         !! what it is measured along
 
-      call add_channel(info, "penetration", "m", "none", 1, "penetration of the surfaces, 0 when apart", of_penetration)
-      call add_channel(info, "penetration_rate", "m/s", "none", 1, "rate of the penetration, positive when approaching", &
+      call add_channel(info, "penetration", "m", "none", 1, "penetration of the surfaces, 0 without contact", of_penetration)
+      call add_channel(info, "penetration_rate", "m/s", "none", 1, "penetration rate, positive when approaching", &
                        of_penetration_rate)
       call add_channel(info, "normal_force", "N", "none", 1, "normal contact force", of_normal_force)
       call add_channel(info, "friction_force", "N", "none", 1, "friction force on the "//who//" along "//along, of_friction_force)
       call add_channel(info, "state", "1", "none", 1, "0 free, 1 contact, 2 film, 3 mixed", of_state)
-      call add_channel(info, "contact_point", "m", "world", 2, "where the force on the "//who//" acts, or would", of_contact_point)
+      call add_channel(info, "contact_point", "m", "world", 2, "point of action of the force on the "//who//"; of the "// &
+         "possible contact if "// &
+         "separated", of_contact_point)
       if (info%space == in_plane) then
-         call add_channel(info, "contact_angle", "rad", "body", 1, "direction in which the "//who//" presses, in the frame of " &
+         call add_channel(info, "contact_angle", "rad", "body", 1, "direction of the normal force of the "//who//", in the "// &
+            "frame of " &
                           //"the body of i, from -pi to pi", of_contact_angle)
       end if
-      call add_channel(info, "sliding_speed", "m/s", "none", 1, "speed of the "//who//" along the other surface at the " &
-                       //"contact, 0 when apart", of_sliding_speed)
-      call add_channel(info, "contact_power", "W", "none", 1, "power that damping and friction of the contact take", &
+      call add_channel(info, "sliding_speed", "m/s", "none", 1, "sliding speed of the "//who//" at the " &
+                       //"contact point, 0 without contact", of_sliding_speed)
+      call add_channel(info, "contact_power", "W", "none", 1, "power dissipated by damping and friction of the contact", &
                        of_contact_power)
       call add_channel(info, "p_v", "Pa.m/s", "none", 1, "normal force over diameter and length of a pin, times the sliding " &
                        //"speed", of_p_v)

@@ -36,23 +36,26 @@ contains
       logical, intent(in) :: is_sphere          !! that of a ball in a socket
 
       call add_reference(info, "film", "film.", "lubricant film, a row of a film table, or none", default="none")
-      call add_reference(info, "lubricant", "lubricant", "what the film consists of, a row of [lubricant]", default="none")
+      call add_reference(info, "lubricant", "lubricant", "lubricant of the film, a row of [lubricant]", default="none")
       if (.not. is_sphere) then
-         call add_word(info, "entrain", "speed that entrains the film: sum of the inertial speeds, or that of journal against " &
-                       //"bearing, as in the book", default="inertial", choices="inertial book")
+         call add_word(info, "entrain", "entrainment speed: sum of the absolute angular speeds, or relative speed of journal and " &
+                       //"bearing, as in Flores et al. (2008)", default="inertial", choices="inertial book")
       end if
-      call add_flag(info, "film_torque", "moments of the shear in the film on journal and bearing", default="off")
+      call add_flag(info, "film_torque", "shear moments of the film on journal and bearing", default="off")
       if (.not. is_sphere) then
-         call add_word(info, "heat", "off: the film has the temperature of the lubricant; balance: in a static analysis half of " &
-                       //"the rise by its heat more", default="off", choices="off balance")
+         call add_word(info, "heat", "off: the film has the temperature of the lubricant; balance: a static analysis adds half "// &
+            "of " &
+                       //"the temperature rise", default="off", choices="off balance")
       end if
-      call add_number(info, "eps_max", dim_none, "eccentricity over clearance where a lubricated run ends, and beyond which a " &
-                      //"film keeps its shape", default="0.99999", lower=0.0_wp, upper=1.0_wp, open_lower=.true., open_upper=.true.)
-      call add_number(info, "roughness", dim_length, "roughness of the surfaces, a twentieth of the least film that is safe; " &
-                      //"0: not known", default="0 m", lower=0.0_wp)
-      call add_number(info, "e_t0", dim_length, "hybrid: way beyond the clearance over which the film goes out and the contact " &
-                      //"comes in; 0: both add up", default="0 m", lower=0.0_wp)
-      call add_number(info, "e_t1", dim_length, "hybrid: what the film has more of clearance, more than e_t0", default="0 m", &
+      call add_number(info, "eps_max", dim_none, "eccentricity ratio at which a lubricated run stops, and beyond which a " &
+                      //"film force keeps its form", default="0.99999", lower=0.0_wp, upper=1.0_wp, open_lower=.true., &
+                         open_upper=.true.)
+      call add_number(info, "roughness", dim_length, "surface roughness, a twentieth of the minimum safe film thickness; " &
+                      //"0: unknown", default="0 m", lower=0.0_wp)
+      call add_number(info, "e_t0", dim_length, "hybrid: depth beyond the clearance over which the film fades out and the "// &
+         "contact " &
+                      //"fades in; 0: both forces add up", default="0 m", lower=0.0_wp)
+      call add_number(info, "e_t1", dim_length, "hybrid: extra clearance of the film, greater than e_t0", default="0 m", &
                       lower=0.0_wp)
    end subroutine add_film_columns
 
@@ -61,21 +64,21 @@ contains
       type(kind_info_t), intent(inout) :: info  !! the geometry
 
       call add_channel(info, "film_force", "N", "world", 2, "force of the film on the journal", of_film_force)
-      call add_channel(info, "film_torque", "N.m", "world", 1, "moment of the shear in the film on the journal, where it acts", &
+      call add_channel(info, "film_torque", "N.m", "world", 1, "shear moment of the film on the journal, as applied", &
                        of_film_torque)
-      call add_channel(info, "film_thickness", "m", "none", 1, "least thickness of the film, clearance less eccentricity", &
+      call add_channel(info, "film_thickness", "m", "none", 1, "minimum film thickness, clearance minus eccentricity", &
                        of_film_thickness)
-      call add_channel(info, "film_pressure", "Pa", "none", 1, "greatest pressure of the film at mid-length, at whole degrees; " &
-                       //"of films that have pressures: grid, squeeze, the short and the long ones", of_film_pressure)
-      call add_channel(info, "eccentricity_ratio", "1", "none", 1, "eccentricity over clearance", of_eccentricity_ratio)
-      call add_channel(info, "drag_journal", "N.m", "world", 1, "moment of the shear on the journal, whether it acts or not", &
+      call add_channel(info, "film_pressure", "Pa", "none", 1, "maximum film pressure at mid-length, in steps of one degree; " &
+                       //"for films with a pressure field: grid, squeeze, short and long", of_film_pressure)
+      call add_channel(info, "eccentricity_ratio", "1", "none", 1, "eccentricity ratio", of_eccentricity_ratio)
+      call add_channel(info, "drag_journal", "N.m", "world", 1, "shear moment on the journal, applied or not", &
                        of_drag_journal)
-      call add_channel(info, "drag_bearing", "N.m", "world", 1, "moment of the shear on the bearing, whether it acts or not", &
+      call add_channel(info, "drag_bearing", "N.m", "world", 1, "shear moment on the bearing, applied or not", &
                        of_drag_bearing)
-      call add_channel(info, "film_power", "W", "none", 1, "power that the film turns into heat", of_film_power)
-      call add_channel(info, "side_flow", "m^3/s", "none", 1, "lubricant that leaves at both ends of the bearing", of_side_flow)
-      call add_channel(info, "temperature_rise", "K", "none", 1, "of the lubricant, if the side flow takes all heat along; no " &
-                       //"number where that is below L R c (|w_i| + |w_j|)/1000", of_temperature_rise)
+      call add_channel(info, "film_power", "W", "none", 1, "power dissipated in the film", of_film_power)
+      call add_channel(info, "side_flow", "m^3/s", "none", 1, "lubricant flow out of both ends of the bearing", of_side_flow)
+      call add_channel(info, "temperature_rise", "K", "none", 1, "of the lubricant, if the side flow carries all heat; " &
+                       //"NaN where that flow is below L R c (|w_i| + |w_j|)/1000", of_temperature_rise)
    end subroutine add_film_channels
 
    !> Channels of a film in space.
@@ -85,29 +88,29 @@ contains
 
       if (is_sphere) then
          call add_channel(info, "film_force", "N", "world", 2, "force of the film on the ball", of_film_force)
-         call add_channel(info, "film_torque", "N.m", "world", 2, "moment of the shear in the film on the ball, where it acts", &
+         call add_channel(info, "film_torque", "N.m", "world", 2, "shear moment of the film on the ball, as applied", &
                           of_film_torque)
       else
          call add_channel(info, "film_force", "N", "world", 2, "force of the film on the pin", of_film_force)
          call add_channel(info, "film_moment", "N.m", "world", 2, "moment of the film on the pin about its middle", of_film_moment)
-         call add_channel(info, "film_torque", "N.m", "joint", 1, "moment of the shear in the film on the pin about the axis of " &
-                          //"the bushing, where it acts", of_film_torque)
+         call add_channel(info, "film_torque", "N.m", "joint", 1, "shear moment of the film on the pin about the axis of " &
+                          //"the bushing, as applied", of_film_torque)
       end if
-      call add_channel(info, "film_thickness", "m", "none", 1, "least thickness of the film, at the end where it is thinner", &
+      call add_channel(info, "film_thickness", "m", "none", 1, "minimum film thickness, at the thinner end", &
                        of_film_thickness)
-      call add_channel(info, "eccentricity_ratio", "1", "none", 1, "eccentricity over clearance, of the middle of the film", &
+      call add_channel(info, "eccentricity_ratio", "1", "none", 1, "eccentricity ratio at the middle of the film", &
                        of_eccentricity_ratio)
-      call add_channel(info, "film_power", "W", "none", 1, "power that the film turns into heat", of_film_power)
+      call add_channel(info, "film_power", "W", "none", 1, "power dissipated in the film", of_film_power)
       if (is_sphere) return
-      call add_channel(info, "film_pressure", "Pa", "none", 1, "greatest pressure of the film at mid-length, at whole degrees; " &
-                       //"of films that have pressures: grid, squeeze, the short and the long ones", of_film_pressure)
-      call add_channel(info, "drag_journal", "N.m", "joint", 1, "moment of the shear on the pin, whether it acts or not", &
+      call add_channel(info, "film_pressure", "Pa", "none", 1, "maximum film pressure at mid-length, in steps of one degree; " &
+                       //"for films with a pressure field: grid, squeeze, short and long", of_film_pressure)
+      call add_channel(info, "drag_journal", "N.m", "joint", 1, "shear moment on the pin, applied or not", &
                        of_drag_journal)
-      call add_channel(info, "drag_bearing", "N.m", "joint", 1, "moment of the shear on the bushing, whether it acts or not", &
+      call add_channel(info, "drag_bearing", "N.m", "joint", 1, "shear moment on the bushing, applied or not", &
                        of_drag_bearing)
-      call add_channel(info, "side_flow", "m^3/s", "none", 1, "lubricant that leaves at both ends of the bushing", of_side_flow)
-      call add_channel(info, "temperature_rise", "K", "none", 1, "of the lubricant, if the side flow takes all heat along; no " &
-                       //"number where that is below L R c (|w_i| + |w_j|)/1000", of_temperature_rise)
+      call add_channel(info, "side_flow", "m^3/s", "none", 1, "lubricant flow out of both ends of the bushing", of_side_flow)
+      call add_channel(info, "temperature_rise", "K", "none", 1, "of the lubricant, if the side flow carries all heat; " &
+                       //"NaN where that flow is below L R c (|w_i| + |w_j|)/1000", of_temperature_rise)
    end subroutine add_spatial_film_channels
 
    !> What is wrong with a row as to its level: contact needs a material and a law, a film a lubricant and a length.
@@ -125,7 +128,7 @@ contains
       level = item%word("level")
       if (level == "ideal") return
       if (level /= "lubricated") then
-         if (item%reference("law") == 0) call find("law", "no law of contact", "name a row of a contact table in column law")
+         if (item%reference("law") == 0) call find("law", "no contact law", "name a row of a contact table in column law")
          if (item%reference("material") == 0) call find("material", "no material", "name a row of [material] in column material")
       end if
       if (level /= "clearance") then
@@ -141,10 +144,11 @@ contains
       end if
       if (level /= "hybrid") return
       if (.not. item%number("e_t1") > item%number("e_t0") .and. item%number("e_t0") > 0.0_wp) then
-         call find("e_t1", "an e_t1 that is not greater than e_t0", "the film must be gone at c + e_t0, before it ends at c + e_t1")
+         call find("e_t1", "an e_t1 not greater than e_t0", "the film must vanish at c + e_t0, before its clearance "// &
+            "ends at c + e_t1")
       end if
       if (.not. item%number("e_t1") < item%number("clearance")) then
-         call find("e_t1", "an e_t1 that is not less than the clearance", "e_t0 and e_t1 are small beside the clearance")
+         call find("e_t1", "an e_t1 not smaller than the clearance", "e_t0 and e_t1 must be small compared with the clearance")
       end if
 
    contains

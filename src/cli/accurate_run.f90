@@ -53,28 +53,29 @@ contains
 
       if (options%digits%accuracy <= 0.0_wp) then
          if (options%digits%budget > 0.0_wp .and. .not. options%digits%with_horizon) then
-            call set_error(error, exit_usage, "option --budget of run is for --accuracy and --horizon")
+            call set_error(error, exit_usage, "option --budget of 'run' needs --accuracy or --horizon")
          end if
       else if (loaded%scene%analysis /= analysis_dynamic) then
-         call set_error(error, exit_usage, "option --accuracy is for the section [analysis.dynamic]: a kinematic or static "// &
-                        "analysis solves its equations to the tolerance asked for")
+         call set_error(error, exit_usage, "option --accuracy needs a run of [analysis.dynamic]: a kinematic or static "// &
+                        "analysis already solves its equations to its tolerance")
       else if (options%change%tolerance > 0.0_wp) then
-         call set_error(error, exit_usage, "options --accuracy and --tolerance exclude each other: the first chooses the tolerance")
+         call set_error(error, exit_usage, "options --accuracy and --tolerance exclude each other: --accuracy chooses the "// &
+            "tolerance")
       else if (allocated(options%legacy%way)) then
-         call set_error(error, exit_usage, "options --accuracy and --legacy exclude each other: the latter makes fixed steps")
+         call set_error(error, exit_usage, "options --accuracy and --legacy exclude each other: --legacy takes fixed steps")
       else
          maker = loaded%scene%settings%dynamic%word("method")
-         hint = "take another method, as with --method verner"
+         hint = "choose another method, as with --method verner"
          setting%method = maker
          setting%way = ""
          setting%solver = ""
          if (.not. has_fixed_steps(setting)) then
             maker = loaded%scene%settings%dynamic%word("stabilise")
-            hint = "take another way of holding the constraints, as stabilise = projection"
+            hint = "choose another stabilisation method, as stabilise = projection"
             setting%way = maker
          end if
          if (has_fixed_steps(setting)) then
-            call set_error(error, exit_usage, "option --accuracy chooses a tolerance, and '"//maker//"' makes fixed steps"// &
+            call set_error(error, exit_usage, "option --accuracy chooses a tolerance, but '"//maker//"' takes fixed steps"// &
                            new_line("a")//"  = "//hint)
          end if
       end if
@@ -100,7 +101,7 @@ contains
       call build_catalogue(loaded%system, catalogue)
       call find_asked(plan%channels, catalogue, scalars)
       if (size(scalars) == 0) then
-         call set_error(error, exit_usage, "none of the channels asked for in [output] has an error in time: --accuracy is for "// &
+         call set_error(error, exit_usage, "no channel selected in [output] has a numerical error: --accuracy controls "// &
                         "positions, velocities, forces and energies")
          return
       end if
@@ -121,10 +122,10 @@ contains
       call display%finish()
       if (plan%accuracy%end <= 0.0_wp) then
          if (len(plan%accuracy%reason) == 0) then
-            call set_error(error, exit_integration, "--accuracy has nothing to look at: the run ends as it begins, by a "// &
+            call set_error(error, exit_integration, "--accuracy has nothing to examine: the run stops at its start, by a "// &
                            "condition of 'stop'")
          else
-            call set_error(error, exit_integration, "no run came to its end: "//plan%accuracy%reason)
+            call set_error(error, exit_integration, "no run was completed: "//plan%accuracy%reason)
          end if
          return
       end if
@@ -201,9 +202,9 @@ contains
 
       if (allocated(error) .or. accuracy%asked <= 0.0_wp) return
       if (accuracy%claim /= claim_none .and. accuracy%claim /= claim_reached) return
-      reached = "no error of this run is known"
+      reached = "the error of this run is unknown"
       if (accuracy%claim == claim_reached) reached = "reached "//real_text(accuracy%error, 2)
-      call set_error(error, exit_audit, "accuracy "//real_text(accuracy%asked, 3)//" was asked for, "//reached//": "// &
+      call set_error(error, exit_audit, "accuracy "//real_text(accuracy%asked, 3)//" was requested, "//reached//": "// &
                      accuracy%reason)
    end subroutine tell_accuracy
 

@@ -29,71 +29,72 @@ module command_words
    end type option_t
 
    type(command_t), parameter :: known_verbs(*) = [ &
-      command_t("run", "DECK", "run the analysis; writes outputs/NAME/", &
+      command_t("run", "DECK", "run the analysis; results in outputs/NAME/", &
                 "--out --set --ideal --analysis --tolerance --method --accuracy --budget --horizon --quiet --json --member "// &
                  "--write --csv --legacy --resume --walltime --verify-restart"), &
-      command_t("sweep", "DECK", "run all cases of [sweep] and all runs of [ensemble], on all processors", &
+      command_t("sweep", "DECK", "run all cases of [sweep] and all runs of [ensemble] on all processors", &
                 "--out --set --ideal --tolerance --method --quiet --json --jobs --shard"), &
-      command_t("merge", "DIR", "put the parts of a sweep, DIR.shards, together in DIR", "--out --quiet --json"), &
-      command_t("precision", "DECK", "error against cost of methods and tolerances: how long for how many digits", &
+      command_t("merge", "DIR", "merge the shards of a sweep, DIR.shards, into DIR", "--out --quiet --json"), &
+      command_t("precision", "DECK", "compare methods and tolerances: accuracy against cost", &
                 "--out --set --ideal --methods --accuracy --budget --quiet --json"), &
-      command_t("check", "DECK", "find every mistake without integrating", &
+      command_t("check", "DECK", "check the deck completely without integrating", &
                 "--set --ideal --analysis --tolerance --method --legacy"), &
-      command_t("explain", "DECK", "what is modelled, what was dropped, every default taken", &
+      command_t("explain", "DECK", "report the model, unused items, defaults and numerical settings", &
                 "--set --ideal --analysis --tolerance --method --legacy --adams"), &
-      command_t("compare", "A B", "two runs, or a run and columns of another program: differences, peaks, impacts, figure", &
+      command_t("compare", "A B", "compare two runs, or a run with external columns: differences, peaks, impacts, figure", &
                 "--out --channel --time --table --absolute --relative --statistics --quiet --json"), &
-      command_t("import", "MODEL", "make a deck of an Adams dataset MODEL.adm, with a list of what was left out", "--out"), &
-      command_t("new", "NAME", "write a commented deck NAME.deck to start from", ""), &
-      command_t("list", "[KIND]", "all tables and settings a deck may hold, or a group: gudgeon list contact", ""), &
-      command_t("help", "[KIND]", "this page, a kind (gudgeon help joint revolute), or a verb; also gudgeon VERB --help", &
+      command_t("import", "MODEL", "convert an Adams dataset MODEL.adm to a deck, with a list of unsupported items", "--out"), &
+      command_t("new", "NAME", "write a commented starting deck NAME.deck", ""), &
+      command_t("list", "[KIND]", "list all tables and settings of a deck, or one group: gudgeon list contact", ""), &
+      command_t("help", "[KIND]", "show this page, or help on a type (joint revolute) or a verb; also gudgeon VERB --help", &
                 "--manual --man --completion"), &
-      command_t("version", "", "versions of the program and its libraries; also --version", "")]
+      command_t("version", "", "show versions of the program and its libraries; also --version", "")]
       !! in the order of the help
 
    type(option_t), parameter :: known_options(*) = [ &
-      option_t("--out", "DIR", "directory of the results; default outputs/NAME, as the deck is called"), &
-      option_t("--set", "NAME=VALUE", "change a parameter of the deck", .true.), &
-      option_t("--ideal", "", "take every loose joint as ideal"), &
-      option_t("--analysis", "A", "the analysis to run; left out: the first of these that the deck has"), &
-      option_t("--tolerance", "X", "error allowed, instead of the deck's"), &
-      option_t("--method", "M", "method of integration, instead of the deck's"), &
+      option_t("--out", "DIR", "output directory; default outputs/NAME, NAME from the deck file"), &
+      option_t("--set", "NAME=VALUE", "override a parameter of the deck", .true.), &
+      option_t("--ideal", "", "treat every joint with clearance as ideal"), &
+      option_t("--analysis", "A", "analysis to run; default: the first analysis section of the deck"), &
+      option_t("--tolerance", "X", "tolerance, overrides the deck"), &
+      option_t("--method", "M", "integration method, overrides the deck"), &
       option_t("--quiet", "", "print errors only"), &
-      option_t("--json", "", "print summary.json and nothing else"), &
-      option_t("--member", "K", "run number K of the deck's ensemble"), &
-      option_t("--write", "W", "leave out what takes long to write"), &
-      option_t("--csv", "", "time histories and events as comma-separated values too"), &
-      option_t("--horizon", "", "how fast neighbouring motions part (Lyapunov exponent), and how long digits mean anything"), &
-      option_t("--resume", "", "go on from the checkpoint in the directory of the run; without one, begin"), &
-      option_t("--walltime", "TIME", "save the run and end it before so much time of the clock is over, as 2h"), &
-      option_t("--verify-restart", "", "run, run again with restarts from checkpoints, and compare all numbers bit for bit"), &
-      option_t("--jobs", "N", "runs at once; default one for each processor"), &
-      option_t("--shard", "I/N", "every N-th run from the I-th on, into DIR.shards/I-of-N, for `gudgeon merge DIR`"), &
-      option_t("--methods", "LIST", "settings compared, as ""verner rk4 verner.baumgarte"", instead of the deck's"), &
-      option_t("--accuracy", "X", "greatest relative error wanted; of run: choose the tolerance that keeps it"), &
-      option_t("--budget", "TIME", "time of all runs, as 60s, instead of the deck's (run: with --accuracy, --horizon)"), &
-      option_t("--legacy", "WAY", "run with fixed steps, the book's formulas, and onsets of contacts by its procedure 1 or 2"), &
-      option_t("--adams", "", "parameters of Adams' IMPACT function that come nearest to each contact law"), &
+      option_t("--json", "", "print summary.json only"), &
+      option_t("--member", "K", "run number K of the ensemble of the deck"), &
+      option_t("--write", "W", "omit output that takes long to write"), &
+      option_t("--csv", "", "write time histories and events as comma-separated values too"), &
+      option_t("--horizon", "", "Lyapunov exponent (divergence of neighbouring trajectories) and the horizon of predictability"), &
+      option_t("--resume", "", "resume from the checkpoint in the output directory; without one, start at t = 0"), &
+      option_t("--walltime", "TIME", "save the run and stop it before this wall-clock time has passed, as 2h"), &
+      option_t("--verify-restart", "", "run twice, once with restarts from checkpoints, and compare all results bit for bit"), &
+      option_t("--jobs", "N", "parallel runs; default one per processor"), &
+      option_t("--shard", "I/N", "every N-th run starting from run I, into DIR.shards/I-of-N, for `gudgeon merge DIR`"), &
+      option_t("--methods", "LIST", "settings to compare, as ""verner rk4 verner.baumgarte"", overrides the deck"), &
+      option_t("--accuracy", "X", "target for the maximum relative error; of run: choose the tolerance that meets it"), &
+      option_t("--budget", "TIME", "time budget of all runs, as 60s, overrides the deck (run: with --accuracy, --horizon)"), &
+      option_t("--legacy", "WAY", "fixed steps, formulas as printed in Flores et al. (2008), contact onset by its procedure 1 "// &
+         "or 2"), &
+      option_t("--adams", "", "parameters of Adams' IMPACT function closest to each contact law"), &
       option_t("--channel", "SPEC", "a channel and its column, as ""rod.angle=3 unit=deg absolute=1e-3""", .true.), &
-      option_t("--time", "SPEC", "column of the time, as ""1 unit=ms shift=-5ms scale=1"""), &
-      option_t("--table", "FILE", "a file with one channel in a line, as --channel takes it"), &
-      option_t("--absolute", "X", "difference allowed, SI, of channels that have none of their own"), &
-      option_t("--relative", "X", "difference allowed, of a channel's greatest magnitude; default 1e-6"), &
-      option_t("--statistics", "", "judge means and RMS, with their significance, instead of every instant"), &
-      option_t("--manual", "", "the whole manual, as Markdown"), &
-      option_t("--man", "", "the man page"), &
-      option_t("--completion", "SHELL", "what completes the words of this program in a shell")]
+      option_t("--time", "SPEC", "time column, as ""1 unit=ms shift=-5ms scale=1"""), &
+      option_t("--table", "FILE", "a file with one channel per line, in the form of --channel"), &
+      option_t("--absolute", "X", "default absolute tolerance of a channel, SI"), &
+      option_t("--relative", "X", "default relative tolerance, of the channel's maximum magnitude; default 1e-6"), &
+      option_t("--statistics", "", "compare means and RMS values with their significance, not single output times"), &
+      option_t("--manual", "", "print the complete manual as Markdown"), &
+      option_t("--man", "", "print the man page"), &
+      option_t("--completion", "SHELL", "print the completion script for a shell")]
       !! in the order of the help
 
    integer, parameter :: exit_codes(*) = [exit_ok, exit_different, exit_usage, exit_deck, exit_assembly, exit_integration, &
                                           exit_audit, exit_stopped, exit_sweep, exit_file, exit_internal]
       !! that a run may end with
    character(*), parameter :: exit_meanings(size(exit_codes)) = [character(60) :: &
-      "done", "compared and found different", "a wrong command line", "a mistake in the deck", &
-      "not assembled: open, shaky, or at a dead centre", "the integration failed", &
-      "energy or constraints above a limit, or accuracy not reached", "stopped from outside, and saved", &
-      "part of a sweep failed", "a file, the disk or memory", &
-      "a mistake of the program itself"]
+      "done", "comparison found differences", "invalid command line", "invalid deck", &
+      "assembly failed: open loop, shaky, or at a dead centre", "integration failed", &
+      "energy error, constraint violation or accuracy over limit", "interrupted by a signal; results saved", &
+      "some runs of a sweep failed", "file, disk or memory error", &
+      "internal error of the program"]
       !! what they mean
 
 contains

@@ -99,8 +99,8 @@ contains
       wanted%has_end = figure%kind /= figure_mechanism .or. size(figure%motion%times) == 0
       call find_window(figure, system, times, location, from, closes, mistakes)
       if (from < times%first_output*(1.0_wp - 1.0e-9_wp) .and. mistakes%count() == 0) then
-         call mistakes%add(location, "the window of '"//figure%word//"' begins before the first output instant", &
-                           "nothing is written there", "see 'from' and 'last' of [output]")
+         call mistakes%add(location, "the window of '"//figure%word//"' starts before the first output time", &
+                           "no output is written there", "see 'from' and 'last' of [output]")
       end if
       n = figure%motion%n
       select case (figure%kind)
@@ -109,7 +109,7 @@ contains
          if (size(wanted%times) == 0) wanted%times = [times%end]
          if (maxval(wanted%times) > times%end*(1.0_wp + 1.0e-9_wp) .or. &
              minval(wanted%times) < times%first_output*(1.0_wp - 1.0e-9_wp)) then
-            call mistakes%add(location, "an instant of '"//figure%word//"' is not among what is written", "from "// &
+            call mistakes%add(location, "a time of '"//figure%word//"' is not an output time", "from "// &
                               to_text(times%first_output)//" s to "//to_text(times%end)//" s")
          end if
       case (figure_strip, figure_animation)
@@ -127,7 +127,7 @@ contains
       wanted%times = min(wanted%times, instant(times, last_instant(times)))
       if (size(wanted%times)*(scene%bodies%n + 1) > most_places) then
          call mistakes%add(location, to_text(size(wanted%times))//" pictures of "//to_text(scene%bodies%n)// &
-                           " bodies are too many for '"//figure%word//"'", "too many", "write fewer: n=2, or one instant")
+                           " bodies exceed the limit for '"//figure%word//"'", "too many", "use fewer pictures: n=2, or one time")
       end if
    end subroutine want
 
@@ -190,7 +190,7 @@ contains
       end do
       hint = nearest_word(name, scene%points%names)
       if (len(hint) > 0) hint = "did you mean '"//hint//"'? "
-      call mistakes%add(location, "unknown point '"//name//"' in coupler("//name//")", "no point of this deck", &
+      call mistakes%add(location, "unknown point '"//name//"' in coupler("//name//")", "not a point of this deck", &
                         hint//"points: "//join(scene%points%names, " "))
    end subroutine find_point
 

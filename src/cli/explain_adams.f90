@@ -51,7 +51,7 @@ contains
 
       call say("")
       call say("Adams: F = IMPACT(x, x', x1, k, e, c_max, d), penetration x1 - x")
-      if (loaded%system%loose%n == 0) call say("there is no loose joint", 2)
+      if (loaded%system%loose%n == 0) call say("the deck has no joint with clearance", 2)
       do k = 1, size(loaded%system%loose%sets)
          associate (set => loaded%system%loose%sets(k)%set)
             do i = 1, set%n
@@ -75,7 +75,7 @@ contains
 
       if (allocated(set%laws%films)) then
          if (set%laws%films%is_alone) then
-            call say(set%names(item)%s//": a film alone, no contact", 2)
+            call say(set%names(item)%s//": lubricant film only, no contact", 2)
             return
          end if
       end if
@@ -88,7 +88,7 @@ contains
       end if
       time = set%laws%normal%contact_time(set%laws%parameters(:, c), 1.0_wp, 1.0_wp/mass)
       if (.not. time > 0.0_wp) then
-         call say(set%names(item)%s//": its law stores nothing, so that there is no k", 2)
+         call say(set%names(item)%s//": the law stores no energy, so k is undefined", 2)
          return
       end if
       call follow(set, c, mass, 1.0_wp, time, ours)
@@ -104,11 +104,11 @@ contains
          time = set%laws%normal%contact_time(set%laws%parameters(:, c), speeds(v), 1.0_wp/mass)
          call follow(set, c, mass, speeds(v), time, ours)
          call follow(set, c, mass, speeds(v), time, theirs, fit)
-         call say("impact at "//to_text(speeds(v))//" m/s: force off by "// &
+         call say("impact at "//to_text(speeds(v))//" m/s: force differs by up to "// &
                   real_text(100.0_wp*maxval(abs(force_of(fit, ours%p, ours%rate) - ours%force))/maxval(ours%force), 2)// &
-                  " % of its peak at the same penetration and rate; peak "//real_text(maxval(theirs%force), 4)//" N for "// &
-                  real_text(maxval(ours%force), 4)//" N, restitution "//real_text(theirs%restitution, 3)//" for "// &
-                  real_text(ours%restitution, 3), 4)
+                  " % of its peak at equal penetration and rate; peak "//real_text(maxval(theirs%force), 4)//" N (law: "// &
+                  real_text(maxval(ours%force), 4)//" N), restitution "//real_text(theirs%restitution, 3)//" (law: "// &
+                  real_text(ours%restitution, 3)//")", 4)
       end do
    end subroutine explain_item
 

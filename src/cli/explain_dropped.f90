@@ -23,38 +23,38 @@ contains
                                          size(scene%lubrication%films), size(scene%lubrication%oils)))
 
       call say("")
-      call say("dropped")
+      call say("not used")
       is_nothing = .true.
       if (.not. norm2(system%loading%gravity) > 0.0_wp) call drop("gravity: zero")
       call find_used(scene, "friction.", is_used)
       do k = 1, size(scene%frictions)
          if (.not. scene%frictions(k)%law%is_active()) then
-            call drop("friction law '"//scene%frictions(k)%law%name//"': never a force")
+            call drop("friction law '"//scene%frictions(k)%law%name//"': zero coefficient")
          else if (.not. is_used(k)) then
-            call drop("friction law '"//scene%frictions(k)%law%name//"': used by no joint")
+            call drop("friction law '"//scene%frictions(k)%law%name//"': no joint refers to it")
          end if
       end do
       call find_used(scene, "contact.", is_used)
       do k = 1, size(scene%laws)
-         if (.not. is_used(k)) call drop("contact law '"//scene%laws(k)%law%name//"': used by no joint")
+         if (.not. is_used(k)) call drop("contact law '"//scene%laws(k)%law%name//"': no joint refers to it")
       end do
       call find_used(scene, "material", is_used)
       do k = 1, size(scene%materials)
-         if (.not. is_used(k)) call drop("material '"//scene%materials(k)%name%s//"': used by no joint")
+         if (.not. is_used(k)) call drop("material '"//scene%materials(k)%name%s//"': no joint refers to it")
       end do
       call find_used(scene, "film.", is_used)
       do k = 1, size(scene%lubrication%films)
-         if (.not. is_used(k)) call drop("film '"//scene%lubrication%films(k)%law%name//"': used by no joint")
+         if (.not. is_used(k)) call drop("film '"//scene%lubrication%films(k)%law%name//"': no joint refers to it")
       end do
       call find_used(scene, "lubricant", is_used)
       do k = 1, size(scene%lubrication%oils)
          if (.not. is_used(k)) then
-            call drop("lubricant '"//scene%tables%base(table_lubricants)%items(k)%name//"': used by no joint")
+            call drop("lubricant '"//scene%tables%base(table_lubricants)%items(k)%name//"': no joint refers to it")
          end if
       end do
-      if (.not. system%ledger%is_kept) call drop("energy ledger: off")
+      if (.not. system%ledger%is_kept) call drop("energy balance: off")
       if (scene%analysis == analysis_kinematic .and. size(system%linkage%ideal) > 0) then
-         call drop("clearances: joints are ideal in a kinematic analysis")
+         call drop("clearances: a kinematic analysis treats all joints as ideal")
       end if
       if (is_nothing) call say("nothing", 2)
 

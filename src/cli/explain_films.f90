@@ -33,7 +33,7 @@ contains
       if (.not. loaded%system%loose%has_films) return
       if (loaded%system%linkage%bodies%n > most_bodies) then
          call say("")
-         call say("films at their steady state: not searched here with more than "//to_text(most_bodies)// &
+         call say("steady state of the films: omitted for more than "//to_text(most_bodies)// &
                   " bodies; --analysis static does")
          return
       end if
@@ -41,14 +41,14 @@ contains
       call system%linkage%deck_state(q, v)
       call find_equilibrium(loaded%scene, system, q, assembly, equilibrium, error, .true.)
       call say("")
-      call say("films at their steady state, as --analysis static finds it")
+      call say("steady state of the films, as computed by --analysis static")
       if (allocated(error)) then
-         call say("none was found: the loads of the deck at t = 0 and the speeds of its drivers do not determine one", 2)
+         call say("not found: the loads at t = 0 and the driver speeds of the deck do not determine one", 2)
          call say(first_line(error%message), 4)
          return
       end if
       if (.not. (equilibrium%linear%is_judged .or. size(equilibrium%linear%films) == 0)) then
-         call say("there is none that lasts: balanced "//equilibrium%words, 2)
+         call say("no steady state exists; equilibrium "//equilibrium%words, 2)
          return
       end if
       call say(equilibrium%words, 2)

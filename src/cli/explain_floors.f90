@@ -25,9 +25,10 @@ contains
 
       call system%begin_pace(0.0_wp, y, end)
       call say("")
-      call say("what counts as nothing")
-      call say("the pace of the mechanism at the start is "//real_text(system%linkage%scales%pace, 3)//"/s, its size "// &
-               real_text(1.0e3_wp*system%linkage%scales%length, 3)//" mm; the pace follows its greatest rate", 2)
+      call say("numerical thresholds")
+      call say("initial characteristic rate of the mechanism "//real_text(system%linkage%scales%pace, 3)//"/s, its size "// &
+               real_text(1.0e3_wp*system%linkage%scales%length, 3)//" mm; the rate follows the maximum speed or angular speed "// &
+                  "so far", 2)
       list = all_floors()
       own_speed = system%linkage%scales%pace*system%linkage%scales%length
       do k = 1, size(list)
@@ -54,11 +55,11 @@ contains
       integer :: k
 
       call say("")
-      call say("## What counts as nothing")
+      call say("## Numerical thresholds")
       call say("")
-      call say("No law has a least speed, length, time or force of its own: what is small is a part of what the scene has.")
-      call say("The pace of a mechanism is its greatest rate so far, |v| over its size or angular speed; its speed is pace")
-      call say("times size. `gudgeon explain` prints the numbers for a deck.")
+      call say("No law has an absolute minimum speed, length, time or force: each threshold is relative to a scale of the model.")
+      call say("The characteristic rate of a mechanism is its maximum rate so far: |v| over its size, or angular speed.")
+      call say("Its characteristic speed is that rate times its size. `gudgeon explain` prints the values for a deck.")
       call say("")
       call say("```")
       list = all_floors()
@@ -75,23 +76,23 @@ contains
 
       select case (of)
       case (of_speed)
-         words = "of the mechanism's speed"
+         words = "times the characteristic speed"
       case (of_pace)
-         words = "of its pace"
+         words = "times the characteristic rate"
       case (of_step)
-         words = "of the step"
+         words = "times the step size"
       case (of_contact)
-         words = "of the contact's own"
+         words = "(ratio)"
       case (of_acceleration)
-         words = "of what the normal force would give"
+         words = "times the acceleration by the normal force"
       case (of_mobility)
-         words = "of that of free bodies"
+         words = "times the mobility of free bodies"
       case (of_run)
-         words = "of its size in the whole run"
+         words = "times size over duration of the run"
       case (of_time)
-         words = "spacings of numbers at the time"
+         words = "times the spacing of floating-point numbers at t"
       case (of_tolerance)
-         words = "of the tolerance times the mechanism's speed"
+         words = "times the tolerance times the characteristic speed"
       case default
          words = ""
       end select

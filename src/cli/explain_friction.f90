@@ -22,7 +22,7 @@ contains
 
       if (system%friction%rubbing%n == 0) return
       call say("")
-      call say("ideal joints that rub")
+      call say("ideal joints with friction")
       do k = 1, system%linkage%n_solved_set
          associate (set => system%linkage%joints(k)%set)
             do m = 1, set%friction%n

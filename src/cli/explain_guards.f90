@@ -35,15 +35,18 @@ contains
       associate (guards => limits%guards)
          call say_contacts(loaded%scene, loaded%system, guards)
          if (loaded%system%ledger%is_kept .and. guards%energy > 0.0_wp) then
-            call say("ends where "//real_text(guards%energy, 3)//" of the largest energy is made of nothing (energy)", 2)
+            call say("stops if the energy error exceeds "// &
+                     real_text(100.0_wp*guards%energy, 3)//" % of the maximum energy (energy)", 2)
          end if
-         if (guards%speed < huge(1.0_wp)) call say("ends where a body is faster than "//real_text(guards%speed, 3)// &
+         if (guards%speed < huge(1.0_wp)) call say("stops if a body exceeds "//real_text(guards%speed, 3)// &
                                                    " m/s (speed)", 2)
-         if (guards%way < huge(1.0_wp)) call say("warns where a body is "//real_text(guards%way, 3)//" m from its start, "// &
-                                                 real_text(guards%way/guards%size, 3)//" sizes of the scene (travel)", 2)
+         if (guards%way < huge(1.0_wp)) call say("warns if a body moves more than "//real_text(guards%way, 3)//" m from its "// &
+            "initial "// &
+            "position, "// &
+                                                 real_text(guards%way/guards%size, 3)//" times the size of the model (travel)", 2)
       end associate
       do k = 1, limits%stop%n
-         call say("ends by intent when "//limits%stop%list(k)%words, 2)
+         call say("stops as requested when "//limits%stop%list(k)%words, 2)
       end do
       do k = 1, size(warnings)
          call say(warnings(k)%s, 2)
@@ -64,25 +67,25 @@ contains
                m = set%before%contacts + (i - 1)*set%n_contact_item + 1
                associate (limit => guards%limit(:, m), name => set%names(i)%s)
                   if (limit(guard_penetration) < huge(1.0_wp)) then
-                     call say(name//": ends at a penetration of "//real_text(1.0e3_wp*limit(guard_penetration), 3)//" mm, "// &
-                              real_text(guards%penetration, 3)//" of the size of the surfaces (penetration)", 2)
+                     call say(name//": stops at a penetration of "//real_text(1.0e3_wp*limit(guard_penetration), 3)//" mm, "// &
+                              real_text(guards%penetration, 3)//" times the surface size (penetration)", 2)
                   end if
                   if (limit(guard_clearance) < huge(1.0_wp)) then
                      call say(name//": "//verb_of(scene, "clearance")//" at a penetration of "// &
-                              real_text(1.0e3_wp*limit(guard_clearance), 3)//" mm, its clearance (clearance)", 2)
+                              real_text(1.0e3_wp*limit(guard_clearance), 3)//" mm, equal to the clearance (clearance)", 2)
                   end if
                   if (limit(guard_strength) < huge(1.0_wp)) then
                      call say(name//": "//verb_of(scene, "strength")//" at a normal force of "// &
-                              real_text(limit(guard_strength), 3)//" N, the strength of the material (strength)", 2)
+                              real_text(limit(guard_strength), 3)//" N, the strength limit of the material (strength)", 2)
                   end if
                end associate
             end do
          end associate
       end do
       if (system%loose%n_contact == 0) return
-      call say(verb_of(scene, "law_range")//" where a penetration leaves the range of its law (law_range)", 2)
+      call say(verb_of(scene, "law_range")//" if a penetration leaves the valid range of its law (law_range)", 2)
       call say(verb_of(scene, "impact_speed")// &
-               " where elastic waves take more than 10 % of the energy of an impact (impact_speed)", 2)
+               " if elastic waves take more than 10 % of the impact energy (impact_speed)", 2)
    end subroutine say_contacts
 
    !> What a guard does.
@@ -94,7 +97,7 @@ contains
       select case (scene%settings%guards%word(key))
       case ("stop"); verb = "ends"
       case ("warn"); verb = "warns"
-      case default; verb = "says nothing"
+      case default; verb = "no warning"
       end select
    end function verb_of
 

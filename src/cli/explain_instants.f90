@@ -34,7 +34,7 @@ contains
          onset = settings%word("contact_onset")
       end associate
       call say("")
-      call say("instants and the greatest step")
+      call say("time points and maximum step")
       call ieee_get_status(status)
       call ieee_set_halting_mode(ieee_usual, .false.)
       do k = 1, loaded%plan%instants%n
@@ -49,25 +49,26 @@ contains
       if (all([(size(loaded%plan%instants%cells(k)%scans) == 0, k=1, loaded%plan%instants%n)])) then
          call say("all functions of time are smooth", 2)
       else
-         call say("steps end at these instants, and the method begins anew there", 2)
+         call say("steps end at these times, and the integrator restarts there", 2)
       end if
       if (fixed > 0.0_wp) then
-         call say("fixed steps of "//real_text(fixed, 6)//" s: what is shorter may be passed over", 2)
+         call say("fixed steps of "//real_text(fixed, 6)//" s: shorter changes may be missed", 2)
       else if (greatest > 0.0_wp) then
-         call say("no step is longer than "//real_text(greatest, 6)//" s (maximum_step): what is shorter may be passed over", 2)
+         call say("maximum step "//real_text(greatest, 6)//" s (maximum_step): shorter changes may be missed", 2)
       else
-         if (loaded%plan%instants%paces) call say("no step is longer than what a function of time does, as said above", 2)
+         if (loaded%plan%instants%paces) call say("the step is limited by the functions of time listed above", 2)
          if (loaded%system%loose%n > 0) then
-            call say("no step is longer than a quarter of a turn of a body that may touch another", 2)
+            call say("the step is limited to a quarter revolution of any body with contacts", 2)
          end if
-         call say("the length of a step is else what the error allows", 2)
+         call say("otherwise the error tolerance determines the step", 2)
       end if
       if (loaded%system%loose%n == 0) return
       if (onset == "located") then
-         call say("contacts are looked for at 8 places of a step, and at least once in an output interval", 2)
+         call say("contact detection: 8 points per step, and at least once per output interval", 2)
       else
-         call say("contacts are looked for at the ends of steps only (contact_onset = "//onset//"): one that begins and ends "// &
-                  "within a step is passed over, and the run warns of it; a maximum_step makes steps shorter", 2)
+         call say("contact detection: at the ends of steps only (contact_onset = "//onset//"); the run may miss a contact "// &
+            "shorter "// &
+                  "than a step, and then warns; reduce maximum_step to avoid this", 2)
       end if
    end subroutine explain_instants_of
 
@@ -88,8 +89,8 @@ contains
                do m = 1, size(value%expression%sights)
                   words = words//" "//value%expression%sights(m)%word
                end do
-               call say(table%items(i)%name//"."//table%info%columns(c)%name//" sees"//words//"; where it bends with these, the " &
-                        //"control of the step meets it", 2)
+               call say(table%items(i)%name//"."//table%info%columns(c)%name//" sees"//words//"; step-size control " &
+                        //"handles kinks in these", 2)
             end associate
          end do
       end do
@@ -122,13 +123,13 @@ contains
          end do
       end do
       if (n == 0) then
-         call say(cell%name//": smooth over the motion", 2)
+         call say(cell%name//": smooth", 2)
       else if (n <= n_shown) then
          call say(cell%name//": not smooth at t ="//words//" s", 2)
       else if (n == most_counted) then
-         call say(cell%name//": not smooth at more than "//to_text(n)//" instants, t ="//words//" ... s", 2)
+         call say(cell%name//": not smooth at more than "//to_text(n)//" times, t ="//words//" ... s", 2)
       else
-         call say(cell%name//": not smooth at "//to_text(n)//" instants, t ="//words//" ... s", 2)
+         call say(cell%name//": not smooth at "//to_text(n)//" times, t ="//words//" ... s", 2)
       end if
    end subroutine explain_places
 
@@ -141,7 +142,7 @@ contains
       if (cell%pace%is_calm) return
       call cell%pace%shortest(pace, at)
       if (pace >= huge(pace)) return
-      call say(cell%name//": steps up to "//real_text(pace, 3)//" s near t = "//real_text(at, 6)//" s, where it is quickest", 2)
+      call say(cell%name//": maximum step "//real_text(pace, 3)//" s near t = "//real_text(at, 6)//" s, its fastest change", 2)
    end subroutine explain_pace
 
 end module explain_instants

@@ -30,7 +30,7 @@ contains
       if (loaded%system%loose%n == 0) return
       step = loaded%scene%settings%dynamic%number("step")
       call say("")
-      call say("loose joints")
+      call say("joints with clearance")
       allocate (delta(loaded%system%loose%n_contact), rate(loaded%system%loose%n_contact), source=0.0_wp)
       if (allocated(y)) call loaded%system%events(0.0_wp, y, delta, rate)
       do k = 1, size(loaded%system%loose%sets)
@@ -44,16 +44,16 @@ contains
                call say(set%names(i)%s//": "//words//"law "//law//", "//set%laws%normal%story(set%laws%parameters(:, c)), 2)
                call explain_film(set, i, loaded%system%linkage%inverse_mass(1, :))
                last = set%before%contacts + i*set%n_contact_item
-               if (allocated(y)) call say("gap at the start "//real_text(-1.0e3_wp*maxval( &
+               if (allocated(y)) call say("initial clearance "//real_text(-1.0e3_wp*maxval( &
                   delta(last - set%n_contact_item + 1:last)), 6)//" mm", 4)
                if (loaded%scene%analysis /= analysis_dynamic) cycle
                if (is_film_alone(set)) cycle
                do v = 1, size(speeds)
                   if (.not. contact_time(loaded%system, set, c, speeds(v)) > 0.0_wp) then
-                     call say("no impact of free bodies: drivers move both, or the law stores nothing", 4)
+                     call say("no impact duration: drivers prescribe both bodies, or the law stores no energy", 4)
                      exit
                   end if
-                  call say("an elastic impact at "//to_text(speeds(v))//" m/s lasts about "// &
+                  call say("duration of an elastic impact at "//to_text(speeds(v))//" m/s: about "// &
                            real_text(1.0e6_wp*contact_time(loaded%system, set, c, speeds(v)), 3)//" us, "// &
                            real_text(contact_time(loaded%system, set, c, speeds(v))/loaded%plan%every, 2)// &
                            " output intervals"//steps_of(contact_time(loaded%system, set, c, speeds(v)), step), 4)
@@ -87,7 +87,7 @@ contains
       associate (films => set%laws%films, p => set%laws%films%parameters(:, item), place => set%laws%films%place(item))
          info = films%law%info()
          if (.not. films%acts) then
-            call say("film "//films%law%name//" ("//info%name//"): does not act at this level", 4)
+            call say("film "//films%law%name//" ("//info%name//"): not active at this level", 4)
             return
          end if
          call say("film "//films%law%name//" ("//info%name//"): "//info%help, 4)
@@ -95,23 +95,28 @@ contains
                   " mm, journal radius "//to_text(1.0e3_wp*p(parameter_radius))//" mm, L/D = "// &
                   real_text(0.5_wp*p(parameter_length)/p(parameter_radius), 4), 4)
          if (films%law%story(p) /= "") call say(films%law%story(p), 4)
-         words = "entrained by the sum of the inertial angular speeds"
-         if (place%is_relative) words = "entrained by the speed of the journal against the bearing, as in the book"
-         if (place%has_torque) words = words//"; the moments of its shear act"
+         words = "entrainment speed: sum of the absolute angular speeds"
+         if (place%is_relative) words = "entrainment speed: relative speed of journal and bearing, as printed in Flores et al. "// &
+            "(2008)"
+         if (place%has_torque) words = words//"; shear torques act on the bodies"
          call say(words, 4)
-         if (place%is_heated) call say("its temperature comes from a balance of heat in a static analysis only", 4)
+         if (place%is_heated) call say("a static analysis computes the film temperature from a heat balance", 4)
          if (films%is_alone) then
-            call say("nothing else holds the surfaces apart: the run ends at an eccentricity of "// &
-                     real_text(films%eps_max(item), 8)//" of the clearance", 4)
+            call say("no contact law: the run stops at an eccentricity of "// &
+                     real_text(films%eps_max(item), 8)//" times the clearance", 4)
          else if (place%depth > 0.0_wp) then
-            call say("goes out over e_t0 = "//to_text(1.0e3_wp*place%depth)//" mm beyond the clearance, as the contact comes in", 4)
+            call say("film fades out over e_t0 = "//to_text(1.0e3_wp*place%depth)//" mm beyond the clearance, while the "// &
+               "contact "// &
+               "fades in", 4)
          else
-            call say("keeps its shape beyond "//real_text(films%eps_max(item), 8)//" of the clearance; the contact adds to it", 4)
+            call say("film force keeps its form beyond "//real_text(films%eps_max(item), 8)//" times the clearance; the "// &
+               "contact force is "// &
+               "added", 4)
          end if
          decay = films%decay_of(item, film_motion_t(e=[near*place%clearance, 0.0_wp]), sum(inverse_mass(set%items%body(:, item))))
-         if (decay > 0.0_wp) call say("at "//real_text(near, 1)//" of the clearance it brings the journal to rest within "// &
-                                      real_text(1.0e6_wp/decay, 2)//" us: explicit methods take no longer steps than some "// &
-                                      "times that, implicit ones (radau, bdf, ida) follow the motion", 4)
+         if (decay > 0.0_wp) call say("at "//real_text(near, 1)//" of the clearance the film stops the journal within "// &
+                                      real_text(1.0e6_wp/decay, 2)//" us: explicit methods need steps of about this size; "// &
+                                      "implicit methods (radau, bdf, ida) do not", 4)
       end associate
    end subroutine explain_film
 
@@ -121,7 +126,7 @@ contains
       real(wp), intent(in) :: step         !! length of fixed steps, 0: variable [s]
       character(:), allocatable :: words   !! to follow the duration
 
-      words = "; the first step of a contact is a hundredth of it"
+      words = "; the first step of a contact is 1 % of it"
       if (step > 0.0_wp) words = ", "//real_text(duration/step, 2)//" fixed steps"
    end function steps_of
 
@@ -140,8 +145,9 @@ contains
       real(wp), intent(in) :: speed_limit  !! huge: not known [m/s]
 
       if (speed_limit >= huge(speed_limit)) return
-      call say("the law is quasi-static: elastic waves, which it leaves out, take "// &
-               real_text(100.0_wp*share_of_waves(1.0_wp, bar_speed(speed_limit)), 2)//" % of the energy of an impact at 1 m/s, "// &
+      call say("the law is quasi-static: it neglects elastic waves, which take "// &
+               real_text(100.0_wp*share_of_waves(1.0_wp, bar_speed(speed_limit)), 2)//" % of the energy of an impact at 1 m/s "// &
+                  "and "// &
                real_text(100.0_wp*most_share, 2)//" % at "//real_text(speed_limit, 3)//" m/s (Hunter 1957, for balls)", 4)
    end subroutine explain_validity
 

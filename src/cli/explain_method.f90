@@ -28,12 +28,12 @@ contains
       call say("method")
       select case (loaded%scene%analysis)
       case (analysis_kinematic)
-         call say("positions by Newton's iteration, forces by inverse dynamics, at every output instant", 2)
+         call say("positions by Newton iteration, forces by inverse dynamics, at every output time", 2)
          call explain_times(loaded)
          return
       case (analysis_static)
-         call say("descent, then KINSOL, to "//to_text(loaded%scene%settings%static%number("tolerance"))// &
-                  " of the largest load", 2)
+         call say("minimisation, then KINSOL, to a residual of "//to_text(loaded%scene%settings%static%number("tolerance"))// &
+                  " of the maximum load", 2)
          return
       end select
       associate (settings => loaded%scene%settings%dynamic)
@@ -65,7 +65,7 @@ contains
 
       call say("from 0 to "//to_text(loaded%plan%end)//" s; output from "//to_text(loaded%plan%first_output)// &
                " s every "//to_text(loaded%plan%every)//" s, "// &
-               counted(1 + int(last_instant(loaded%plan)), "instant", "instants"), 2)
+               counted(1 + int(last_instant(loaded%plan)), "output time", "output times"), 2)
       words = contact_rows_text(loaded%scene, loaded%system)
       if (len(words) > 0) call say(words, 2)
       words = grouping_words(loaded%scene)
@@ -94,11 +94,11 @@ contains
 
       select case (system%linkage%solution%solver%name())
       case ("schur")
-         words = "equal to pivoting to round-off, and the fastest for these rows"
+         words = "equal to pivoting within round-off, and the fastest for these equations"
       case ("sparse")
-         words = "bodies carry so many joints that the Schur complement fills up"
+         words = "high joint count per body: the Schur complement would be dense"
       case default
-         words = "as the stabilisation"
+         words = "set by the stabilisation"
       end select
    end function reason_of_solver
 
@@ -109,11 +109,11 @@ contains
 
       select case (system%way%name())
       case ("none")
-         words = "there is nothing to hold, or the integrator holds by itself"
+         words = "not needed: no constraints, or the integrator enforces them"
       case ("baumgarte")
-         words = "a driver jumps, and a jump cannot be projected"
+         words = "a driver jumps, and projection cannot follow a jump"
       case default
-         words = "no violation is left, and no gains disturb the motion"
+         words = "removes all constraint violation without adding gains"
       end select
    end function reason_of_hold
 

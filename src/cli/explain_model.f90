@@ -32,19 +32,19 @@ contains
       associate (linkage => system%linkage, names => system%linkage%bodies%names, n => system%linkage%bodies%n)
          words = trim(merge("spatial", "planar ", scene%settings%is_spatial))
          words = counted(n, words//" body", words//" bodies")//", "//to_text(linkage%coordinates%n_q*n)//" coordinates"
-         if (scene%settings%is_spatial) words = words//" (Euler parameters among them), "//to_text(size(linkage%mass))//" rates"
+         if (scene%settings%is_spatial) words = words//" (including Euler parameters), "//to_text(size(linkage%mass))//" rates"
          call say(words, 2)
          do k = 1, linkage%reduced%known%n
-            call say("'"//names(linkage%reduced%known%held(k)%body)%s//"' moves as a known function of time", 2)
+            call say("'"//names(linkage%reduced%known%held(k)%body)%s//"': prescribed motion", 2)
          end do
          do k = 1, linkage%reduced%guided%n
-            call say("'"//names(linkage%reduced%guided%held(k)%body)%s//"' keeps one coordinate, that of '"// &
+            call say("'"//names(linkage%reduced%guided%held(k)%body)%s//"': reduced to one generalised coordinate, that of '"// &
                      linkage%row_name(linkage%reduced%guided%held(k)%row(1))//"'", 2)
          end do
       end associate
       if (system%linkage%rows%n > system%linkage%rows%n_solve) then
-         call say(counted(system%n_position, "coordinate", "coordinates")//" unknown, "// &
-                  counted(system%linkage%rows%n_solve, "row", "rows")//" solved", 2)
+         call say(counted(system%n_position, "unknown coordinate", "unknown coordinates")//", "// &
+                  counted(system%linkage%rows%n_solve, "constraint row", "constraint rows")//" in the equations", 2)
       end if
       do k = 1, size(scene%joints)
          call count_kind(scene%joints(k)%info, scene%joints(k)%items)
@@ -56,13 +56,13 @@ contains
          call count_kind(scene%tables%functions(k)%info, scene%tables%functions(k)%items)
       end do
       if (size(system%linkage%ideal) > 0) then
-         call say(counted(system%linkage%ideal(1)%set%n, "joint", "joints")//" with clearance taken as ideal, "// &
+         call say(counted(system%linkage%ideal(1)%set%n, "joint", "joints")//" with clearance treated as ideal, "// &
                   to_text(system%linkage%ideal(1)%set%n_row_item*system%linkage%ideal(1)%set%n)//" rows", 2)
       end if
-      words = trim(merge("rates      ", "coordinates", scene%settings%is_spatial))//" less rows "
-      call say(counted(system%linkage%rows%n, "constraint row", "constraint rows")//": "//words// &
-               to_text(size(system%linkage%mass) - system%linkage%rows%n)//"; with all joints ideal "// &
-               to_text(size(twin%linkage%mass) - twin%linkage%rows%n), 2)
+      words = trim(merge("rates      ", "coordinates", scene%settings%is_spatial))//" minus rows: "
+      call say(counted(system%linkage%rows%n, "constraint row", "constraint rows")//"; "//words// &
+               to_text(size(system%linkage%mass) - system%linkage%rows%n)//" ("// &
+               to_text(size(twin%linkage%mass) - twin%linkage%rows%n)//" with all joints ideal)", 2)
       if (norm2(system%loading%gravity) > 0.0_wp) then
          words = ""
          do k = 1, system%linkage%coordinates%n_axis
@@ -84,7 +84,7 @@ contains
 
       if (has_failed) then
          call say(trim(merge("NOT assembled   ", "NOT ready to run", loaded%scene%analysis == analysis_dynamic))// &
-                  ": the error below says why", 2)
+                  ": see the error below", 2)
          return
       end if
       call say(counted(size(loaded%system%linkage%mass) - loaded%system%linkage%rows%n + size(assembly%dependent), &
@@ -105,10 +105,10 @@ contains
          call say(doubts(k)%s, 2)
       end do
       call say("assembled in "//counted(assembly%corrections, "correction", "corrections")//", residual "// &
-               real_text(assembly%residual, 2)//" m or rad, bodies moved by up to "//real_text(assembly%moved, 3)// &
+               real_text(assembly%residual, 2)//" m or rad, maximum displacement of a body "//real_text(assembly%moved, 3)// &
                " m", 2)
       if (assembly%rate_changed > 0.0_wp) then
-         call say("given velocities changed by up to "//real_text(assembly%rate_changed, 3)//" m/s (body '"// &
+         call say("consistent initial velocities: changes up to "//real_text(assembly%rate_changed, 3)//" m/s (body '"// &
                   loaded%scene%bodies%names(assembly%changed_body)%s//"')", 2)
       end if
    end subroutine explain_start
@@ -121,7 +121,7 @@ contains
       if (size(items) == 0) return
       if (info%n_row > 0) then
          call say(to_text(size(items))//" "//info%name//", "//counted(info%n_row*size(items), "row", "rows")// &
-                  trim(merge(" at the start only", "                  ", info%is_start_only)), 2)
+                  trim(merge(" initially only   ", "                  ", info%is_start_only)), 2)
       else
          call say(to_text(size(items))//" "//info%name, 2)
       end if

@@ -31,15 +31,15 @@ contains
             associate (law => scene%lubrication%films(film)%law)
                if (.not. law%has_field()) then
                   message = "film '"//law%name//"' of joint '"//figures(bad)%film%joint// &
-                            "' is a force without pressures: there is no '"//words(bad)%s//"'"
-                  hint = "take a row of [film.grid] for it, or one of the short and long films that have pressures of their own"
+                            "' gives a force without a pressure field: no '"//words(bad)%s//"'"
+                  hint = "use a film with a pressure field: film.grid, film.squeeze, or a short or long film"
                   return
                end if
             end associate
          end if
          if (figures(bad)%film%moment == moment_at .and. end > 0.0_wp .and. figures(bad)%film%t > end) then
             message = "'"//words(bad)%s//"' is after the end of the run at "//real_text(end, 6)//" s"
-            hint = "film("//figures(bad)%film%joint//") is the film at the end"
+            hint = "film("//figures(bad)%film%joint//") shows the film at the end of the run"
             return
          end if
       end do

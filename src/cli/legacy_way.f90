@@ -35,7 +35,7 @@ contains
       integer :: c, i, k
 
       if (scene%analysis /= analysis_dynamic) then
-         call set_error(error, exit_usage, "option --legacy is for [analysis.dynamic]")
+         call set_error(error, exit_usage, "option --legacy needs [analysis.dynamic]")
          return
       end if
       associate (settings => scene%settings%dynamic%item_t)

@@ -106,7 +106,7 @@ contains
       type(diagnostics_t) :: mistakes
       logical :: has_all_words
 
-      call memory_is_for("the equations of "//to_text(size(loaded%scene%bodies%names))//" bodies and what they report")
+      call memory_is_for("the equations of "//to_text(size(loaded%scene%bodies%names))//" bodies and their output")
       has_all_words = runs_as_written(options, loaded%scene)
       if (.not. has_all_words) call list_words(loaded%deck, loaded%scene, catalogue, mistakes)
       call choose_analysis(options, loaded%scene, error)
@@ -234,7 +234,7 @@ contains
          return
       end do
       call set_error(error, exit_usage, "the deck has no section [analysis."//options%change%analysis//"]"//new_line("a")// &
-                     "  = analyses of the deck:"//known)
+                     "  = analyses in the deck:"//known)
    end subroutine choose_analysis
 
    !> What the command line changes in the deck.
@@ -270,7 +270,7 @@ contains
          if (allocated(error)) return
       end if
       if (allocated(options%change%method) .and. scene%analysis /= analysis_dynamic) then
-         call set_error(error, exit_usage, "option --method is for [analysis.dynamic], not for [analysis."// &
+         call set_error(error, exit_usage, "option --method needs [analysis.dynamic], not [analysis."// &
                         trim(analysis_names(scene%analysis))//"]")
          return
       end if
@@ -302,7 +302,7 @@ contains
          associate (column => kind%columns(column_of(kind, "tolerance")))
             if (options%change%tolerance >= column%bounds%lower .and. options%change%tolerance <= column%bounds%upper) return
             call set_error(error, exit_usage, "option --tolerance needs a number from "//to_text(column%bounds%lower)//" to "// &
-                           to_text(column%bounds%upper)//" for ["//kind%name//"], not "//to_text(options%change%tolerance))
+                           to_text(column%bounds%upper)//" for ["//kind%name//"], got "//to_text(options%change%tolerance))
          end associate
       end subroutine set_tolerance
 

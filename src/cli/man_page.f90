@@ -20,12 +20,12 @@ contains
       call say('.TH GUDGEON 1 "'//program_date//'" "gudgeon '//program_version//'" "User Commands"')
       call say(".nh")
       call say(".SH NAME")
-      call say("gudgeon \- simulate mechanisms whose joints are not perfect")
+      call say("gudgeon \- simulate mechanisms with imperfect joints")
       call write_synopsis()
       call say(".SH DESCRIPTION")
-      call write_text("gudgeon reads a deck, a text of tables that describe bodies, joints, clearances, contact and "// &
-                      "friction laws, integrates the equations of motion to a stated error, and writes HDF5, time "// &
-                      "histories and finished figures.")
+      call write_text("gudgeon reads a deck, a text file of tables that describes bodies, joints, clearances, contact and "// &
+                      "friction laws. It integrates the equations of motion to a given error and writes HDF5, time "// &
+                      "histories and figures.")
       call say(".SH COMMANDS")
       call write_commands()
       call say(".SH OPTIONS")
@@ -89,8 +89,8 @@ contains
 
       integer :: k
 
-      call write_text("Tables and sections that a deck may hold. The columns and keys of one, with units, defaults and "// &
-                      "bounds, are told by")
+      call write_text("Tables and sections of a deck. To see the columns and keys of one, with units, defaults and "// &
+                      "bounds, run")
       call say(".B gudgeon help")
       call say(".IR KIND .")
       do k = 1, size(kinds)
@@ -114,13 +114,13 @@ contains
    !> Environment and files.
    subroutine write_surroundings()
       call say(".SH ENVIRONMENT")
-      call entry("PATH", "where gnuplot is looked for, which draws the figures. Without it only their scripts are written.")
-      call entry("GUDGEON_GNUPLOT_SECONDS", "how long a figure may take. Default: 300. After that gnuplot is ended.")
+      call entry("PATH", "command to run gnuplot, which draws the figures. Without gnuplot only the scripts are written.")
+      call entry("GUDGEON_GNUPLOT_SECONDS", "maximum time for one figure in seconds. Default: 300. After that gnuplot is killed.")
       call say(".SH FILES")
-      call entry("outputs/NAME/", "results of NAME.deck, below the working directory: run.h5, time histories (.dat), "// &
-                 "events.dat, figures/, summary.txt, summary.json, deck.echo, the deck as understood, and "// &
-                 ".gudgeon, by which the directory is known as the program's own.")
-      call entry("share/gudgeon/decks/", "decks to learn from, below the prefix that the program is installed in.")
+      call entry("outputs/NAME/", "results of NAME.deck in the working directory: run.h5, time histories (.dat), "// &
+                 "events.dat, figures/, summary.txt, summary.json, deck.echo (the deck with all defaults), and "// &
+                 ".gudgeon, which marks the directory as output of gudgeon.")
+      call entry("share/gudgeon/decks/", "example decks, under the installation prefix.")
    end subroutine write_surroundings
 
    !> How it is called.

@@ -164,17 +164,18 @@ contains
 
       if (options%change%member == 0) return
       if (loaded%scene%analysis /= analysis_dynamic) then
-         call set_error(error, exit_usage, "option --member is for a motion in time, not for a "// &
+         call set_error(error, exit_usage, "option --member needs a dynamic analysis, not a "// &
                         trim(analysis_names(loaded%scene%analysis))//" analysis")
          return
       end if
       if (.not. loaded%scene%settings%ensemble%is_present) then
-         call set_error(error, exit_usage, "option --member is for a deck with a section [ensemble]")
+         call set_error(error, exit_usage, "option --member needs a deck with a section [ensemble]")
          return
       end if
       n = nint(loaded%scene%settings%ensemble%number("runs"))
       if (options%change%member > n) then
-         call set_error(error, exit_usage, "the ensemble has "//to_text(n)//" runs, not "//to_text(options%change%member))
+         call set_error(error, exit_usage, "the ensemble has "//to_text(n)//" runs; there is no run "// &
+            to_text(options%change%member))
       end if
    end subroutine check_member
 
@@ -215,7 +216,7 @@ contains
       if (has_twin .and. allocated(error)) has_twin = error%code /= exit_file
       if (has_twin) then
          call run_twin(loaded, keeper%plan, ideal, twin_error)
-         if (allocated(twin_error)) warning = "the figures have no ideal joint overlaid: "//first_line(twin_error%message)
+         if (allocated(twin_error)) warning = "figures have no overlay of ideal joints: "//first_line(twin_error%message)
       end if
       call keeper%conclude(late_error, warning)
       if (allocated(late_error) .and. .not. allocated(error)) call move_alloc(late_error, error)

@@ -137,7 +137,7 @@ contains
          end if
          if (.not. any_word(word, known) .and. takers_of(word) /= "") then
             call set_error(error, exit_usage, "unknown option '"//word//"' of "//options%verb//new_line("a")// &
-                           "  = it is one of: "//takers_of(word))
+                           "  = options of this verb: "//takers_of(word))
             return
          end if
          if (.not. any_word(word, known)) then
@@ -173,7 +173,7 @@ contains
 
       info = find_option(word)
       if (allocated(glued) .and. info%value == "") then
-         call set_error(error, exit_usage, "option "//word//" takes no value, not '"//glued//"'")
+         call set_error(error, exit_usage, "option "//word//" takes no value, got '"//glued//"'")
          return
       end if
       select case (word)
@@ -229,7 +229,7 @@ contains
             is_finite = number_length(value) == len(value) .and. len(value) > 0
             if (is_finite) call read_number(value, 0, options%change%tolerance, is_finite)
             if (.not. is_finite .or. options%change%tolerance <= 0.0_wp .or. options%change%tolerance > 0.01_wp) then
-               call set_error(error, exit_usage, "option --tolerance needs a number above 0 and up to 0.01, not '"//value//"'")
+               call set_error(error, exit_usage, "option --tolerance needs a number above 0 and up to 0.01, got '"//value//"'")
             end if
          end select
       end select
@@ -242,7 +242,7 @@ contains
       type(error_t), allocatable, intent(out) :: error     !! not one of the words
 
       if (any_word(value, words_of_value(word))) return
-      call usage_error("unknown word '"//value//"' of "//word, value, words_of_value(word), error)
+      call usage_error("unexpected argument '"//value//"' of "//word, value, words_of_value(word), error)
    end subroutine check_word
 
    !> A number of things, from 1 on.
@@ -258,7 +258,7 @@ contains
       status = 1
       if (len(value) > 0 .and. len(value) < 9 .and. verify(value, "0123456789") == 0) read (value, *, iostat=status) n
       if (status == 0 .and. n >= 1) return
-      call set_error(error, exit_usage, "option "//word//" needs a number from 1 on, not '"//value//"'")
+      call set_error(error, exit_usage, "option "//word//" needs a number from 1 on, got '"//value//"'")
    end subroutine take_count
 
    !> A difference that is allowed.
@@ -275,7 +275,7 @@ contains
       if (is_good) call read_number(value, 0, read, is_good)
       if (is_good) is_good = read >= 0.0_wp
       if (is_good) x = read
-      if (.not. is_good) call set_error(error, exit_usage, "option "//word//" needs a number from 0 on, not '"//value//"'")
+      if (.not. is_good) call set_error(error, exit_usage, "option "//word//" needs a number from 0 on, got '"//value//"'")
    end subroutine take_allowance
 
    !> A part of many, as 3/20.
@@ -293,7 +293,7 @@ contains
       call take_count(word, value(:max(0, slash - 1)), shard, error)
       if (.not. allocated(error)) call take_count(word, value(slash + 1:), n_shards, error)
       if (.not. allocated(error) .and. shard <= n_shards) return
-      call set_error(error, exit_usage, "option "//word//" needs a part and the number of parts, as 3/20, not '"//value//"'")
+      call set_error(error, exit_usage, "option "//word//" needs a shard and the number of shards, as 3/20, got '"//value//"'")
    end subroutine take_shard
 
    !> A part of one.
@@ -309,7 +309,7 @@ contains
       is_good = number_length(value) == len(value) .and. len(value) > 0
       if (is_good) call read_number(value, 0, x, is_good)
       if (is_good .and. x >= least_tolerance .and. x <= 1.0_wp) return
-      call set_error(error, exit_usage, "option "//word//" needs a number from "//to_text(least_tolerance)//" to 1, not '"// &
+      call set_error(error, exit_usage, "option "//word//" needs a number from "//to_text(least_tolerance)//" to 1, got '"// &
                      value//"'")
    end subroutine take_accuracy
 
@@ -335,7 +335,7 @@ contains
          if (is_good) call read_quantity(value(:n), unit, t, is_good)
       end if
       if (is_good .and. t > 0.0_wp) return
-      call set_error(error, exit_usage, "option "//word//" needs a time above zero with its unit, as 60s, not '"//value//"'")
+      call set_error(error, exit_usage, "option "//word//" needs a time above zero with its unit, as 60s, got '"//value//"'")
    end subroutine take_time
 
    !> A mistake on the command line, with the nearest word that would do.
@@ -350,7 +350,7 @@ contains
       near = nearest_word(word, split_blank(known))
       if (near /= "") near = "did you mean '"//near//"'? "
       call set_error(error, exit_usage, message//new_line("a")//"  = "//near//"known: "//join(split_blank(known), " ")// &
-                     new_line("a")//"  = 'gudgeon help' tells more")
+                     new_line("a")//"  = see 'gudgeon help'")
    end subroutine usage_error
 
    !> Whether a word stands in a blank-separated list.

@@ -51,16 +51,18 @@ contains
       end associate
       total = each*real(last_instant(loaded%plan) + 1_i8, wp)
       what = "the run would write about "//real_text(total/gigabyte, 3)//" GB: "//to_text(last_instant(loaded%plan) + 1_i8)// &
-             " output instants of "//to_text(selection%count())//" numbers"
-      hint = new_line("a")//"  = keep fewer 'channels', write less often ('every') or a part only ('last'), or leave out text "// &
+             " output times of "//to_text(selection%count())//" numbers"
+      hint = new_line("a")//"  = reduce 'channels', write less often ('every') or only the final part ('last'), or omit text "// &
+         "files "// &
              "(--write channels)"
       room = free_space(nearest_directory(directory))
       if (total > size_limit*gigabyte) then
          call set_error(error, exit_deck, what//"; 'size_limit' in [output] allows "//real_text(size_limit, 3)//" GB"//hint// &
                         ", or raise the limit")
       else if (room >= 0 .and. total > real(room, wp)) then
-         call set_error(error, exit_file, what//"; "//real_text(real(room, wp)/gigabyte, 3)//" GB are free where "//directory// &
-                        " is"//hint//", or write elsewhere (--out DIRECTORY)")
+         call set_error(error, exit_file, what//"; "//real_text(real(room, wp)/gigabyte, 3)//" GB are free on the disk of "// &
+            directory// &
+                        " is"//hint//", or write to another disk (--out DIRECTORY)")
       end if
    end subroutine check_size
 

@@ -34,17 +34,18 @@ contains
       if (options%restart%is_verified) option = "--verify-restart"
       if (option == "") return
       if (loaded%scene%analysis /= analysis_dynamic) then
-         call set_error(error, exit_usage, "option "//option//" is for motions of [analysis.dynamic]; this deck's analysis is "// &
+         call set_error(error, exit_usage, "option "//option//" needs [analysis.dynamic]; the analysis of this deck is "// &
                         trim(analysis_names(loaded%scene%analysis)))
       else if (options%digits%accuracy > 0.0_wp) then
-         call set_error(error, exit_usage, "options "//option//" and --accuracy exclude each other: the latter makes several "// &
-                        "runs, which are not saved"//new_line("a")//"  = run with the tolerance that --accuracy finds: "// &
+         call set_error(error, exit_usage, "options "//option//" and --accuracy exclude each other: --accuracy makes several "// &
+                        "runs and does not save them"//new_line("a")//"  = run with the tolerance that --accuracy chooses: "// &
                         "--tolerance X "//option)
       else if (options%restart%is_verified .and. options%restart%is_resumed) then
-         call set_error(error, exit_usage, "options --verify-restart and --resume exclude each other: the former begins anew")
+         call set_error(error, exit_usage, "options --verify-restart and --resume exclude each other: --verify-restart starts "// &
+            "a new run")
       else if (options%restart%is_verified .and. loaded%is_stream) then
-         call set_error(error, exit_usage, "option --verify-restart reads the deck several times, and "//loaded%path// &
-                        " can be read once")
+         call set_error(error, exit_usage, "option --verify-restart reads the deck several times, but "//loaded%path// &
+                        " can be read only once")
       end if
    end subroutine check_restart
 
@@ -58,10 +59,10 @@ contains
 
       if (.not. options%restart%is_verified .and. options%restart%walltime <= 0.0_wp) return
       if (loaded%plan%checkpoint > 0.0_wp .or. .not. (method%begins_anew() .or. n_part > 1)) return
-      call set_error(error, exit_usage, "this run can be saved at instants only that the deck sets: "// &
-                     trim(merge("its groups of bodies have steps of their own   ", &
-                                "its method keeps a history that is not saved   ", n_part > 1))//new_line("a")// &
-                     "  = in [analysis.dynamic]: checkpoint = 0.1 s, or checkpoint = 1 turns of a driver")
+      call set_error(error, exit_usage, "this run can be saved only at times set in the deck: "// &
+                     trim(merge("its groups of bodies take separate steps       ", &
+                                "its integration method keeps an unsaved history", n_part > 1))//new_line("a")// &
+                     "  = add to [analysis.dynamic]: checkpoint = 0.1 s, or checkpoint = 1 turns of a driver")
    end subroutine check_schedule
 
    !> The directory of a run: a new one, or with `--resume` that of the run that goes on.
@@ -79,10 +80,10 @@ contains
          goes_on = path_exists(path//"/"//checkpoint_name)
          is_complete = .not. goes_on .and. has_completed(path//"/summary.json")
          if (is_complete) then
-            call write_error("note: the run in "//path//" has ended, there is nothing to go on with"//new_line("a"))
+            call write_error("note: the run in "//path//" is complete, there is nothing to resume"//new_line("a"))
             return
          end if
-         if (.not. goes_on) call write_error("note: no checkpoint in "//path//", the run begins at t = 0"//new_line("a"))
+         if (.not. goes_on) call write_error("note: no checkpoint in "//path//": the run starts at t = 0"//new_line("a"))
       end if
       if (goes_on) then
          call directory%open_again(path, error)
@@ -115,8 +116,8 @@ contains
 
       call compare_files(one//"/run.h5", other//"/run.h5", "/provenance", n, difference)
       if (difference /= "") then
-         call set_error(error, exit_different, "a run with "//to_text(n_restart)//" restarts is another one: "//difference// &
-                        " differs"//new_line("a")//"  = both are kept: "//one//" and "//other)
+         call set_error(error, exit_different, "a run with "//to_text(n_restart)//" restarts differs from the run without: "// &
+                        difference//new_line("a")//"  = both are kept: "//one//" and "//other)
       else if (.not. is_quiet) then
          call print_text("restart    "//to_text(n)//" numbers and texts of run.h5 are equal bit for bit after "// &
                          to_text(n_restart)//" restarts"//new_line("a"), error)

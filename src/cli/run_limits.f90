@@ -40,7 +40,7 @@ contains
          do k = 1, size(conditions)
             call find_scalars(conditions(k), catalogue, scalars, message, hint)
             if (message /= "") then
-               call append_text(warnings, "condition '"//words_of(conditions(k), catalogue)//"' left out: the joint is ideal")
+               call append_text(warnings, "condition '"//words_of(conditions(k), catalogue)//"' ignored: the joint is ideal")
             else
                associate (at => scalars(1))
                   call limits%stop%add(words_of(conditions(k), catalogue), at%group, at%component, at%item, &
@@ -83,14 +83,14 @@ contains
          do k = 1, size(conditions)
             call find_scalars(conditions(k), catalogue, scalars, message, hint)
             if (message /= "") then
-               call mistakes%add(conditions(k)%location, message, "not one number of this deck", hint)
+               call mistakes%add(conditions(k)%location, message, "not a single number of this deck", hint)
                cycle
             end if
             dimension = dimension_of(catalogue, scalars(1))
             if (same_dimension(dimension, conditions(k)%dimension)) cycle
             call mistakes%add(conditions(k)%limit_location, "wrong dimension in a condition on '"//conditions(k)%channel//"'", &
                               "this is "//dimension_name(conditions(k)%dimension)//", "//dimension_name(dimension)// &
-                              " is wanted")
+                              " is expected")
          end do
       end associate
    end subroutine check_conditions
@@ -109,8 +109,8 @@ contains
       if (message /= "") return
       scalars = list_scalars(selection)
       if (size(scalars) == 1) return
-      message = "'"//condition%channel//"' is not one number"
-      hint = "a component of one channel is wanted, as slider.position.x"
+      message = "'"//condition%channel//"' is not a single number"
+      hint = "name one component of a channel, as slider.position.x"
    end subroutine find_scalars
 
    !> Dimension of a channel.

@@ -56,9 +56,9 @@ contains
       call plan_statistics(loaded, plan%statistics)
       call known_words(loaded, plan)
       if (assembly%rate_changed > negligible*(1.0_wp + maxval(abs(loaded%scene%bodies%v)))) then
-         call append_text(plan%warnings, "the start velocity that the deck gives body '"// &
+         call append_text(plan%warnings, "inconsistent initial velocity: that of body '"// &
                           loaded%scene%bodies%names(assembly%changed_body)%s// &
-                          "' does not fit the constraints; it was changed by "//real_text(assembly%rate_changed, 3)//" m/s")
+                          "' violates the constraints and was changed by "//real_text(assembly%rate_changed, 3)//" m/s")
       end if
       if (loaded%system%linkage%solution%is_redundant) call append_text(plan%warnings, redundancy_text(loaded%system, assembly))
       call find_doubts(loaded%system%linkage, plan%warnings)
@@ -81,7 +81,7 @@ contains
       call tell_left_out(options, loaded, plan%warnings)
       if (loaded%sweep%is_present .and. options%write == "all") then
          call append_text(plan%warnings, "the deck has a sweep of "//to_text(loaded%sweep%n_cases())// &
-                          " cases; this is the deck's own case ('gudgeon sweep' runs them)")
+                          " cases; this run uses the parameters of the deck ('gudgeon sweep' runs the cases)")
       end if
       if (options%is_json) plan%show = show_json
       if (options%is_quiet) then
@@ -101,14 +101,14 @@ contains
 
       associate (settings => loaded%scene%settings)
          if (options%write /= "all" .and. .not. options%runs%is_member) then
-            reason = " left out: --write "//options%write
+            reason = " omitted: --write "//options%write
             motion = settings%output%word("motion")
             if (motion /= "off") call append_text(warnings, "motion = "//motion//reason)
             if (options%is_csv .or. settings%output%flag("csv")) call append_text(warnings, "csv"//reason)
             if (settings%output%flag("report")) call append_text(warnings, "report"//reason)
          end if
          if (loaded%scene%analysis == analysis_dynamic) return
-         reason = " left out: not known to a "//trim(analysis_names(loaded%scene%analysis))//" analysis"
+         reason = " not used: not available in a "//trim(analysis_names(loaded%scene%analysis))//" analysis"
          if (settings%statistics%is_present) call append_text(warnings, "section [statistics]"//reason)
          if (settings%guards%is_present) call append_text(warnings, "section [guards]"//reason)
          if (settings%ensemble%is_present) call append_text(warnings, "section [ensemble]"//reason)
@@ -172,7 +172,7 @@ contains
 
       reason = "the joint is ideal"
       if (loaded%scene%analysis /= analysis_dynamic) then
-         reason = "not known to a "//trim(analysis_names(loaded%scene%analysis))//" analysis"
+         reason = "not available in a "//trim(analysis_names(loaded%scene%analysis))//" analysis"
       end if
       call finder%start(loaded%catalogue)
       call keep("channel", "channels", plan%channels)
@@ -203,7 +203,7 @@ contains
                if (bad == 0) then
                   call list%add(words(k)%s)
                else
-                  call append_text(plan%warnings, one//" '"//words(k)%s//"' left out: "//reason)
+                  call append_text(plan%warnings, one//" '"//words(k)%s//"' omitted: "//reason)
                end if
             end do
          end associate

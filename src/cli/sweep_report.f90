@@ -66,7 +66,7 @@ contains
             if (is_written) then
                call append_text(names, figure%name)
             else
-               call append_text(warnings, "figure "//words(k)%s//": no numbers to draw")
+               call append_text(warnings, "figure "//words(k)%s//": no data to draw")
             end if
          end do
       end associate
@@ -98,10 +98,10 @@ contains
       if (work%shard > 0) call lines%line("part "//to_text(work%shard)//" of "//to_text(work%n_shards)//": "// &
                                           to_text(work%n_mine())//" runs")
       if (work%n_made > 0) then
-         call lines%line(to_text(work%n_made)//" runs made now; processor time "//real_text(cpu_of_all(), 4)//" s, of that "// &
-                         real_text(work%cpu_made, 4)//" s of motions and their output")
+         call lines%line(to_text(work%n_made)//" runs made now; CPU time "//real_text(cpu_of_all(), 4)//" s, of that "// &
+                         real_text(work%cpu_made, 4)//" s in integration and output")
       else if (work%n_missing() == 0) then
-         call lines%line("no runs were missing")
+         call lines%line("all runs were complete already")
       end if
       shown = 0
       do k = 1, size(work%results%runs)
@@ -111,7 +111,7 @@ contains
                          work%results%runs(k)%message)
       end do
       call lines%line("output     "//work%plan%directory//"/")
-      if (work%shard == 0) call lines%line("           sweep.h5, sweep.csv (runs), cases.csv (means and spreads)")
+      if (work%shard == 0) call lines%line("           sweep.h5, sweep.csv (runs), cases.csv (means and standard deviations)")
       do k = 1, size(pictures)
          call lines%line("           "//pictures(k)%s)
       end do
@@ -160,7 +160,7 @@ contains
          words = ""
          do k = 1, size(work%results%runs)
             if (work%results%runs(k)%exit_code <= 0) cycle
-            words = "; what they said is in "//work%directories(k)%s(:index(work%directories(k)%s, "/", back=.true.))//"*.log"
+            words = "; messages in "//work%directories(k)%s(:index(work%directories(k)%s, "/", back=.true.))//"*.log"
             return
          end do
       end function where_text

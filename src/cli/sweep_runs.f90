@@ -134,7 +134,7 @@ contains
 
       associate (place => work%plan%directory//runs_folder)
          if (.not. path_exists(place)) call set_error(error, exit_file, "the directory "//place// &
-                                                      " was removed while the sweep ran; sweep again")
+                                                      " was removed during the sweep; run the sweep again")
       end associate
    end subroutine check_place
 
@@ -236,7 +236,7 @@ contains
       code = exit_ok
       if (allocated(error)) then
          code = error%code
-         call write_error("error: "//error%message//new_line("a")//"  = alone: "//command_of(ready%options)// &
+         call write_error("error: "//error%message//new_line("a")//"  = as a single run: "//command_of(ready%options)// &
                           new_line("a"))
       end if
       call cpu_time(now)
@@ -290,8 +290,8 @@ contains
       character(1024) :: line
       integer :: status, unit
 
-      message = "ended with code "//to_text(code)
-      if (code > 128) message = "ended by signal "//to_text(code - 128)
+      message = "exit code "//to_text(code)
+      if (code > 128) message = "killed by signal "//to_text(code - 128)
       open (newunit=unit, file=log, status="old", action="read", iostat=status)
       if (status /= 0) return
       do

@@ -41,7 +41,7 @@ contains
       real(wp) :: relative
 
       if (size(options%operands) /= 2) then
-         call set_error(error, exit_usage, "'gudgeon compare' needs two things: a run, and a run or a file of columns"// &
+         call set_error(error, exit_usage, "'gudgeon compare' needs two arguments: a run, and a run or a file of columns"// &
                         new_line("a")//"  = gudgeon compare outputs/NAME legacy.csv --channel ""slider.position.x=2 unit=mm""")
          return
       end if
@@ -52,7 +52,7 @@ contains
       if (.not. allocated(error)) call read_run(first, a, error)
       if (allocated(error)) then
          if (.not. is_run(first) .and. is_run(second)) error%message = error%message//new_line("a")// &
-            "  = the run comes first, the columns second"
+            "  = give the run first, the file of columns second"
          return
       end if
       if (is_run(second)) then
@@ -186,13 +186,13 @@ contains
       call read_columns(source, tables)
       if (size(tables) == 0) then
          call set_error(error, exit_file, "'"//file//"' has no rows of numbers"//new_line("a")// &
-                        "  = a row has at least two numbers, apart by commas, semicolons, tabs or blanks")
+                        "  = a row needs at least two numbers, separated by commas, semicolons, tabs or blanks")
       else if (k < 1 .or. k > size(tables)) then
-         call set_error(error, exit_usage, "'"//file//"' has "//to_text(size(tables))//" tables, not "//to_text(k))
+         call set_error(error, exit_usage, "'"//file//"' has "//to_text(size(tables))//" tables, no table "//to_text(k))
       else
          if (size(tables) > 1 .and. file == path) call append_text(notes, "'"//file//"' has "//to_text(size(tables))// &
-            " tables; the first is compared, "//counted(size(tables(1)%x, 2), "row", "rows")//" from line "// &
-            to_text(tables(1)%line)//" on; the second, "//file//":2, begins in line "//to_text(tables(2)%line))
+            " tables; this comparison uses the first, "//counted(size(tables(1)%x, 2), "row", "rows")//" from line "// &
+            to_text(tables(1)%line)//" on; the second is "//file//":2, from line "//to_text(tables(2)%line))
          call history_of_columns(file, tables(k), specs, time, like, history, error)
       end if
    end subroutine read_legacy
@@ -226,7 +226,8 @@ contains
 
       do s = 1, size(specs)
          if (size(specs(s)%columns) > 0) then
-            call set_error(error, exit_usage, "a run has no columns: write --channel "//specs(s)%channel)
+            call set_error(error, exit_usage, "option --channel of a run names channels, not columns: write --channel "// &
+               specs(s)%channel)
             return
          end if
          place = 0

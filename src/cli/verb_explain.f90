@@ -47,10 +47,10 @@ contains
       if (.not. allocated(error)) call check_swept_words(options, loaded, error)
       if (.not. allocated(error)) call find_begin(loaded, y, assembly, error)
       if (allocated(error)) return
-      call say(loaded%path//": no mistakes; "//counted(loaded%system%linkage%bodies%n, "body", "bodies")//", "// &
+      call say(loaded%path//": no errors; "//counted(loaded%system%linkage%bodies%n, "body", "bodies")//", "// &
                counted(loaded%system%linkage%rows%n, "constraint row", "constraint rows")//", "// &
-               counted(loaded%system%loose%n, "loose joint", "loose joints")//"; assembled to "// &
-               real_text(assembly%residual, 2)//" m or rad, bodies moved by up to "//real_text(assembly%moved, 3)//" m"// &
+               counted(loaded%system%loose%n, "joint with clearance", "joints with clearance")//"; assembled to "// &
+               real_text(assembly%residual, 2)//" m or rad, maximum displacement of a body "//real_text(assembly%moved, 3)//" m"// &
                sweep_text(loaded)//comparison_text(loaded))
    end subroutine check_deck
 
@@ -143,7 +143,7 @@ contains
       end if
       defaults = all_defaults(loaded%deck)
       call say("")
-      call say("defaults taken")
+      call say("defaults used")
       do k = 1, size(defaults)
          if (is_worth(loaded%scene, defaults(k)%s)) call say(defaults(k)%s, 2)
       end do

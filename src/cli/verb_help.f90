@@ -73,7 +73,7 @@ contains
                known = known//" "//kinds(k)%name
             end do
             if (any([(kinds(k)%name == word .or. starts_with(kinds(k)%name, word//"."), k=1, size(kinds))])) cycle
-            call usage_error("unknown kind '"//word//"'", word, known, error)
+            call usage_error("unknown type '"//word//"'", word, known, error)
             return
          end associate
       end do
@@ -147,7 +147,8 @@ contains
       if (is_found) return
       near = nearest_word(wanted, names)
       if (near /= "") near = "did you mean '"//near//"'? "
-      call set_error(error, exit_usage, "no help on '"//wanted//"'"//new_line("a")//"  = "//near//"'gudgeon list' shows all kinds")
+      call set_error(error, exit_usage, "no help for '"//wanted//"'"//new_line("a")//"  = "//near//"see 'gudgeon list' for all "// &
+         "types")
    end subroutine show_help
 
    !> What the program can do.
@@ -155,7 +156,7 @@ contains
       character(:), allocatable :: codes, right
       integer :: k
 
-      call say("gudgeon simulates mechanisms whose joints are not perfect.")
+      call say("gudgeon simulates mechanisms with imperfect joints.")
       call say("")
       do k = 1, size(known_verbs)
          call write_verb(known_verbs(k))
@@ -176,7 +177,7 @@ contains
          codes = codes//right
       end do
       call say(codes)
-      call say("Environment: GUDGEON_GNUPLOT_SECONDS is the time that a figure may take; default 300 s.")
+      call say("Environment: GUDGEON_GNUPLOT_SECONDS is the maximum time for one figure; default 300 s.")
    end subroutine write_usage
 
    !> A verb and its options.
@@ -221,7 +222,7 @@ contains
    subroutine write_functions()
       integer :: k
 
-      call say("functions of expressions; beside them those of tables [function.*] by their names, and the constant pi")
+      call say("functions of expressions; also the tables [function.*] by their names, and the constant pi")
       do k = 1, n_signature
          call say(trim(signatures(k)), 2, trim(signature_help(k)), 36)
       end do
@@ -235,9 +236,9 @@ contains
 
       call say("# Manual of gudgeon "//program_version)
       call say("")
-      call say("Every table and setting of a deck, as the program itself tells it (`gudgeon help --manual`), "// &
-               "and the equations, from")
-      call say("the headers of the kinds' sources.")
+      call say("All tables and settings of a deck, as printed by `gudgeon help --manual`, "// &
+               "and the equations from")
+      call say("the headers of the source files.")
       call say("")
       call say("```")
       call write_usage()
@@ -278,7 +279,7 @@ contains
       if (is_markdown) call say("")
       if (is_markdown) call say("```")
       if (allocated(info%columns)) then
-         call say(trim(merge("columns (beside name):", "keys:                 ", info%is_table)))
+         call say(trim(merge("columns (besides name):", "keys:                  ", info%is_table)))
          do k = 1, size(info%columns)
             call say(info%columns(k)%name, 2, describe(info%columns(k)), 24)
          end do
@@ -313,7 +314,7 @@ contains
          words = words//" (a file)"
       case (cell_expression)
          words = words//" ["//unit_text(column%dimension)//", a number or an expression in "//trim(column%variable)
-         if (column%sees_motion) words = words//" and channels of motion"
+         if (column%sees_motion) words = words//" and channels of the motion"
          words = words//"]"
       case (cell_formula)
          words = words//" (an expression in channels and t)"

@@ -40,8 +40,8 @@ contains
       end if
       path = deck_path(options)
       if (path_exists(path)) then
-         call set_error(error, exit_file, "'"//path//"' is there already"//new_line("a")// &
-                        "  = an existing file is not overwritten; move it, or name another place with --out DIRECTORY")
+         call set_error(error, exit_file, "'"//path//"' exists already"//new_line("a")// &
+                        "  = move the existing file, or choose another directory with --out DIRECTORY")
          return
       end if
       call import_dataset(source, base_name(options%operands(1)%s), imported, mistakes)
@@ -50,7 +50,7 @@ contains
       if (allocated(options%directory)) then
          code = make_directory(options%directory)
          if (code /= 0) call fail_file(error, "cannot make the directory", options%directory, code, &
-                                       "Name another one with --out DIRECTORY.")
+                                       "Choose another one with --out DIRECTORY.")
       end if
       if (.not. allocated(error)) call write_file(path, imported%deck, error)
       if (allocated(error)) return
@@ -61,7 +61,7 @@ contains
       allocate (check%operands(0), check%change%overrides(0))
       call append_text(check%operands, path)
       call load_deck(check, loaded, error)
-      if (allocated(error)) error%message = "the deck was written, but it cannot be run as it is:"//new_line("a")//error%message
+      if (allocated(error)) error%message = "the deck was written, but cannot be run without changes:"//new_line("a")//error%message
    end subroutine import_model
 
    !> Where the deck goes.
@@ -100,10 +100,10 @@ contains
       type(imported_t), intent(in) :: imported      !! what was made
 
       call say(path//" written. Run it:   gudgeon run "//path//" --set end=2s")
-      call say_list("not in the deck", imported%left_out)
-      call say_list("otherwise than in the dataset, or assumed", imported%changed)
-      call say_list("settings of Adams, without a part in the mechanism", imported%settings)
-      if (size(imported%left_out) == 0) call say("nothing of the mechanism was left out")
+      call say_list("not supported, omitted from the deck", imported%left_out)
+      call say_list("changed or assumed", imported%changed)
+      call say_list("Adams settings without effect on the mechanism", imported%settings)
+      if (size(imported%left_out) == 0) call say("the whole mechanism was converted")
    end subroutine report
 
    !> A list with its heading.

@@ -56,7 +56,7 @@ contains
       if (allocated(error)) return
       warnings = directory%warnings
       if (index(parts(1)%journal%origin%program, new_line("a")//program_identity()//new_line("a")) == 0) then
-         call append_text(warnings, "the runs were made by another build of the program than the one that puts them together")
+         call append_text(warnings, "these runs were made by another build of gudgeon than this one")
       end if
       call new_sweep_work(then, loaded, directory%path, work, error)
       if (.not. allocated(error)) call put_together(loaded, parts, work, pictures, warnings, error)
@@ -86,7 +86,7 @@ contains
       allocate (parts(0))
       if (size(options%operands) /= 1) then
          call set_error(error, exit_usage, "'gudgeon merge' needs the directory of one sweep: gudgeon merge DIR, for the "// &
-                        "parts in DIR.shards")
+                        "shards in DIR.shards")
          return
       end if
       folder = stem_of(options%operands(1)%s)//".shards"
@@ -99,7 +99,7 @@ contains
          if (part%journal%is_there) parts = [parts, part]
       end do
       if (size(parts) == 0) then
-         call set_error(error, exit_file, "there are no parts of a sweep in "//folder// &
+         call set_error(error, exit_file, "there are no shards of a sweep in "//folder// &
                         "; 'gudgeon sweep DECK --shard I/N' makes them")
          return
       end if
@@ -107,8 +107,8 @@ contains
          words = differences(parts(1)%journal%origin, parts(k)%journal%origin)
          if (len(words) == 0) cycle
          call set_error(error, exit_usage, parts(1)%folder//" and "//parts(k)%folder// &
-                        " are not parts of one sweep; they differ in: "//words//new_line("a")// &
-                        "  = make the older one again, or remove it")
+                        " are not shards of one sweep; they differ in: "//words//new_line("a")// &
+                        "  = repeat the older shard, or remove it")
          return
       end do
    end subroutine find_parts

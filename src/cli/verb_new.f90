@@ -8,8 +8,8 @@ module verb_new
    public :: new_deck
 
    character(*), parameter :: template(*) = [character(112) :: &
-      "# A slider-crank whose pin is loose in the slider. Run it:   gudgeon run NAME.deck", &
-      "# What every table and key means:   gudgeon help   gudgeon help joint revolute", &
+      "# A slider-crank with clearance in the slider pin. Run it:   gudgeon run NAME.deck", &
+      "# Help on every table and key:   gudgeon help   gudgeon help joint revolute", &
       "deck = 1", &
       "", &
       "[scene]", &
@@ -20,7 +20,7 @@ module verb_new
       "c      = 0.5 mm", &
       "speed  = 3000 rpm", &
       "", &
-      "[bodies]                   # centre of mass and angle at the start; the start is made consistent", &
+      "[bodies]                   # initial centre of mass and angle; assembly corrects them", &
       "name     mass[kg]   inertia[kg.m^2]   x[mm]   y[mm]   angle[deg]", &
       "crank    0.30       1.0e-4            25      0       0", &
       "rod      0.21       2.5e-4            110     0       0", &
@@ -44,7 +44,7 @@ module verb_new
       "name     i        j        axis", &
       "guide    main     pin      x", &
       "", &
-      "[driver.speed]             # turns j against i of a revolute joint", &
+      "[driver.speed]             # rotates j against i of a revolute joint", &
       "name     joint    speed", &
       "motor    main     {speed}", &
       "", &
@@ -60,7 +60,7 @@ module verb_new
       "name     restitution", &
       "impact   0.9", &
       "", &
-      "[friction.ambrosio]        # no force below v0, full force above v1", &
+      "[friction.ambrosio]        # no friction below v0, full friction above v1", &
       "name      coefficient   v0[m/s]   v1[m/s]", &
       "sliding   0.03          1e-4      1e-3", &
       "", &
@@ -72,7 +72,7 @@ module verb_new
       "every       = 20 us", &
       "channels    = *", &
       "figures     = slider.velocity slider.acceleration motor.moment gudgeon.orbit animation(last = 1 turns of motor)", &
-      "report      = on                   # one page of everything; figures too: mechanism  strip(n=8)  coupler(small)"]
+      "report      = on                   # report.html with all results; more figures: mechanism  strip(n=8)  coupler(small)"]
       !! lines of the deck
 
 contains
@@ -93,8 +93,8 @@ contains
       path = options%operands(1)%s
       if (len_trim(path) == 0 .or. path == ".deck" .or. scan(path, new_line("a")) > 0 .or. &
           index("/"//path//"/", "/../") > 0 .or. index(path, "/") == 1 .or. index(path, "/", back=.true.) == len(path)) then
-         call set_error(error, exit_usage, "'"//path//"' is no name for a deck: it needs a name of a file in this folder or in "// &
-                        "one below it, as in: gudgeon new my")
+         call set_error(error, exit_usage, "'"//path//"' is not a valid deck name: use a file name in this directory or in "// &
+                        "a subdirectory, as in: gudgeon new my")
          return
       end if
       if (len(path) < 5) then
@@ -105,7 +105,7 @@ contains
       open (newunit=unit, file=path, status="new", action="write", iostat=status, iomsg=message)
       if (status /= 0) then
          call set_error(error, exit_file, "cannot make '"//path//"': "//trim(message)//new_line("a")// &
-                        "  = the folder must be there, and an existing file is not overwritten")
+                        "  = the directory must exist, and an existing file is not overwritten")
          return
       end if
       do k = 1, size(template)

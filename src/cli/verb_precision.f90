@@ -77,7 +77,7 @@ contains
       call write_results(loaded, plan, study, pictures, warnings, error)
       if (.not. allocated(error)) call report(options, loaded, plan, study, pictures, warnings, error)
       if (.not. allocated(error) .and. study%reference%what == "") then
-         call set_error(error, exit_integration, "no run came to its end; "//directory%path//"/precision.txt tells why")
+         call set_error(error, exit_integration, "no run was completed; "//directory%path//"/precision.txt gives the reasons")
       end if
       call directory%close()
    end subroutine compare_precision
@@ -93,7 +93,7 @@ contains
       integer :: k
 
       if (loaded%scene%analysis /= analysis_dynamic) then
-         call set_error(error, exit_usage, "a comparison runs the section [analysis.dynamic], which the deck does not begin with")
+         call set_error(error, exit_usage, "the comparison needs [analysis.dynamic] as the first analysis section of the deck")
          return
       end if
       words = loaded%scene%settings%precision%values(place_of(loaded%scene%settings%precision, "methods"))%words

@@ -68,7 +68,7 @@ contains
          call check_size(options, loaded, directory_of(options, loaded), error)
       end if
       if (.not. allocated(error) .and. options%digits%with_horizon .and. loaded%scene%analysis /= analysis_dynamic) then
-         call set_error(error, exit_usage, "option --horizon is for motions of [analysis.dynamic]; this deck's analysis is "// &
+         call set_error(error, exit_usage, "option --horizon needs [analysis.dynamic]; the analysis of this deck is "// &
                         trim(analysis_names(loaded%scene%analysis)))
       end if
       if (allocated(error)) return

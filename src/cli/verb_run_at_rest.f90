@@ -83,7 +83,7 @@ contains
          if (starts_with(plan%figures(k)%s, "film(")) call append_text(films, plan%figures(k)%s)
       end do
       if (size(films) < size(plan%figures)) then
-         call append_text(plan%warnings, "figures left out: an equilibrium is one instant")
+         call append_text(plan%warnings, "figures omitted: an equilibrium has no time history")
       end if
       plan%with%figures = plan%with%figures .and. size(films) > 0
       call move_alloc(films, plan%figures)

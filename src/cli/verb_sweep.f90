@@ -72,9 +72,9 @@ contains
 
       if (.not. loaded%sweep%is_present .and. .not. loaded%scene%settings%ensemble%is_present) then
          call set_error(error, exit_usage, "the deck has neither a section [sweep] nor [ensemble]"//new_line("a")// &
-                        "  = 'gudgeon help sweep' tells how to write one; 'gudgeon run' runs the deck as it is")
+                        "  = see 'gudgeon help sweep'; 'gudgeon run' runs the deck as it is")
       else if (loaded%scene%analysis /= analysis_dynamic) then
-         call set_error(error, exit_usage, "a sweep runs the section [analysis.dynamic], which the deck does not begin with")
+         call set_error(error, exit_usage, "a sweep needs [analysis.dynamic] as the first analysis section of the deck")
       end if
       if (allocated(error)) return
       do k = 1, size(loaded%sweep%parameters)
@@ -82,7 +82,7 @@ contains
             associate (word => options%change%overrides(i)%s)
                if (trim(adjustl(word(1:max(index(word, "=") - 1, 0)))) /= loaded%sweep%parameters(k)%name) cycle
                call set_error(error, exit_usage, "parameter '"//loaded%sweep%parameters(k)%name// &
-                              "' is swept by the deck, so it cannot be set")
+                              "' is swept by the deck and cannot be set")
                return
             end associate
          end do
@@ -130,11 +130,11 @@ contains
       changed = changed_files()
       do k = 1, size(changed)
          call append_text(warnings, changed(k)%s// &
-                          " was changed while the sweep ran; all runs are of what it was at the beginning")
+                          " changed during the sweep; all runs use its initial content")
       end do
       if (stamp_of(program) /= stamp) then
          call append_text(warnings, "the program "//program// &
-                          " was made anew while the sweep ran; all runs are of the one that began")
+                          " was rebuilt during the sweep; all runs use the initial executable")
       end if
    end subroutine tell_changes
 
@@ -166,7 +166,7 @@ contains
       if (work%n_failed() == 0 .and. (work%shard == 0 .or. .not. loaded%sweep%keeps_channels)) then
          ignored = remove_within(work%plan%directory, runs_folder(2:)//"/")
          if (path_exists(work%plan%directory//runs_folder)) then
-            call append_text(warnings, work%plan%directory//runs_folder//" holds files that gudgeon did not make, so it stays")
+            call append_text(warnings, work%plan%directory//runs_folder//" holds files not made by gudgeon and was not removed")
          end if
       end if
       if (work%shard == 0) call make_sweep_figures(loaded, work, pictures, warnings, error)

@@ -55,7 +55,7 @@ contains
       do while (before < size(value%words))  ! those after a wrong one are looked at too
          call select_channels(value%words(before + 1:), catalogue, selection, bad, message, hint)
          if (bad == 0) return
-         call mistakes%add(location_of(value, before + bad), message, "no channel of this deck", hint)
+         call mistakes%add(location_of(value, before + bad), message, "not a channel of this deck", hint)
          before = before + bad
       end do
    end subroutine check_channels
@@ -82,7 +82,7 @@ contains
       if (bad == 0) return
       if (part == value%words(k)%s) part = ""
       call mistakes%add(place_of_part(deck, location_of(value, k), part), message, &
-                        trim(merge("no figure of this deck  ", "not right in this figure", len(part) == 0)), hint)
+                        trim(merge("not a figure of this deck", "invalid in this figure   ", len(part) == 0)), hint)
    end subroutine check_figure
 
    !> Figures of statistics need a section [statistics], some a period, and numbers that there are.
@@ -107,13 +107,13 @@ contains
             if (figure%kind <= figure_portrait .or. figure%kind == figure_film .or. draws_mechanism(figure)) cycle
             if (.not. scene%settings%statistics%is_present) then
                message = "'"//words(bad)%s//"' needs a section [statistics]"
-               hint = "it says how long the transient is: [statistics], then after = 2 turns of motor"
+               hint = "give the end of the transient: [statistics], after = 2 turns of motor"
                return
             end if
             if (.not. scene%settings%statistics%is_given("period") .and. &
                 (figure%kind == figure_section .or. figure%kind == figure_bifurcation)) then
-               message = "'"//words(bad)%s//"' needs the period of the drive"
-               hint = "in section [statistics]: period = 1 turns of motor, or a time"
+               message = "'"//words(bad)%s//"' needs the drive period"
+               hint = "add to section [statistics]: period = 1 turns of motor, or a time"
                return
             end if
             if (figure%kind /= figure_statistics) cycle
@@ -121,10 +121,10 @@ contains
             do k = 1, size(figure%numbers)
                if (any([(known(i)%s == figure%numbers(k)%s, i=1, size(known))])) cycle
                part = figure%numbers(k)%s
-               message = "unknown number '"//figure%numbers(k)%s//"'"
+               message = "unknown statistic '"//figure%numbers(k)%s//"'"
                hint = nearest_word(figure%numbers(k)%s, known)
                if (len(hint) > 0) hint = "did you mean '"//hint//"'? "
-               hint = hint//"numbers of this deck's statistics: "//join(known, " ")
+               hint = hint//"statistics of this deck: "//join(known, " ")
                return
             end do
          end associate

@@ -61,7 +61,7 @@ contains
          if (at > 0) rest = text(at + 1:)
       end if
       if (spec%channel == "" .or. scan(spec%channel, " ,") > 0) then
-         call set_error(error, exit_usage, "'"//text//"' names no channel: write CHANNEL=COLUMN, as ""rod.angle=3 unit=deg""")
+         call set_error(error, exit_usage, "'"//text//"' has no channel name: write CHANNEL=COLUMN, as ""rod.angle=3 unit=deg""")
          return
       end if
       call split_words(rest, words)
@@ -148,10 +148,10 @@ contains
       case ("turn"); call read_turn(value, spec%turn, is_good)
       case default
          call set_error(error, exit_usage, "unknown key '"//key//"'"//new_line("a")// &
-                        "  = known: unit scale offset shift modulo absolute relative turn")
+                        "  = valid keys: unit scale offset shift modulo absolute relative turn")
          return
       end select
-      if (.not. is_good) call set_error(error, exit_usage, "'"//value//"' is no value of "//key)
+      if (.not. is_good) call set_error(error, exit_usage, "'"//value//"' is not a value of "//key)
    end subroutine take_key
 
    !> A number without a unit.

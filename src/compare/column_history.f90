@@ -52,7 +52,7 @@ contains
          history%is_output = kinds < 0.5_wp
       end if
       do k = 2, size(history%time)
-         if (history%time(k) < history%time(k - 1)) call set_error(error, exit_usage, "the time of "//path//" falls at row "// &
+         if (history%time(k) < history%time(k - 1)) call set_error(error, exit_usage, "the time of "//path//" decreases at row "// &
                to_text(k))
          if (allocated(error)) return
       end do
@@ -64,7 +64,7 @@ contains
       if (allocated(error)) return
       call cut()
       if (size(history%list) == 0) call set_error(error, exit_usage, "no column of "//path//" has the name of a channel"// &
-         new_line("a")//"  = say which column is which:  --channel ""slider.position.x=2 unit=mm""")
+         new_line("a")//"  = assign columns to channels:  --channel ""slider.position.x=2 unit=mm""")
 
    contains
 
@@ -141,10 +141,10 @@ contains
       call parse_unit(name, unit, message, first, last)
       if (message == "" .and. si /= "") then
          call parse_unit(si, wanted, message, first, last)
-         if (.not. alike(unit, wanted)) message = "unit '"//name//"' does not fit "//spec%channel//", which is in "//si
+         if (.not. alike(unit, wanted)) message = "unit '"//name//"' does not match "//spec%channel//", which is in "//si
       end if
       if (message /= "") then
-         call set_error(error, exit_usage, message//new_line("a")//"  = column '"//word//"'; say its unit with unit=...")
+         call set_error(error, exit_usage, message//new_line("a")//"  = column '"//word//"'; give its unit with unit=...")
          return
       end if
       x = [(to_si(table%x(k, first), unit), first=1, size(table%x, 2))]
@@ -161,7 +161,7 @@ contains
       do k = 1, size(names)
          words = words//" '"//names(k)%s//"'"
       end do
-      if (size(names) == 0) words = " they have no names; use numbers from 1 on"
+      if (size(names) == 0) words = " without names; use numbers from 1 on"
    end function listed
 
    !> Whether two units measure the same; radians are no dimension where the other has none.

@@ -73,7 +73,7 @@ contains
       allocate (found%list(0), found%missing(0))
       own = pack(a%time, a%is_output)
       if (size(own) < 2 .or. count(b%is_output) < 1) then
-         call set_error(error, exit_usage, "there are too few instants to compare: "//to_text(size(own))//" and "// &
+         call set_error(error, exit_usage, "too few common times to compare: "//to_text(size(own))//" and "// &
                         to_text(count(b%is_output)))
          return
       end if
@@ -81,7 +81,7 @@ contains
                   b%time <= own(size(own)) + 1.0e-9_wp*(own(size(own)) - own(1))
       found%t = pack(b%time, is_inside)
       if (size(found%t) == 0) then
-         call set_error(error, exit_usage, "the times of both have nothing in common: shift or scale them with --time")
+         call set_error(error, exit_usage, "the times do not overlap: shift or scale them with --time")
          return
       end if
       allocate (found%a(size(found%t), size(b%list)), found%b(size(found%t), size(b%list)), found%d(size(found%t), size(b%list)))
@@ -115,7 +115,7 @@ contains
       end do
       found%missing = missing%get()
       found%n_different = count(found%list%is_different)
-      if (size(found%list) == 0) call set_error(error, exit_usage, "both have no channel in common")
+      if (size(found%list) == 0) call set_error(error, exit_usage, "the two have no common channel")
       call pair_impacts(a, b, found)
    end subroutine compare_histories
 

@@ -39,7 +39,7 @@ contains
          worst(k) = -1.0_wp
          associate (name => found%list(k)%name)
             if (.not. any(ieee_is_finite(found%a(:, k)) .or. ieee_is_finite(found%b(:, k)))) then
-               call append_text(warnings, "no figure of "//name//": neither A nor B has a number there")
+               call append_text(warnings, "no figure of "//name//": no values in A or B")
                cycle
             end if
             call write_plot(folder, name, overlay(found, k, first, second), is_written, error)

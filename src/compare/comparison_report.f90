@@ -25,11 +25,11 @@ contains
 
       words = counted(size(found%list), "channel", "channels")
       if (found%n_different == 0) then
-         words = words//" compared, none differs by more than is allowed"
+         words = words//" compared, all within tolerance"
       else
          words = to_text(found%n_different)//" of "//words//" differ"
          if (found%n_different == 1) words = words//"s"
-         words = words//" by more than is allowed"
+         words = words//" by more than the tolerance"
       end if
       if (found%by_statistics) words = words//" (means and RMS)"
    end function verdict_text
@@ -46,14 +46,14 @@ contains
 
       call lines%line("A          "//first)
       call lines%line("B          "//second)
-      call lines%line("compared   "//counted(size(found%t), "instant", "instants")//" of B, "//real_text(found%t(1), 6)//" to "// &
+      call lines%line("compared   "//counted(size(found%t), "time", "times")//" of B, "//real_text(found%t(1), 6)//" to "// &
                       real_text(found%t(size(found%t)), 6)//" s")
       call lines%line("")
       width = 20
       do k = 1, size(found%list)
          width = max(width, len(found%list(k)%name) + len(found%list(k)%unit) + 4)
       end do
-      call lines%line(padded("channel", width)//heads([character(10) :: "RMS", "greatest", "at [s]", "allowed", "peak A", &
+      call lines%line(padded("channel", width)//heads([character(10) :: "RMS", "maximum", "at [s]", "tolerance", "peak A", &
                       "peak B", "lag [s]"], cell_width)//trim(heads([character(5) :: "magn.", "phase"], short_width)))
       do k = 1, size(found%list)
          associate (d => found%list(k))
@@ -113,11 +113,11 @@ contains
 
       words = ""
       associate (d => difference)
-         if (d%only(1) > 0) words = words//", a number in A only at "//to_text(d%only(1))
-         if (d%only(2) > 0) words = words//", a number in B only at "//to_text(d%only(2))
+         if (d%only(1) > 0) words = words//", value only in A at "//to_text(d%only(1))
+         if (d%only(2) > 0) words = words//", value only in B at "//to_text(d%only(2))
          if (d%neither > 0) words = words//", in neither at "//to_text(d%neither)
          if (d%unsettled > 0) words = words//", A changes between its rows at "//to_text(d%unsettled)
-         if (words /= "") words = "  ("//counted(d%n, "instant", "instants")//" compared"//words//")"
+         if (words /= "") words = "  ("//counted(d%n, "time", "times")//" compared"//words//")"
       end associate
    end function of_instants
 

@@ -60,7 +60,7 @@ contains
    subroutine add_line_columns(info)
       type(kind_info_t), intent(inout) :: info  !! the kind
 
-      call add_number(info, "length", dim_length, "length of contact along the axis; 0: that of the joint", &
+      call add_number(info, "length", dim_length, "contact length along the axis; 0: that of the joint", &
                       default="0 m", lower=0.0_wp)
       call add_restitution(info, default="1")
    end subroutine add_line_columns
@@ -70,7 +70,7 @@ contains
       type(kind_info_t), intent(inout) :: info  !! the kind
 
       call add_line_columns(info)
-      call add_flag(info, "sigma_pi", "compliances of the materials divided by pi, nearer to line contact", default="off")
+      call add_flag(info, "sigma_pi", "compliances of the materials divided by pi, closer to line contact", default="off")
    end subroutine add_cylinder_columns
 
    !> Take the parameters of `add_line_columns`: compliances over pi, as line contact has them.
@@ -126,8 +126,8 @@ contains
       message = ""
       help = ""
       if (pair%shape /= shape_internal) then
-         message = "law '"//name//"' is one of a pin in a hole"
-         help = "take a law of Hertz's family, or one for plane faces"
+         message = "law '"//name//"' is for a pin in a hole"
+         help = "use a law of the Hertz family, or one for plane faces"
       else if (.not. length > 0.0_wp) then
          message = "law '"//name//"' needs the length of the bearing"
          help = "give column length in the row of the joint, or in that of the law"
@@ -175,7 +175,7 @@ contains
       real(wp), intent(in) :: parameters(n_law_parameter)  !! (n_law_parameter) a, a B, range [m/N, m, m]
       character(:), allocatable :: words                   !! for `gudgeon explain`
 
-      words = "penetration up to "//real_text(1.0e3_wp*parameters(3), 6)//" mm"
+      words = "valid for penetration up to "//real_text(1.0e3_wp*parameters(3), 6)//" mm"
       if (self%hysteresis > 0.0_wp) words = words//", damping factor "//real_text(self%hysteresis, 6)
    end function family_story
 

@@ -152,9 +152,9 @@ contains
       real(wp), intent(in) :: parameters(n_law_parameter)  !! (n_law_parameter) constants, range [any]
       character(:), allocatable :: words                   !! for `gudgeon explain`
 
-      words = "any penetration"
+      words = "valid for any penetration"
       if (parameters(parameter_deepest) < huge(1.0_wp)) then
-         words = "penetration up to "//real_text(1.0e3_wp*parameters(parameter_deepest), 6)//" mm"
+         words = "valid for penetration up to "//real_text(1.0e3_wp*parameters(parameter_deepest), 6)//" mm"
       end if
       if (self%hysteresis > 0.0_wp) words = words//", damping factor "//real_text(self%hysteresis, 6)
    end function explicit_story

@@ -33,11 +33,11 @@ contains
       type(kind_info_t) :: info  !! name and columns
 
       info%name = "friction.ambrosio"
-      info%help = "Coulomb friction with a dead zone below v0 and a ramp up to v1"
+      info%help = "Coulomb friction, zero below v0, with a linear ramp up to v1"
       info%source = "Flores et al. (2008), eqs. (3.16), (3.17)"
       call add_number(info, "coefficient", dim_none, "coefficient of friction; 0: frictionless", lower=0.0_wp)
-      call add_number(info, "v0", dim_speed, "no force below this sliding speed", lower=0.0_wp)
-      call add_number(info, "v1", dim_speed, "full force above this sliding speed, more than v0", &
+      call add_number(info, "v0", dim_speed, "sliding speed below which friction is zero", lower=0.0_wp)
+      call add_number(info, "v1", dim_speed, "sliding speed of full friction, greater than v0", &
                       lower=0.0_wp, open_lower=.true.)
    end function ambrosio_info
 
@@ -65,7 +65,7 @@ contains
       character(:), allocatable :: message            !! one line, empty: all is well
 
       message = ""
-      if (.not. self%v1 > self%v0) message = "v1 must be greater than v0: the force rises from zero at v0 to its full value at v1"
+      if (.not. self%v1 > self%v0) message = "v1 must be greater than v0: friction rises from zero at v0 to its full value at v1"
    end function ambrosio_mistake
 
    !> Magnitude of the friction force of n contacts.

@@ -39,13 +39,14 @@ contains
       type(kind_info_t) :: info  !! name and columns
 
       info%name = "friction.brown_mcphee"
-      info%help = "friction with a smooth peak of the static one at a transition speed"
+      info%help = "smooth friction with a static peak at a transition speed"
       info%source = "Brown and McPhee (2016)"
-      call add_number(info, "coefficient", dim_none, "coefficient of friction while sliding", lower=0.0_wp)
-      call add_number(info, "static_coefficient", dim_none, "greatest coefficient, reached at v_t; at least `coefficient`", &
+      call add_number(info, "coefficient", dim_none, "sliding friction coefficient", lower=0.0_wp)
+      call add_number(info, "static_coefficient", dim_none, "maximum coefficient, reached at v_t; at least `coefficient`", &
                       lower=0.0_wp)
       call add_number(info, "v_t", dim_speed, "transition speed", lower=0.0_wp, open_lower=.true.)
-      call add_number(info, "viscosity", per_speed, "coefficient in proportion to the sliding speed", default="0 s/m", lower=0.0_wp)
+      call add_number(info, "viscosity", per_speed, "viscous coefficient, multiplied by the sliding speed", default="0 s/m", &
+         lower=0.0_wp)
    end function brown_mcphee_info
 
    !> Take the parameters.
@@ -74,7 +75,7 @@ contains
 
       message = ""
       if (self%static < self%coefficient) then
-         message = "static_coefficient must not be less than coefficient: the force falls beyond v_t"
+         message = "static_coefficient must not be smaller than coefficient: friction falls beyond v_t"
       end if
    end function brown_mcphee_mistake
 

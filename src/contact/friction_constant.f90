@@ -33,10 +33,11 @@ contains
       type(kind_info_t) :: info  !! name and columns
 
       info%name = "friction.constant"
-      info%help = "friction of constant magnitude, whatever the normal force"
+      info%help = "friction force of constant magnitude, independent of the normal force"
       info%source = "Flores et al. (2008), eq. (3.12)"
       call add_number(info, "force", dim_force, "friction force while the surfaces touch and slide; 0: frictionless", lower=0.0_wp)
-      call add_number(info, "v1", dim_speed, "full force above this sliding speed, a ramp below; 0: as the book prints it", &
+      call add_number(info, "v1", dim_speed, "sliding speed of full friction, linear ramp below; 0: jump, as printed in Flores "// &
+         "et al. (2008)", &
                       default="1 mm/s", lower=0.0_wp)
    end function constant_info
 

@@ -37,10 +37,11 @@ contains
       type(kind_info_t) :: info  !! name and columns
 
       info%name = "friction.coulomb"
-      info%help = "Coulomb friction with sticking: stick and slip begin at located events"
+      info%help = "Coulomb friction with sticking; stick-slip transitions are located events"
       info%source = "Flores et al. (2008), eqs. (3.13), (3.14)"
-      call add_number(info, "coefficient", dim_none, "coefficient of sliding friction; 0: frictionless", lower=0.0_wp)
-      call add_number(info, "static_coefficient", dim_none, "coefficient of sticking friction; 0: that of sliding", default="0", &
+      call add_number(info, "coefficient", dim_none, "sliding friction coefficient; 0: frictionless", lower=0.0_wp)
+      call add_number(info, "static_coefficient", dim_none, "static friction coefficient; 0: equal to the sliding "// &
+         "coefficient", default="0", &
                       lower=0.0_wp)
    end function coulomb_info
 
@@ -69,7 +70,7 @@ contains
       character(:), allocatable :: message           !! one line, empty: all is well
 
       message = ""
-      if (self%static_coefficient < self%coefficient) message = "static_coefficient must not be less than coefficient"
+      if (self%static_coefficient < self%coefficient) message = "static_coefficient must not be smaller than coefficient"
    end function coulomb_mistake
 
    !> Magnitude of the friction force of n contacts that slide.

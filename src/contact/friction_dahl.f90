@@ -41,12 +41,12 @@ contains
       type(kind_info_t) :: info  !! name and columns
 
       info%name = "friction.dahl"
-      info%help = "Dahl: an elastic deflection with a state of its own that yields at the coefficient of friction"
+      info%help = "Dahl friction: elastic deflection with an internal state, limited by the friction coefficient"
       info%source = "Dahl (1968)"
-      call add_number(info, "coefficient", dim_none, "coefficient of friction; 0: frictionless", lower=0.0_wp)
-      call add_number(info, "stiffness", dim_t(m=-1), "stiffness of the deflection over the normal force (sigma)", &
+      call add_number(info, "coefficient", dim_none, "friction coefficient; 0: frictionless", lower=0.0_wp)
+      call add_number(info, "stiffness", dim_t(m=-1), "stiffness over the normal force (sigma)", &
                       default="1e5 m^-1", lower=0.0_wp, open_lower=.true.)
-      call add_number(info, "exponent", dim_none, "exponent of the yielding (i): 1 as ductile, less as brittle materials", &
+      call add_number(info, "exponent", dim_none, "exponent (i): 1 for ductile, smaller for brittle materials", &
                       default="1", lower=0.5_wp, upper=4.0_wp)
    end function dahl_info
 

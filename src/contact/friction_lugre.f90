@@ -46,16 +46,16 @@ contains
       type(kind_info_t) :: info  !! name and columns
 
       info%name = "friction.lugre"
-      info%help = "LuGre: elastic bristles with a state of their own, Stribeck's dip and viscous friction"
+      info%help = "LuGre friction: elastic bristles with an internal state, Stribeck effect and viscous friction"
       info%source = "Canudas de Wit, Olsson, Astrom and Lischinsky (1995), eqs. (3)-(7)"
-      call add_number(info, "coefficient", dim_none, "coefficient of friction of fast sliding; 0: frictionless", lower=0.0_wp)
-      call add_number(info, "static_coefficient", dim_none, "coefficient of the slowest sliding; 0: that of fast sliding", &
+      call add_number(info, "coefficient", dim_none, "sliding friction coefficient at high speed; 0: frictionless", lower=0.0_wp)
+      call add_number(info, "static_coefficient", dim_none, "static friction coefficient; 0: equal to the sliding coefficient", &
                       default="0", lower=0.0_wp)
-      call add_number(info, "stribeck_speed", dim_speed, "speed at which the one goes over into the other", default="1e-3 m/s", &
+      call add_number(info, "stribeck_speed", dim_speed, "Stribeck speed", default="1e-3 m/s", &
                       lower=0.0_wp, open_lower=.true.)
-      call add_number(info, "bristle_stiffness", dim_t(m=-1), "stiffness of the bristles over the normal force (sigma0)", &
+      call add_number(info, "bristle_stiffness", dim_t(m=-1), "bristle stiffness over the normal force (sigma0)", &
                       default="1e5 m^-1", lower=0.0_wp, open_lower=.true.)
-      call add_number(info, "bristle_damping", dim_t(m=-1, s=1), "damping of the bristles over the normal force (sigma1)", &
+      call add_number(info, "bristle_damping", dim_t(m=-1, s=1), "bristle damping over the normal force (sigma1)", &
                       default="100 s/m", lower=0.0_wp)
       call add_number(info, "viscosity", dim_t(m=-1, s=1), "viscous friction over the normal force (sigma2)", default="0 s/m", &
                       lower=0.0_wp)
@@ -90,7 +90,7 @@ contains
       character(:), allocatable :: message         !! one line, empty: all is well
 
       message = ""
-      if (self%static_coefficient < self%coefficient) message = "static_coefficient must not be less than coefficient"
+      if (self%static_coefficient < self%coefficient) message = "static_coefficient must not be smaller than coefficient"
    end function lugre_mistake
 
    !> Magnitude of the friction force of n contacts that slide steadily.

@@ -33,10 +33,10 @@ contains
       type(kind_info_t) :: info  !! name and columns
 
       info%name = "friction.rooney_deravi"
-      info%help = "Coulomb friction, within its range in proportion to the speed near zero speed"
+      info%help = "Coulomb friction, linear in the speed near zero speed"
       info%source = "Flores et al. (2008), eqs. (3.13), (3.14)"
-      call add_number(info, "coefficient", dim_none, "coefficient of friction; 0: frictionless", lower=0.0_wp)
-      call add_number(info, "v1", dim_speed, "full force above this sliding speed, in proportion to it below", &
+      call add_number(info, "coefficient", dim_none, "friction coefficient; 0: frictionless", lower=0.0_wp)
+      call add_number(info, "v1", dim_speed, "sliding speed of full friction, linear below", &
                       lower=0.0_wp, open_lower=.true.)
    end function rooney_deravi_info
 

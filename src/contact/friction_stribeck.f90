@@ -39,14 +39,15 @@ contains
       type(kind_info_t) :: info  !! name and columns
 
       info%name = "friction.stribeck"
-      info%help = "friction that falls exponentially from the static to the sliding one, and a viscous part"
+      info%help = "Stribeck friction: exponential transition from static to sliding friction, plus a viscous term"
       info%source = "Armstrong-Helouvry, Dupont and Canudas de Wit (1994)"
-      call add_number(info, "coefficient", dim_none, "coefficient of fast sliding", lower=0.0_wp)
-      call add_number(info, "static_coefficient", dim_none, "coefficient of the slowest sliding; at least `coefficient`", &
+      call add_number(info, "coefficient", dim_none, "sliding friction coefficient at high speed", lower=0.0_wp)
+      call add_number(info, "static_coefficient", dim_none, "static friction coefficient; at least `coefficient`", &
                       lower=0.0_wp)
-      call add_number(info, "stribeck_speed", dim_speed, "speed at which the one goes over into the other", default="1e-2 m/s", &
+      call add_number(info, "stribeck_speed", dim_speed, "Stribeck speed", default="1e-2 m/s", &
                       lower=0.0_wp, open_lower=.true.)
-      call add_number(info, "v0", dim_speed, "speed over which the force rises from zero", default="1e-4 m/s", lower=0.0_wp, &
+      call add_number(info, "v0", dim_speed, "sliding speed over which friction rises from zero", default="1e-4 m/s", &
+         lower=0.0_wp, &
                       open_lower=.true.)
       call add_number(info, "exponent", dim_none, "exponent of the speed in the exponential", default="2", lower=0.5_wp, &
                       upper=4.0_wp)
@@ -80,7 +81,7 @@ contains
       character(:), allocatable :: message            !! one line, empty: all is well
 
       message = ""
-      if (self%static < self%coefficient) message = "static_coefficient must not be less than coefficient"
+      if (self%static < self%coefficient) message = "static_coefficient must not be smaller than coefficient"
    end function stribeck_mistake
 
    !> Magnitude of the friction force of n contacts.

@@ -39,11 +39,12 @@ contains
       type(kind_info_t) :: info  !! name and columns
 
       info%name = "friction.threlfall"
-      info%help = "Coulomb friction with an exponential approach to the full force"
+      info%help = "Coulomb friction with an exponential approach to its full value"
       info%source = "Flores et al. (2008), eq. (3.15)"
-      call add_number(info, "coefficient", dim_none, "coefficient of friction; 0: frictionless", lower=0.0_wp)
+      call add_number(info, "coefficient", dim_none, "friction coefficient; 0: frictionless", lower=0.0_wp)
       call add_number(info, "v_r", dim_speed, "characteristic sliding speed", lower=0.0_wp, open_lower=.true.)
-      call add_word(info, "above", "above v_r: 95 % of the full force, or growing on, or a jump to the full one as in the book", &
+      call add_word(info, "above", "above v_r: constant at 95 % of the full force, exponential, or a jump to the full force as "// &
+         "in Flores et al. (2008)", &
                     default="continuous", choices="continuous exponential book")
    end function threlfall_info
 

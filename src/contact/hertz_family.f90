@@ -86,8 +86,8 @@ contains
       if (self%stiffness > 0.0_wp) return
       parameters(1) = curved_stiffness(pair)
       if (parameters(1) > 0.0_wp) return
-      message = "law '"//self%name//"' has no stiffness for a contact of plane faces"
-      help = "give its column stiffness, or take a law for plane faces"
+      message = "law '"//self%name//"' gives no stiffness for contact of plane faces"
+      help = "set its column stiffness, or use a law for plane faces"
    end subroutine family_fit
 
    !> Force of n contacts.

@@ -29,7 +29,7 @@ contains
       type(kind_info_t) :: info  !! name and columns
 
       info%name = "contact.dubowsky_freudenstein"
-      info%help = "line contact of a pin in a hole, explicit in the force, inverted"
+      info%help = "line contact of a pin in a hole, inverted from penetration as a function of force"
       info%source = "Flores et al. (2008), eq. (3.10)"
       call add_cylinder_columns(info)
    end function dubowsky_freudenstein_info

@@ -29,7 +29,7 @@ contains
       type(kind_info_t) :: info  !! name and columns
 
       info%name = "contact.exact"
-      info%help = "Hertz contact with the hysteresis damping that delivers the restitution asked for"
+      info%help = "Hertz contact with hysteresis damping that reproduces the given restitution exactly"
       info%source = "Hunt and Crossley (1975), integrated without expansion"
       call add_elastic_columns(info)
       call add_restitution(info)

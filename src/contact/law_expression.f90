@@ -40,7 +40,7 @@ contains
       type(kind_info_t) :: info  !! name and columns
 
       info%name = "contact.expression"
-      info%help = "a law of one's own: the force as an expression in penetration, rate and impact speed"
+      info%help = "user-defined law: the force as an expression of penetration, rate and impact speed"
       info%source = "none"
       call add_expression(info, "force", dim_force, "force from the penetration delta, its rate and the impact speed v0", &
                           variable="delta rate v0", argument=[dim_length, dim_speed, dim_speed])
@@ -126,7 +126,7 @@ contains
       character(:), allocatable :: words                   !! for `gudgeon explain`
 
       words = "force = "//self%whole%source
-      if (parameters(parameter_deepest) < huge(1.0_wp)) words = words//" within its range"
+      if (parameters(parameter_deepest) < huge(1.0_wp)) words = words//" within its valid range"
    end function expression_story
 
 end module law_expression

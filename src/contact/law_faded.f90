@@ -55,7 +55,7 @@ contains
       type(kind_info_t) :: info  !! name
 
       info%name = "contact.faded"
-      info%help = "a law that comes in by degrees"
+      info%help = "a law that fades in with the penetration"
       info%source = "Flores et al. (2008), eq. (5.23)"
    end function faded_info
 
@@ -135,7 +135,7 @@ contains
       real(wp), intent(in) :: parameters(n_law_parameter)  !! (n_law_parameter) of the other law [any]
       character(:), allocatable :: words                   !! as "stiffness 6.6e10 N/m^1.5, comes in over 0.005 mm"
 
-      words = self%law%story(parameters)//", comes in over "//to_text(1.0e3_wp*self%depth)//" mm"
+      words = self%law%story(parameters)//", fades in over "//to_text(1.0e3_wp*self%depth)//" mm"
    end function faded_story
 
 end module law_faded

@@ -31,10 +31,10 @@ contains
       type(kind_info_t) :: info  !! name and columns
 
       info%name = "contact.goldsmith"
-      info%help = "line contact of a pin in a hole; its logarithm depends on the unit of length"
+      info%help = "line contact of a pin in a hole; its logarithm depends on the length unit"
       info%source = "Flores et al. (2008), eq. (3.10)"
       call add_cylinder_columns(info)
-      call add_word(info, "unit", "unit of length that the law's numbers are taken in", default="m", choices="m mm")
+      call add_word(info, "unit", "length unit of the numerical constants of the law", default="m", choices="m mm")
    end function goldsmith_info
 
    !> Take the parameters.

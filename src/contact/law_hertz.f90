@@ -28,7 +28,7 @@ contains
       type(kind_info_t) :: info  !! name and columns
 
       info%name = "contact.hertz"
-      info%help = "elastic contact, F = K delta^n; no energy is lost"
+      info%help = "elastic contact, F = K delta^n; conserves energy"
       info%source = "Flores et al. (2008), eq. (3.2)"
       call add_elastic_columns(info)
    end function hertz_info

@@ -30,7 +30,7 @@ contains
       type(kind_info_t) :: info  !! name and columns
 
       info%name = "contact.hunt_crossley"
-      info%help = "Hertz contact with hysteresis damping; the first order of the exact one near ce = 1"
+      info%help = "Hertz contact with hysteresis damping; first-order approximation of the exact law near ce = 1"
       info%source = "Hunt and Crossley (1975)"
       call add_elastic_columns(info)
       call add_restitution(info)

@@ -45,11 +45,12 @@ contains
       type(kind_info_t) :: info  !! name and columns
 
       info%name = "contact.kelvin_voigt"
-      info%help = "linear spring that gives back a part of the force, or with a dashpot"
+      info%help = "linear spring with a reduced force during separation, or with a dashpot"
       info%source = "Flores et al. (2008), eq. (3.1)"
       call add_number(info, "stiffness", dim_stiffness, "stiffness of the spring", lower=0.0_wp, open_lower=.true.)
       call add_restitution(info)
-      call add_word(info, "form", "what is lost: parting force by ce^2, as the book prints it by ce, or a dashpot", &
+      call add_word(info, "form", "energy loss: force during separation times ce^2, times ce as printed in Flores et al. "// &
+         "(2008), or a dashpot", &
                     default="squared", choices="squared book dashpot")
    end function kelvin_voigt_info
 
@@ -140,7 +141,8 @@ contains
       character(:), allocatable :: words                   !! for `gudgeon explain`
 
       words = "stiffness "//real_text(parameters(1), 6)//" N/m"
-      if (self%returned < 1.0_wp) words = words//", parting force "//real_text(self%returned, 6)//" of it"
+      if (self%returned < 1.0_wp) words = words//", force during separation "//real_text(self%returned, 6)//" times the "// &
+         "elastic force"
       if (parameters(2) > 0.0_wp) words = words//", dashpot "//real_text(parameters(2), 6)//" N.s/m"
    end function kelvin_voigt_story
 

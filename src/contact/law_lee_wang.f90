@@ -30,7 +30,7 @@ contains
       type(kind_info_t) :: info  !! name and columns
 
       info%name = "contact.lee_wang"
-      info%help = "Hertz contact with hysteresis damping; takes about half of the energy that ce asks for"
+      info%help = "Hertz contact with hysteresis damping; dissipates about half of the energy that ce implies"
       info%source = "Lee and Wang (1983)"
       call add_elastic_columns(info)
       call add_restitution(info)

@@ -33,7 +33,7 @@ contains
       type(kind_info_t) :: info  !! name and columns
 
       info%name = "contact.liu"
-      info%help = "a pin in a hole of nearly its size, as an elastic layer"
+      info%help = "a pin in a closely fitting hole, as an elastic layer"
       info%source = "Liu, Zhang and Yang (2007)"
       call add_line_columns(info)
    end function liu_info

@@ -50,7 +50,7 @@ contains
       type(kind_info_t) :: info  !! name
 
       info%name = "contact.part"
-      info%help = "a part of another law"
+      info%help = "a fraction of another law"
       info%source = "Flores et al. (2008), section 6.3"
    end function part_info
 
@@ -109,7 +109,7 @@ contains
       real(wp), intent(in) :: parameters(n_law_parameter)  !! (n_law_parameter) of the other law [any]
       character(:), allocatable :: words                   !! as "stiffness 6.6e10 N/m^1.5, at each base 0.5 of it"
 
-      words = self%law%story(parameters)//", at each base "//to_text(self%share)//" of it"
+      words = self%law%story(parameters)//", at each end "//to_text(self%share)//" times the law"
    end function part_story
 
 end module law_part

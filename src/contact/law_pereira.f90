@@ -43,7 +43,7 @@ contains
       type(kind_info_t) :: info  !! name and columns
 
       info%name = "contact.pereira"
-      info%help = "a power of the penetration, fitted to line contact of a pin in a hole"
+      info%help = "power law of the penetration, fitted to line contact of a pin in a hole"
       info%source = "Pereira, Ramalho and Ambrosio (2011, 2015)"
       call add_line_columns(info)
    end function pereira_info
@@ -72,8 +72,8 @@ contains
 
       c = clearance/mm
       if (c < least .or. c > greatest) then
-         message = "law '"//self%name//"' is fitted to clearances of 5 um to 10 mm, not to "//real_text(c, 4)//" mm"
-         help = "take another law of cylinders: johnson, liu"
+         message = "law '"//self%name//"' is fitted to clearances of 5 um to 10 mm, the clearance here is "//real_text(c, 4)//" mm"
+         help = "use another law of cylinders: johnson, liu"
          return
       end if
       if (c < change) then

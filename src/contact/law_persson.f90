@@ -45,7 +45,7 @@ contains
       type(kind_info_t) :: info  !! name and columns
 
       info%name = "contact.persson"
-      info%help = "a pin in a hole of nearly its size, with the angle of contact of plane elasticity"
+      info%help = "a pin in a closely fitting hole, with the contact angle of plane elasticity"
       info%source = "Persson (1964); Ciavarella and Decuzzi (2001)"
       call add_line_columns(info)
    end function persson_info

@@ -50,7 +50,7 @@ contains
       call add_number(info, "stiffness", dim_stiffness, "contact stiffness; 0: from the sides of the face and the materials", &
                       default="0 N/m", lower=0.0_wp)
       call add_restitution(info)
-      call add_word(info, "damping", "damping factor: Lankarani and Nikravesh's, or the one that delivers ce", &
+      call add_word(info, "damping", "damping factor: Lankarani and Nikravesh's, or the one that reproduces ce exactly", &
                     default="lankarani_nikravesh", choices="lankarani_nikravesh exact")
    end function plane_face_info
 
@@ -80,7 +80,7 @@ contains
       if (pair%shape == shape_face) parameters(1) = face_stiffness(pair)
       if (parameters(1) > 0.0_wp) return
       message = "law '"//self%name//"' needs a plane face with length and width"
-      help = "give its column stiffness, or the sides of the face; for curved surfaces take a law of Hertz's family"
+      help = "set its column stiffness, or the sides of the face; for curved surfaces use a law of the Hertz family"
    end subroutine plane_face_fit
 
    !> Force of n contacts.

@@ -50,7 +50,7 @@ module floors
    type :: floor_t
       real(wp) :: part = 0.0_wp             !! the number [1]
       integer :: of = 0                     !! of what, one of the above
-      character(80) :: meaning = ""         !! what it is for
+      character(96) :: meaning = ""         !! what it is for
    end type floor_t
 
 contains
@@ -59,24 +59,25 @@ contains
    pure function all_floors() result(list)
       type(floor_t), allocatable :: list(:)  !! (floors) in the order of the rooms
 
-      list = [floor_t(gentle, of_contact, "impact speed in damping terms, of that which its depth would take"), &
-              floor_t(remembered, of_speed, "speed that errors are measured by while all is slow"), &
-              floor_t(late, of_run, "speed that errors are measured by, from rest"), &
-              floor_t(idle_part, of_run, "speed of a mechanism that never moves"), &
-              floor_t(least_hold, of_pace, "gain of baumgarte_adaptive"), &
-              floor_t(at_rest, of_speed, "sliding that is none, at an onset and where drivers prescribe it"), &
-              floor_t(standstill, of_speed, "sliding at which slip ends"), &
-              floor_t(captured, of_tolerance, "in space: sliding at which slip ends"), &
-              floor_t(contact_lever, of_contact, "penetration; in space: lever of turns that friction does not hold"), &
-              floor_t(torn, of_speed, "sliding that ends sticking all the same"), &
-              floor_t(least_band, of_speed, "sliding the wrong way that is borne after a chatter, at first"), &
-              floor_t(widest_band, of_speed, "sliding the wrong way that is borne after a chatter, at last"), &
-              floor_t(settling, of_pace, "decay of the sliding left over while sticking"), &
-              floor_t(chatter_time, of_contact, "time between slip and stick that is chatter, of its own sqrt(depth m/F_N)"), &
-              floor_t(look_ahead, of_step, "how far is looked whether drivers move a contact at rest"), &
-              floor_t(no_acceleration, of_acceleration, "sliding acceleration that no force changes, and is none"), &
-              floor_t(least_mobility, of_mobility, "yielding of the bodies that is none"), &
-              floor_t(shortest_difference, of_time, "time over which rates of events are taken")]
+      list = [floor_t(gentle, of_contact, "minimum impact speed in damping terms, over the speed of the present penetration"), &
+              floor_t(remembered, of_speed, "minimum speed for error control during slow motion"), &
+              floor_t(late, of_run, "minimum speed for error control, from rest"), &
+              floor_t(idle_part, of_run, "characteristic speed of a mechanism that never moves"), &
+              floor_t(least_hold, of_pace, "minimum gain of baumgarte_adaptive"), &
+              floor_t(at_rest, of_speed, "negligible sliding speed, at onset and where drivers prescribe it"), &
+              floor_t(standstill, of_speed, "sliding speed at the slip-to-stick transition"), &
+              floor_t(captured, of_tolerance, "sliding speed at the slip-to-stick transition, in space"), &
+              floor_t(contact_lever, of_contact, "lever arm of spin without friction torque, in space, over the penetration"), &
+              floor_t(torn, of_speed, "sliding speed that ends sticking by drift"), &
+              floor_t(least_band, of_speed, "reverse-slip tolerance after stick-slip chatter, initial"), &
+              floor_t(widest_band, of_speed, "reverse-slip tolerance after stick-slip chatter, final"), &
+              floor_t(settling, of_pace, "decay rate of residual sliding while sticking"), &
+              floor_t(chatter_time, of_contact, &
+                      "stick-slip interval that counts as chatter, over sqrt(penetration m/F_N)"), &
+              floor_t(look_ahead, of_step, "look-ahead time for driver motion of a contact at rest"), &
+              floor_t(no_acceleration, of_acceleration, "negligible sliding acceleration"), &
+              floor_t(least_mobility, of_mobility, "negligible compliance"), &
+              floor_t(shortest_difference, of_time, "time for the rates of event functions")]
    end function all_floors
 
 end module floors

@@ -18,7 +18,7 @@ contains
       type(column_t), allocatable :: grown(:)
       integer :: i, n
 
-      if (len(column%name) > longest_column) error stop "internal mistake: a column with too long a name"
+      if (len(column%name) > longest_column) error stop "internal error: a column with too long a name"
       n = 0
       if (allocated(info%columns)) n = size(info%columns)
       allocate (grown(n + 1))

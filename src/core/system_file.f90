@@ -73,7 +73,7 @@ contains
                bytes(i:i) = store(i)
             end do
          else
-            message = "there is no memory for its "//to_text(n)//" bytes"
+            message = "not enough memory for its "//to_text(n)//" bytes"
          end if
          call c_free(address)
       else
@@ -83,7 +83,7 @@ contains
          case (is_too_large)
             message = "it is too large: more than "//to_text(most)//" bytes"
             if (n > most .and. stream == 0) message = "it is too large: "//to_text(n)//" bytes, the limit is "//to_text(most)
-         case (no_entry); message = "there is no such file"
+         case (no_entry); message = "no such file"
          case default; message = system_message(int(code))
          end select
       end if

@@ -89,11 +89,11 @@ contains
       end if
       if (len(message) > 0) return
       if (at <= len(string)) then
-         message = "'"//string(at:at)//"' has no place in a unit"
+         message = "'"//string(at:at)//"' is not allowed in a unit"
          first = at
          last = at
       else if (abs(unit%offset) > 0.0_wp .and. string /= "degC") then
-         message = "degC stands alone only; use K in a compound unit"
+         message = "degC must stand alone; use K in a compound unit"
          first = 1
          last = len(string)
       end if
@@ -150,16 +150,16 @@ contains
       first = at
       last = max(at, len(string))
       if (at > len(string)) then
-         message = "the unit ends too early"
+         message = "the unit is incomplete"
          return
       end if
       if (string(at:at) == "(" .and. depth < deepest) then
          at = at + 1
          call parse_product(string, at, depth + 1, unit, message, first, last)
          if (len(message) > 0) return
-         if (at > len(string)) message = "a parenthesis is not closed"
+         if (at > len(string)) message = "missing closing parenthesis"
          if (len(message) > 0) return
-         if (string(at:at) /= ")") message = "a parenthesis is not closed"
+         if (string(at:at) /= ")") message = "missing closing parenthesis"
          if (len(message) > 0) return
          at = at + 1
       else if (string(at:at) == "1") then
@@ -169,7 +169,7 @@ contains
          length = scan(string(at:), "./*^()") - 1
          if (length < 0) length = len(string) - at + 1
          last = at + max(length, 1) - 1
-         if (length == 0) message = "'"//string(at:at)//"' has no place here in a unit"
+         if (length == 0) message = "'"//string(at:at)//"' is not allowed here in a unit"
          if (length == 0) return
          call find_unit(string(at:at + length - 1), unit, is_known)
          if (.not. is_known) then
@@ -201,7 +201,7 @@ contains
       is_fine = length > 0
       if (is_fine) call read_number(string(at + 1:at + length), 0, exponent, is_fine)
       if (.not. is_fine .or. abs(exponent) > 9.0_wp) then
-         message = "the exponent of a unit is a number up to 9, as in s^-1 or m^1.5"
+         message = "the exponent of a unit must be a number up to 9, as in s^-1 or m^1.5"
          first = at
          last = at + max(length, 1)
          return

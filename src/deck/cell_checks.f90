@@ -27,10 +27,10 @@ contains
 
       if (size(list) <= n) return
       if (present(help)) then
-         call mistakes%add(span(list(n + 1), list(size(list))), "too many values "//place, "this is too much", help)
+         call mistakes%add(span(list(n + 1), list(size(list))), "too many values "//place, "unexpected extra value", help)
       else
-         call mistakes%add(span(list(n + 1), list(size(list))), "too many values "//place, "this is too much", &
-                         & "text of several words stands in quotes")
+         call mistakes%add(span(list(n + 1), list(size(list))), "too many values "//place, "unexpected extra value", &
+                         & "put text of several words in quotes")
       end if
    end subroutine check_count
 
@@ -81,12 +81,12 @@ contains
       if (.not. is_low .and. .not. is_high) then
          if (abs(x) > most_angle .and. same_dimension(column%dimension, dim_angle)) then
             call mistakes%add(location, to_text(x)//" rad is out of range "//place, "at most "//to_text(most_angle)// &
-                              " rad of either sign", "the next number is more than 1e-6 rad away: take whole turns off")
+                              " rad in magnitude", "the spacing of numbers exceeds 1e-6 rad here: subtract whole revolutions")
             return
          end if
          if (.not. (abs(x) > 0.0_wp) .or. (abs(x) >= least_magnitude .and. abs(x) <= most_magnitude)) return
-         call mistakes%add(location, to_text(x)//" is out of range "//place, "computed with: 0, and "// &
-                           to_text(least_magnitude)//" to "//to_text(most_magnitude)//" of either sign in SI units")
+         call mistakes%add(location, to_text(x)//" is out of range "//place, "allowed: 0, and "// &
+                           to_text(least_magnitude)//" to "//to_text(most_magnitude)//" in magnitude, in SI units")
          return
       end if
       suffix = ""

@@ -31,7 +31,7 @@ contains
 
       if (token%kind == token_equals) then
          word = ""
-         call mistakes%add(token%location, "an equals sign stands in the wrong place "//place, "a word is wanted here")
+         call mistakes%add(token%location, "misplaced equals sign "//place, "expected a word")
          return
       else if (token%kind /= token_brace) then
          word = text_of(deck, token)
@@ -40,13 +40,13 @@ contains
       end if
       if (allocated(word)) then
          if (len_trim(word) > 0 .or. .not. present(not_empty)) return
-         if (not_empty) call mistakes%add(token%location, "nothing stands in the quotes "//place, "a word is wanted here")
+         if (not_empty) call mistakes%add(token%location, "empty quotes "//place, "expected a word")
          return
       end if
       word = ""
       call read_brace(deck, token, place, .false., compiled, quantity, mistakes)
-      if (quantity%is_good) call mistakes%add(token%location, "a number where a word is wanted "//place, &
-                                            & "this is a number, not a word")
+      if (quantity%is_good) call mistakes%add(token%location, "expected a word, got a number "//place, &
+                                            & "a number")
    end subroutine read_word
 
    !> A list of words; what stands in parentheses is one word, with one blank between two cells that no sign parts.
@@ -80,7 +80,7 @@ contains
          whole = whole//word
          if (list(k)%kind == token_word) depth = depth + n_of(word, "(") - n_of(word, ")")
          if (depth > 0) cycle
-         if (depth < 0) call mistakes%add(list(k)%location, "a parenthesis is not opened "//place)
+         if (depth < 0) call mistakes%add(list(k)%location, "missing opening parenthesis "//place)
          depth = 0
          call words%add(whole)
          places(words%n) = span(list(first), list(k))
@@ -88,7 +88,7 @@ contains
       end do
       value%words = words%get()
       value%places = places(1:words%n)
-      if (depth > 0) call mistakes%add(span(list(first), list(size(list))), "a parenthesis is not closed "//place)
+      if (depth > 0) call mistakes%add(span(list(first), list(size(list))), "missing closing parenthesis "//place)
    end subroutine read_words
 
    !> The word of a brace, or its number as text with an SI unit.
@@ -128,7 +128,7 @@ contains
       k = 1
       do while (k <= size(list))
          if (.not. is_option(list, k)) then
-            call mistakes%add(list(k)%location, "an option is wanted "//place, "not of the form name=value", &
+            call mistakes%add(list(k)%location, "expected an option "//place, "not of the form name=value", &
                             & "options: "//known)
             exit
          end if
@@ -204,7 +204,7 @@ contains
       n = size(options)
       do i = 1, n - 1
          if (options(i)%name == options(n)%name) then
-            call mistakes%add(options(n)%location, "option '"//options(n)%name//"' stands twice "//place)
+            call mistakes%add(options(n)%location, "option '"//options(n)%name//"' is given twice "//place)
          end if
       end do
    end subroutine check_double

@@ -107,11 +107,11 @@ contains
       if (column%size == 1 .or. .not. allocated(value%places)) return
       if (size(value%table) /= column%size) then
          call mistakes%add(value%location, "wrong number of values "//place, to_text(column%size)//" numbers in quotes "// &
-                           "are wanted", "as ""0 0 1""")
+                           "are expected", "as ""0 0 1""")
       else if (.not. same_dimension(value%dimensions(1), column%dimension)) then
-         call mistakes%add(value%location, "wrong dimension "//place, "numbers without a unit are wanted")
+         call mistakes%add(value%location, "wrong dimension "//place, "numbers without a unit are expected")
       else if (.not. any(abs(value%table) > 0.0_wp)) then
-         call mistakes%add(value%location, "no direction "//place, "all numbers are zero")
+         call mistakes%add(value%location, "zero vector as a direction "//place, "all numbers are zero")
       end if
    end subroutine check_list
 
@@ -153,7 +153,7 @@ contains
          value%expression = constant_expression(value%number, column%dimension)
          return
       end if
-      call check_count(list, 1, place, mistakes, "the result of a brace carries its own unit")
+      call check_count(list, 1, place, mistakes, "the result of an expression in braces has its own unit")
       call read_brace(deck, list(1), place, .true., compiled, quantity, mistakes, column)
       call report_dimension(quantity, column%dimension, value%location, place, mistakes)
       if (.not. quantity%is_good) return
@@ -189,9 +189,9 @@ contains
       end if
       if (n /= column%size .and. .not. (column%size == 3 .and. n == 2)) then
          if (column%size == 3) then
-            call mistakes%add(value%location, "wrong number of values "//place, "2 or 3 numbers and one unit are wanted")
+            call mistakes%add(value%location, "wrong number of values "//place, "2 or 3 numbers and one unit are expected")
          else
-            call mistakes%add(value%location, "wrong number of values "//place, "2 numbers and one unit are wanted")
+            call mistakes%add(value%location, "wrong number of values "//place, "2 numbers and one unit are expected")
          end if
          return
       end if
@@ -233,7 +233,7 @@ contains
       second = ""
       if (size(list) == 4) second = text_of(deck, list(3))
       if (second /= "of") then
-         call mistakes%add(value%location, "turns of what is not clear "//place, &
+         call mistakes%add(value%location, "unclear reference of turns "//place, &
                          & "write a time, as 24 ms, or as 2 turns of motor")
          return
       end if

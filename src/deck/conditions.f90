@@ -34,7 +34,7 @@ contains
          if (k < size(list) .and. text_of(deck, list(k)) /= "or") cycle
          n = n + 1
          if (k == first .and. k < size(list)) then
-            call mistakes%add(list(k)%location, "a condition is missing "//place, "nothing stands before this", example)
+            call mistakes%add(list(k)%location, "missing condition "//place, "no condition before this", example)
             return
          end if
          call read_condition(deck, place, list(first:merge(k, k - 1, k == size(list))), conditions(n), mistakes)
@@ -55,8 +55,8 @@ contains
 
       condition%channel = ""
       if (size(list) < 3) then
-         call mistakes%add(span(list(1), list(size(list))), "not a condition "//place, &
-                           "a channel, > or <, and a number with its unit are wanted", example)
+         call mistakes%add(span(list(1), list(size(list))), "invalid condition "//place, &
+                           "expected a channel, > or <, and a number with its unit", example)
          return
       end if
       condition%channel = text_of(deck, list(1))
@@ -67,8 +67,8 @@ contains
       case ("<")
          condition%is_above = .false.
       case default
-         call mistakes%add(list(2)%location, "'"//text_of(deck, list(2))//"' does not compare "//place, &
-                           "> or < is wanted, between blanks", example)
+         call mistakes%add(list(2)%location, "'"//text_of(deck, list(2))//"' is not a comparison "//place, &
+                           "use > or < between blanks", example)
          return
       end select
       call read_number(deck, list(3:), place, quantity, mistakes)

@@ -69,7 +69,7 @@ contains
       end if
       reading%n_byte = len(deck%sources(1)%text, i8)
       call read_lines(deck, 1, reading, mistakes)
-      if (reading%is_new) call mistakes%add(location_of_end(deck), "the deck has no content", "there are comments only")
+      if (reading%is_new) call mistakes%add(location_of_end(deck), "the deck is empty", "only comments")
       deck%is_readable = .not. (reading%is_over .or. reading%is_new)
       if (deck%is_readable) call read_parameters(deck, mistakes)
    end subroutine read_deck
@@ -122,12 +122,12 @@ contains
       reading%section = 0
       last = scan(line(location%first:), "]") + location%first - 1
       if (last < location%first) then
-         call mistakes%add(at, "a section name is not closed", "']' is missing")
+         call mistakes%add(at, "missing end of section name", "']' is missing")
          return
       end if
       name = trim(adjustl(line(location%first + 1:last - 1)))
       if (len(name) == 0) then
-         call mistakes%add(at, "a section name is empty", "a name belongs in the brackets")
+         call mistakes%add(at, "empty section name", "put a name in the brackets")
          return
       end if
       at%first = location%first + index(line(location%first + 1:), name)
@@ -135,7 +135,7 @@ contains
       call has_content(line(last + 1:), first)
       if (first > 0) then
          call mistakes%add(location_t(at%file, at%line, last + first, len_trim(line)), &
-                         & "text after the section name '"//name//"'", "this belongs on a line of its own")
+                         & "text after the section name '"//name//"'", "put this on a separate line")
       end if
       call add_section(deck, name, at)
       reading%section = deck%n_section
@@ -178,7 +178,7 @@ contains
       else if (reading%section > 0) then
          call add_line(deck, reading%section, first)
       else if (.not. reading%is_lost) then
-         call mistakes%add(location, "this line stands in no section", "a section begins with [name]")
+         call mistakes%add(location, "this line is outside any section", "a section starts with [name]")
          reading%is_lost = .true.
       end if
    end subroutine read_line
@@ -203,10 +203,10 @@ contains
       end if
       if (version == deck_version) return
       if (len(version) == 0) then
-         call mistakes%add(location, "the format version cannot be read", "write: deck = "//deck_version)
+         call mistakes%add(location, "invalid format version", "write: deck = "//deck_version)
       else
          call mistakes%add(deck%tokens%t(first + 2)%location, "unsupported format version '"//version//"'", &
-                         & "this program reads version "//deck_version)
+                         & "this program supports version "//deck_version)
       end if
       reading%is_over = .true.
    end subroutine read_version
@@ -216,7 +216,7 @@ contains
       type(location_t), intent(in) :: location        !! of the first line
       type(diagnostics_t), intent(inout) :: mistakes  !! collects what is wrong
 
-      call mistakes%add(location, "the format version is missing", "the first line of a deck is: deck = "//deck_version)
+      call mistakes%add(location, "missing format version", "the first line of a deck must be: deck = "//deck_version)
    end subroutine report_version
 
    !> Read an included file, once: where it is included again nothing is left to read.
@@ -238,19 +238,19 @@ contains
          if (deck%tokens%t(first + 1)%kind /= token_quoted) path = ""
       end if
       if (len(path) == 0) then
-         call mistakes%add(location, "an include without a file", "write: include ""file""")
+         call mistakes%add(location, "missing file name of an include", "write: include ""file""")
          return
       end if
       path = plain_path(beside(deck%sources(location%file)%place, path))
       do k = 1, reading%depth
          if (plain_path(deck%sources(reading%chain(k))%name) /= path) cycle
          call mistakes%add(deck%tokens%t(first + 1)%location, "'"//path//"' includes itself", &
-                         & "this file is being read already")
+                         & "this file is already open")
          return
       end do
       if (reading%depth == deepest) then
-         call mistakes%add(deck%tokens%t(first + 1)%location, "includes within includes, more than "//to_text(deepest)//" deep", &
-                         & "this one is not read", "a file that includes itself by another path, through a link?")
+         call mistakes%add(deck%tokens%t(first + 1)%location, "nested includes exceed the limit of "//to_text(deepest)//" deep", &
+                         & "this file was not read", "check for a file that includes itself by another path, through a link")
          reading%is_over = .true.
          return
       end if
@@ -264,8 +264,8 @@ contains
       end if
       reading%n_byte = reading%n_byte + len(source%text, i8)
       if (reading%n_byte > most_bytes) then
-         call mistakes%add(deck%tokens%t(first + 1)%location, "the deck is too large with its includes: more than "// &
-                         & to_text(most_bytes)//" bytes", "this file is one too many")
+         call mistakes%add(deck%tokens%t(first + 1)%location, "the deck with its includes exceeds "// &
+                         & to_text(most_bytes)//" bytes", "the limit is exceeded here")
          reading%is_over = .true.
          return
       end if

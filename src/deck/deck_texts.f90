@@ -57,7 +57,7 @@ contains
             last = deck%sources(file)%first(at%line) + at%last - 1
          end associate
          old = s(first:last)
-         s = s(1:first - 1)//deck%parameter_text(k)%s//"   # --set; the file has "//old//s(last + 1:)
+         s = s(1:first - 1)//deck%parameter_text(k)%s//"   # --set; in the file: "//old//s(last + 1:)
       end do
    end function text_in_force
 

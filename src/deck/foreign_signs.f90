@@ -40,10 +40,10 @@ contains
          else if (.not. is_quoted .and. code >= 128) then
             plain = plain_sign(code)
             if (plain == "") cycle
-            message = "'"//line(first:last)//"' (U+"//hexadecimal(code)//") is no sign of a deck"
+            message = "'"//line(first:last)//"' (U+"//hexadecimal(code)//") is not allowed in a deck"
             note = "type '"//plain//"'"
             if (plain == "blank") note = "type a blank"
-            if (plain == "nothing") note = "it cannot be seen; delete it"
+            if (plain == "nothing") note = "an invisible character; delete it"
             return
          end if
       end do

@@ -116,7 +116,7 @@ contains
       character(*), intent(in) :: name   !! the column, or the key
 
       place = find_place(item, name)
-      if (place == 0) error stop "internal mistake: "//item%kind//" has no column '"//name//"'"
+      if (place == 0) error stop "internal error: "//item%kind//" has no column '"//name//"'"
    end function place_of
 
    !> The number in a column; of an expression its value at t = 0.

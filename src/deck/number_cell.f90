@@ -30,7 +30,7 @@ contains
       logical :: is_good
 
       if (list(1)%kind == token_brace) then
-         call check_count(list, 1, place, mistakes, "the result of a brace carries its own unit")
+         call check_count(list, 1, place, mistakes, "the result of an expression in braces has its own unit")
          call read_brace(deck, list(1), place, .false., compiled, quantity, mistakes)
          return
       end if

@@ -42,7 +42,7 @@ contains
 
       allocate (value%table(0, 1))
       if (token%kind /= token_quoted .and. token%kind /= token_word) then
-         call mistakes%add(token%location, "a list of numbers is wanted "//place, "not a list", "as ""0 10 20 30 ms""")
+         call mistakes%add(token%location, "expected a list of numbers "//place, "not a list", "as ""0 10 20 30 ms""")
          return
       end if
       call find_words(value%text, token, places)
@@ -146,7 +146,7 @@ contains
 
       allocate (value%table(0, 2))
       if (len(value%text) == 0) then
-         call mistakes%add(value%location, "the name of a file is missing "//place, "a path is wanted here")
+         call mistakes%add(value%location, "missing file name "//place, "expected a path")
          return
       end if
       path = plain_path(beside(deck%sources(value%location%file)%place, value%text))
@@ -202,8 +202,8 @@ contains
          pair = deck%tokens%t(first:first + 1)
       else
          call mistakes%add(span(deck%tokens%t(first), deck%tokens%t(deck%tokens%n)), &
-                           "a line of samples has two cells", to_text(n)//" cells, or not plain ones", &
-                           "place and value, with blanks between them; # begins a comment")
+                           "a line of samples needs two numbers", to_text(n)//" cells, or invalid numbers", &
+                           "use two numbers separated by blanks; # starts a comment")
       end if
    end subroutine read_pair
 
@@ -225,8 +225,8 @@ contains
          open = index(head, "[")
          is_good = .not. is_numeric(head) .and. open /= 1 .and. (open == 0 .or. head(len(head):) == "]")
          if (.not. is_good) then
-            call mistakes%add(pair(k)%location, "samples without names and units "//place, "a name with a unit is wanted here", &
-                              "the first line names the columns, as t[ms] lift[mm]")
+            call mistakes%add(pair(k)%location, "missing names and units of the samples "//place, "expected a name with a unit", &
+                              "the first line must name the columns, as t[ms] lift[mm]")
             return
          end if
          if (open == 0) cycle

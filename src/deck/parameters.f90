@@ -79,7 +79,7 @@ contains
          if (n >= 3) is_good = deck%tokens%t(overrides(k)%first)%kind == token_word .and. &
                              & deck%tokens%t(overrides(k)%first + 1)%kind == token_equals
          if (n < 3 .or. .not. is_good) then
-            call mistakes%add(location_t(k + 1, 1, 1, len(deck%sources(k + 1)%text)), "an override is malformed", &
+            call mistakes%add(location_t(k + 1, 1, 1, len(deck%sources(k + 1)%text)), "invalid override", &
                             & "write --set NAME=VALUE", "as in --set c=0.1mm")
             cycle
          end if
@@ -112,7 +112,7 @@ contains
       is_good = size(list) >= 3
       if (is_good) is_good = list(1)%kind == token_word .and. list(2)%kind == token_equals
       if (.not. is_good) then
-         call mistakes%add(span(list(1), list(size(list))), "a parameter is malformed", "write: name = value unit")
+         call mistakes%add(span(list(1), list(size(list))), "invalid parameter", "write: name = value unit")
          symbol%name = ""
          symbol%kind = symbol_broken
          call deck%symbols%add(symbol)
@@ -144,13 +144,13 @@ contains
       type(diagnostics_t), intent(inout) :: mistakes  !! collects what is wrong
 
       if (is_reserved(name)) then
-         call mistakes%add(location, "'"//name//"' cannot be the name of a parameter", "it has a meaning in expressions")
+         call mistakes%add(location, "'"//name//"' is not allowed as a parameter name", "reserved in expressions")
       else if (name_length(name) /= len(name)) then
-         call mistakes%add(location, "'"//name//"' cannot be the name of a parameter", &
-                         & "a letter first, then letters, digits and _")
+         call mistakes%add(location, "'"//name//"' is not allowed as a parameter name", &
+                         & "use a letter, then letters, digits and _")
       end if
       if (deck%symbols%find(name) > 0) then
-         call mistakes%add(location, "parameter '"//name//"' stands twice", "it has a value already")
+         call mistakes%add(location, "parameter '"//name//"' is defined twice", "already defined")
       end if
    end subroutine check_name
 
@@ -176,7 +176,7 @@ contains
          is_number = .false.
       end if
       if (list(1)%kind == token_equals) then
-         call mistakes%add(list(1)%location, "an equals sign stands in the wrong place "//place)
+         call mistakes%add(list(1)%location, "misplaced equals sign "//place)
       else if (is_number) then
          call read_number(deck, list, place, quantity, mistakes)
          if (.not. quantity%is_good) return

@@ -120,7 +120,7 @@ contains
       call read_quantity(word(1:n), unit, quantity%x, quantity%is_good)
       quantity%dimension = unit%dimension
       if (.not. quantity%is_good) call mistakes%add(location, "'"//word//"' is too large "//place, &
-                                                    "numbers up to "//to_text(largest_quantity)//" in SI units are computed with")
+                                                    "the limit is "//to_text(largest_quantity)//" in SI units")
    end subroutine read_bare
 
    !> Report a word where a number is wanted.
@@ -135,23 +135,23 @@ contains
       integer :: i, n
 
       if (is_not_finite(word)) then
-         call mistakes%add(location, "'"//word//"' is not a finite number "//place, "a number is wanted here")
+         call mistakes%add(location, "'"//word//"' is not finite "//place, "expected a number")
          return
       end if
       help = ""
       n = number_length(word)
       if (n > 0 .and. n < len(word)) then
-         if (word(n + 1:n + 1) == ",") help = "the decimal sign is a point: "//word(1:n)//"."//word(n + 2:)
-         if (scan(word(n + 1:n + 1), "*/+-^(") == 1) help = "an expression stands in braces: {"//word//"}"
+         if (word(n + 1:n + 1) == ",") help = "use a decimal point: "//word(1:n)//"."//word(n + 2:)
+         if (scan(word(n + 1:n + 1), "*/+-^(") == 1) help = "put an expression in braces: {"//word//"}"
       else if (present(deck)) then
          i = deck%symbols%find(word)
          if (i > 0 .and. i <= deck%symbols%n_parameter) help = "write {"//word//"} for the parameter"
       end if
       if (index(word, "{") == 1 .and. index(word, "}", back=.true.) == len(word)) then
-         help = "an expression stands without quotes: "//word
+         help = "write an expression without quotes: "//word
       end if
-      if (len(help) == 0 .and. scan(word, "*/+^()") > 0) help = "an expression stands in braces"
-      call mistakes%add(location, "'"//word//"' is not a number "//place, "a number is wanted here", help)
+      if (len(help) == 0 .and. scan(word, "*/+^()") > 0) help = "put an expression in braces"
+      call mistakes%add(location, "'"//word//"' is not a number "//place, "expected a number", help)
    end subroutine report_not_a_number
 
    !> Read an expression; without a variable its value is worked out.
@@ -185,7 +185,7 @@ contains
          at = token%location
          at%first = token%location%first + fault%first
          at%last = token%location%first + fault%last
-         call mistakes%add(at, "wrong expression "//place, fault%message, fault%help)
+         call mistakes%add(at, "invalid expression "//place, fault%message, fault%help)
          return
       end if
       call evaluate_safely(compiled, 0.0_wp, quantity%x, d1, d2)
@@ -195,7 +195,7 @@ contains
       quantity%is_good = .true.
       if (compiled%is_constant .and. .not. ieee_is_finite(quantity%x)) then
          quantity%is_good = .false.
-         call mistakes%add(token%location, "the expression has no finite value "//place, "not a finite number")
+         call mistakes%add(token%location, "the expression is not finite "//place, "not a finite number")
       end if
    end subroutine read_brace
 
@@ -231,14 +231,14 @@ contains
       quantity%is_good = .false.
       help = ""
       if (.not. quantity%has_unit) then
-         call mistakes%add(location, "a unit is missing "//place, dimension_name(wanted)//" is wanted", &
-                         & "write the unit behind the number; its SI unit is "//unit_text(wanted))
+         call mistakes%add(location, "missing unit "//place, dimension_name(wanted)//" expected", &
+                         & "put the unit after the number; its SI unit is "//unit_text(wanted))
       else
          if (same_dimension(wanted, dim_t(rad=1, s=-1)) .and. same_dimension(quantity%dimension, dim_t(s=-1))) then
-            help = "a rotation is in rad/s, rpm or rev/s, not in Hz; an expression may use 2*pi*f"
+            help = "use rad/s, rpm or rev/s for an angular speed, not Hz; an expression may use 2*pi*f"
          end if
          call mistakes%add(location, "wrong dimension "//place, "this is "//dimension_name(quantity%dimension)//", " &
-                         & //dimension_name(wanted)//" is wanted", help)
+                         & //dimension_name(wanted)//" expected", help)
       end if
    end subroutine report_dimension
 

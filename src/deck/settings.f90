@@ -107,7 +107,7 @@ contains
 
       name = text_of(deck, list(1))
       if (list(1)%kind /= token_word) then
-         call mistakes%add(list(1)%location, "a key is wanted in section "//info%name, "write: key = value", column_list(info))
+         call mistakes%add(list(1)%location, "expected a key in section "//info%name, "write: key = value", column_list(info))
          return
       end if
       k = column_index(info, name)
@@ -118,17 +118,17 @@ contains
                          & "not a key of this section", help//column_list(info))
          return
       end if
-      if (is_set(k)) call mistakes%add(list(1)%location, "key '"//name//"' stands twice in section "//info%name, &
-                                     & "it has a value already", "of files only one that includes the other wins over it")
+      if (is_set(k)) call mistakes%add(list(1)%location, "key '"//name//"' is given twice in section "//info%name, &
+                                     & "already set", "only an including file may override a key of its included file")
       is_set(k) = .true.
       if (size(list) == 1) then
-         call mistakes%add(list(1)%location, "'=' is missing after key '"//name//"' of "//info%name, "write: key = value")
+         call mistakes%add(list(1)%location, "missing '=' after key '"//name//"' of "//info%name, "write: key = value")
       else if (list(2)%kind /= token_equals) then
-         call mistakes%add(span(list(1), list(size(list))), "'=' is missing after key '"//name//"' of "//info%name, &
+         call mistakes%add(span(list(1), list(size(list))), "missing '=' after key '"//name//"' of "//info%name, &
                          & "write: key = value")
       else if (size(list) == 2) then
-         call mistakes%add(list(2)%location, "a value is missing in key "//name//" of "//info%name, &
-                         & "nothing follows the equals sign")
+         call mistakes%add(list(2)%location, "missing value of key "//name//" of "//info%name, &
+                         & "no value after the equals sign")
       else
          call read_value(deck, info%columns(k), "in key "//name//" of "//info%name, list(3:), item%values(k), mistakes)
       end if
@@ -151,8 +151,8 @@ contains
          if (is_set(k)) cycle
          if (.not. allocated(info%columns(k)%default)) then
             missing = missing//" "//info%columns(k)%name
-            if (is_present) call mistakes%add(item%location, "key '"//info%columns(k)%name//"' is missing in section " &
-                     & //info%name, "it has no default", info%columns(k)%name//": "//info%columns(k)%help)
+            if (is_present) call mistakes%add(item%location, "missing key '"//info%columns(k)%name//"' in section " &
+                     & //info%name, "this key has no default", info%columns(k)%name//": "//info%columns(k)%help)
          else
             call read_default(deck, info%name, info%columns(k), "in key "//info%columns(k)%name//" of "//info%name, &
                             & item%values(k), mistakes)
@@ -161,8 +161,8 @@ contains
          end if
       end do
       if (is_present .or. len(missing) == 0 .or. .not. deck%is_readable) return
-      call mistakes%add(item%location, "section "//info%name//" is missing", "the deck ends here", &
-                      & "it is needed for its keys without a default:"//missing)
+      call mistakes%add(item%location, "section "//info%name//" is missing", "end of the deck", &
+                      & "this section is needed for its keys without a default:"//missing)
    end subroutine take_defaults
 
    !> Whether a deck has a section.
@@ -197,8 +197,8 @@ contains
             is_other = .true.
          end do
          if (is_other .and. .not. is_known) then
-            call mistakes%add(deck%sections(i)%location, "section "//name//" is not known in "//words_of(is_spatial), &
-                              "a kind of "//words_of(.not. is_spatial), "the scene says space = " &
+            call mistakes%add(deck%sections(i)%location, "section "//name//" does not exist in "//words_of(is_spatial), &
+                              "a type of "//words_of(.not. is_spatial), "the deck sets space = " &
                               //trim(merge("spatial", "planar ", is_spatial)))
          else if (.not. is_known .and. mistakes%count() >= most_helped) then
             call mistakes%add(deck%sections(i)%location, "unknown section '"//name//"'", "not a section")
@@ -206,8 +206,8 @@ contains
             call report_unknown(deck, i, pack(kinds, is_of_space(kinds, is_spatial)), mistakes)
          else if (.not. kinds(k)%is_table) then
             call seen%enter(to_text(deck%sections(i)%location%file)//" "//name, i, first)
-            if (first > 0) call mistakes%add(deck%sections(i)%location, "section "//name//" stands twice in this file", &
-                                & "settings of a file stand in one place", "first in line " &
+            if (first > 0) call mistakes%add(deck%sections(i)%location, "section "//name//" is given twice in this file", &
+                                & "use one section for all settings of a file", "first in line " &
                                 & //to_text(deck%sections(first)%location%line))
          end if
       end do

@@ -10,7 +10,7 @@ module sight_words
    public :: read_sight_word, sight_words_t
 
    character(*), parameter :: known = "position velocity angle angular_velocity distance distance_rate"
-   character(*), parameter :: numbers_known = "loads see position, velocity, angle, angular_velocity of bodies, position and " &
+   character(*), parameter :: numbers_known = "loads may use position, velocity, angle, angular_velocity of bodies, position and " &
                               //"velocity of points, position, velocity, distance and distance_rate of rows of [request.motion]"
 
    !> Knows them by their quantities.
@@ -77,13 +77,13 @@ contains
       case (sees_angular_velocity)
          dimension = dim_angular_speed
       case default
-         message = "a load cannot see '"//word//"'"
+         message = "a load cannot use '"//word//"'"
          help = nearest_word(quantity, split_blank(known))
          if (len(help) > 0) help = "did you mean '"//item//"."//help//"'? "
          help = help//numbers_known
       end select
       if (len(message) > 0 .or. component >= 0 .or. .not. same_type_as(self, sight_words_t())) return
-      message = "'"//word//"' has no such component"
+      message = "'"//word//"' is not a component"
       help = "components are x, y and, in space, z"
    end subroutine find_sight_word
 

@@ -65,7 +65,7 @@ contains
 
       message = ""
       if (index(string, achar(0)) > 0) then
-         message = "it is not text: it contains zero bytes (a binary file, or UTF-16; a deck is UTF-8)"
+         message = "not a text file: it contains zero bytes (a binary file, or UTF-16; a deck is UTF-8)"
          return
       end if
       n_odd = 0
@@ -73,7 +73,7 @@ contains
          code = iachar(string(i:i))
          if ((code < 32 .and. (code < 9 .or. code > 13)) .or. code == 127) n_odd = n_odd + 1
       end do
-      if (n_odd > len(string)/50) message = "it is not text: it is full of control characters"
+      if (n_odd > len(string)/50) message = "not a text file: it contains too many control characters"
       if (verify(string, " "//achar(9)//achar(10)//achar(13)) == 0) message = "it is empty"
    end function why_not_text
 

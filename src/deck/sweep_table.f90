@@ -80,7 +80,7 @@ contains
       end do
       if (n == 0 .or. n > most_cases) then
          call mistakes%add(value%location, "the file '"//path//"' of the sweep has "//to_text(n)//" rows", &
-                         & "from 1 to "//to_text(most_cases)//" cases are wanted below the line of names")
+                         & "expected 1 to "//to_text(most_cases)//" cases below the line of names")
          return
       end if
       deallocate (parameters)
@@ -158,9 +158,9 @@ contains
       if (cell%is_quoted) then
          cell%is_quoted = len(cell%text) > 1 .and. index(cell%text(2:), """") == len(cell%text) - 1
          if (cell%is_quoted) cell%text = piece(cell%text, 2, len(cell%text) - 1)
-         if (.not. cell%is_quoted) call mistakes%add(cell%location, "a text in quotes is malformed", "write: ""text""")
+         if (.not. cell%is_quoted) call mistakes%add(cell%location, "invalid text in quotes", "write: ""text""")
       else if (len(cell%text) == 0) then
-         call mistakes%add(cell%location, "a cell of the sweep's file is empty", "a value is wanted here")
+         call mistakes%add(cell%location, "empty cell in the sweep file", "expected a value")
       end if
       if (separator == " " .and. at <= len(s)) then
          next = verify(s(at:), blanks)
@@ -222,7 +222,7 @@ contains
                names = deck%symbols%names_of(functions=.false.)
                help = nearest_word(name, names)
                if (len(help) > 0) help = "did you mean '"//help//"'? "
-               call mistakes%add(cells(k)%location, "'"//name//"' is not a parameter of the deck", "nothing to sweep", &
+               call mistakes%add(cells(k)%location, "'"//name//"' is not a parameter of the deck", "not a parameter", &
                                & help//"parameters: "//join(names, " "))
                cycle
             end if
@@ -233,7 +233,8 @@ contains
             at = cells(k)%location
             at%first = at%first + open
             if (index(head, "]") /= len(head) .or. column%symbol%kind == symbol_word) then
-               call mistakes%add(cells(k)%location, "the unit of '"//name//"' cannot be read", "write: name[unit]; a word has none")
+               call mistakes%add(cells(k)%location, "the unit of '"//name//"' is invalid", "write: name[unit]; omit the "// &
+                  "unit of a word")
                cycle
             end if
             column%unit_name = head(open + 1:len(head) - 1)
@@ -260,7 +261,7 @@ contains
 
       if (size(cells) /= size(columns)) then
          call mistakes%add(location_t(cells(1)%location%file, cells(1)%location%line, cells(1)%location%first, &
-                                      cells(size(cells))%location%last), "a row of the sweep's file has "// &
+                                      cells(size(cells))%location%last), "a row of the sweep file has "// &
                          & to_text(size(cells))//" cells", "the first line names "//to_text(size(columns)))
          return
       end if
@@ -282,7 +283,7 @@ contains
       if (cell%is_quoted) then
          call column%texts%add(""""//cell%text//"""")
       else if (is_numeric(cell%text) .or. scan(cell%text, "{}= ") > 0) then
-         call mistakes%add(cell%location, "parameter '"//column%symbol%name//"' is a word in the deck", "this is not a word")
+         call mistakes%add(cell%location, "parameter '"//column%symbol%name//"' is a word in the deck", "not a word")
       else
          call column%texts%add(cell%text)
       end if
@@ -302,7 +303,7 @@ contains
       word = cell%text
       if (.not. is_numeric(word)) then
          call mistakes%add(cell%location, "'"//word//"' is not a number in the sweep of "//column%symbol%name, &
-                         & "a number is wanted here")
+                         & "expected a number")
          return
       end if
       if (number_length(word) == len(word)) word = word//column%unit_name

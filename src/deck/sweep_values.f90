@@ -67,7 +67,7 @@ contains
             is_good = size(list) >= 3
             if (is_good) is_good = list(1)%kind == token_word .and. list(2)%kind == token_equals
             if (.not. is_good) then
-               call mistakes%add(span(list(1), list(size(list))), "a line of the sweep is malformed", &
+               call mistakes%add(span(list(1), list(size(list))), "invalid line of the sweep", &
                                & "write: parameter = value value unit")
                cycle
             end if
@@ -82,7 +82,7 @@ contains
             n = n + 1
             call table%enter(swept(n)%name, n, previous)
             if (previous > 0) call mistakes%add(swept(n)%location, "parameter '"//swept(n)%name//"' is swept twice", &
-                                              & "it has its values already")
+                                              & "already listed")
          end associate
       end do
       sweep%parameters = swept(:n)
@@ -109,7 +109,7 @@ contains
       do k = 1, size(of_file)
          call table%enter(of_file(k)%name, size(sweep%parameters) + k, previous)
          if (previous > 0) call mistakes%add(of_file(k)%location, "parameter '"//of_file(k)%name//"' is swept twice", &
-                                           & "the file has values of it, or has it twice")
+                                           & "the sweep file contains it, too")
       end do
       sweep%n_together = max(1, size(of_file))
       sweep%parameters = [of_file, sweep%parameters]
@@ -126,7 +126,7 @@ contains
 
       if (mistakes%count() > 0) return
       if (size(sweep%parameters) == 0) then
-         call mistakes%add(deck%sections(section)%location, "the sweep has no parameters", "nothing to change", &
+         call mistakes%add(deck%sections(section)%location, "the sweep has no parameters", "nothing to vary", &
                          & "write: parameter = value value unit")
          return
       end if
@@ -139,7 +139,7 @@ contains
          if (size(sweep%parameters(k)%texts) == size(sweep%parameters(1)%texts)) cycle
          call mistakes%add(sweep%parameters(k)%location, "'"//sweep%parameters(k)%name//"' has " &
                          & //to_text(size(sweep%parameters(k)%texts))//" values, '"//sweep%parameters(1)%name//"' has " &
-                         & //to_text(size(sweep%parameters(1)%texts)), "paired parameters have equally many values")
+                         & //to_text(size(sweep%parameters(1)%texts)), "paired parameters need equal numbers of values")
       end do
    end subroutine check_whole
 
@@ -166,7 +166,7 @@ contains
          names = deck%symbols%names_of(functions=.false.)
          help = nearest_word(swept%name, names)
          if (len(help) > 0) help = "did you mean '"//help//"'? "
-         call mistakes%add(list(1)%location, "'"//swept%name//"' is not a parameter of the deck", "nothing to sweep", &
+         call mistakes%add(list(1)%location, "'"//swept%name//"' is not a parameter of the deck", "not a parameter", &
                          & help//"parameters: "//join(names, " "))
          return
       end if
@@ -194,7 +194,7 @@ contains
       do k = 1, size(list)
          word = text_of(deck, list(k))
          if (list(k)%kind == token_brace .or. list(k)%kind == token_equals .or. is_numeric(word)) then
-            call mistakes%add(list(k)%location, "parameter '"//swept%name//"' is a word in the deck", "this is not a word")
+            call mistakes%add(list(k)%location, "parameter '"//swept%name//"' is a word in the deck", "not a word")
             cycle
          end if
          if (list(k)%kind == token_quoted) word = """"//word//""""
@@ -285,12 +285,12 @@ contains
          is_good = is_good .and. all(units == unit .or. units == "")
       end if
       if (.not. is_good) then
-         call mistakes%add(span(list(1), list(size(list))), "cannot read the range of '"//swept%name//"'", &
+         call mistakes%add(span(list(1), list(size(list))), "invalid range of '"//swept%name//"'", &
                          & "write: FROM .. TO UNIT in NUMBER", "as in 1000 .. 5000 rpm in 9, or 0.01 .. 1 mm in 5 geometric")
          return
       end if
       if (is_geometric .and. .not. ends(1)*ends(2) > 0.0_wp) then
-         call mistakes%add(span(list(1), list(3)), "a geometric range cannot reach or cross zero", "both ends of one sign")
+         call mistakes%add(span(list(1), list(3)), "a geometric range must not include zero", "use ends of equal sign")
          return
       end if
       call spread_values(ends, n_values, is_geometric, unit, swept)

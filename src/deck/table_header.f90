@@ -42,8 +42,8 @@ contains
       do k = 1, size(list)
          if (list(k)%kind /= token_equals) cycle
          allocate (headers(0))
-         call mistakes%add(list(k)%location, "table "//info%name//" begins with a setting", &
-                         & "a line of column names is wanted", column_list(info))
+         call mistakes%add(list(k)%location, "table "//info%name//" starts with a setting", &
+                         & "expected a line of column names", column_list(info))
          return
       end do
       allocate (headers(size(list)))
@@ -56,7 +56,7 @@ contains
          if (headers(k)%column == is_broken) n_broken = n_broken + 1
          if (headers(k)%column == is_broken) cycle
          if (is_taken(headers(k)%column)) then
-            call mistakes%add(list(k)%location, "column '"//plain_name(text_of(deck, list(k)))//"' stands twice in table " &
+            call mistakes%add(list(k)%location, "column '"//plain_name(text_of(deck, list(k)))//"' is given twice in table " &
                             & //info%name)
             headers(k)%column = is_broken
             cycle
@@ -71,13 +71,14 @@ contains
       at = span(list(1), list(size(list)))
       is_there = any(headers%column == is_name_column)
       if (.not. is_there .and. n_broken == 0) then
-         call mistakes%add(at, "column 'name' is missing in table "//info%name, "each row has a name")
+         call mistakes%add(at, "missing column 'name' in table "//info%name, "each row needs a name")
       end if
       if (.not. allocated(info%columns)) return
       do i = 1, size(info%columns)
          if (allocated(info%columns(i)%default) .or. any(headers%column == i)) cycle
          if (n_broken > 0) cycle
-         call mistakes%add(at, "column '"//info%columns(i)%name//"' is missing in table "//info%name, "it has no default", &
+         call mistakes%add(at, "missing column '"//info%columns(i)%name//"' in table "//info%name, "this column has no "// &
+            "default", &
                          & info%columns(i)%name//": "//info%columns(i)%help)
       end do
    end subroutine read_table_header
@@ -99,8 +100,8 @@ contains
       name = plain_name(word)
       if (token%kind /= token_word .or. len(name) == 0) then
          help = ""
-         if (len(name) == 0) help = "a unit follows its column without a blank: mass[kg]"
-         call mistakes%add(at, "'"//word//"' is not a column name in table "//info%name, "a name is wanted here", help)
+         if (len(name) == 0) help = "put the unit directly after its column: mass[kg]"
+         call mistakes%add(at, "'"//word//"' is not a column name in table "//info%name, "expected a name", help)
          return
       end if
       k = column_index(info, name)
@@ -108,7 +109,7 @@ contains
          at%last = at%first + len(name) - 1
          help = nearest_word(name, names_of(info))
          if (len(help) > 0) help = "did you mean '"//help//"'? "
-         call mistakes%add(at, "unknown column '"//name//"' in table "//info%name, "not a column of this kind", &
+         call mistakes%add(at, "unknown column '"//name//"' in table "//info%name, "not a column of this table", &
                          & help//column_list(info))
          return
       end if
@@ -116,10 +117,10 @@ contains
       if (len(name) == len(word)) return
       at%first = at%first + len(name)
       if (word(len(word):) /= "]") then
-         call mistakes%add(at, "the unit of column '"//name//"' is not closed", "']' is missing")
+         call mistakes%add(at, "missing end of the unit of column '"//name//"' is not closed", "']' is missing")
          header%column = is_broken
       else if (k == is_name_column) then
-         call mistakes%add(at, "column 'name' of table "//info%name//" has a unit", "it holds words")
+         call mistakes%add(at, "column 'name' of table "//info%name//" has a unit", "it contains words")
       else
          call read_header_unit(info, info%columns(k), word(len(name) + 2:len(word) - 1), at, header, mistakes)
       end if
@@ -150,7 +151,7 @@ contains
       header%has_unit = is_good
       if (is_good .and. .not. column%is_any .and. .not. same_dimension(header%unit%dimension, column%dimension)) then
          call mistakes%add(inside, "wrong dimension "//place, "this is "//dimension_name(header%unit%dimension)//", " &
-                         & //dimension_name(column%dimension)//" is wanted")
+                         & //dimension_name(column%dimension)//" expected")
          is_good = .false.
       end if
       if (.not. is_good) header%column = is_broken

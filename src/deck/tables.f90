@@ -180,31 +180,31 @@ contains
       if (mistakes%count() > count_before) return
       if (len(word) > longest_name) then
          call mistakes%add(token%location, "a name in "//info%name//" is too long", "at most "//to_text(longest_name)// &
-                           & " characters", "names become names of files")
+                           & " characters", "names are used as file names")
          return
       end if
       if (.not. is_name(word)) then
          bad = verify(word, "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789_-")
          if (len(word) == 0) then
-            call mistakes%add(token%location, "an empty name in "//info%name, "a name is wanted here")
+            call mistakes%add(token%location, "empty name in "//info%name, "expected a name")
          else if (bad > 0) then
             at = token%location
             at%first = at%first + bad - 1
             at%last = at%first
             if (token%kind == token_quoted) at = token%location
-            note = "not allowed"
+            note = "invalid character"
             if (iachar(word(bad:bad)) < 128) note = "'"//word(bad:bad)//"' is not allowed"
             call mistakes%add(at, "'"//word//"' is not a name in "//info%name, note//" in a name", &
                             & "names consist of the letters a to z and A to Z, digits, _ and -")
          else
-            call mistakes%add(token%location, "'"//word//"' is not a name in "//info%name, "a letter or digit is missing")
+            call mistakes%add(token%location, "'"//word//"' is not a name in "//info%name, "expected a letter or digit")
          end if
          return
       end if
       items(n)%name = word
       call table%names%enter(word, n, previous)
       if (previous > 0) then
-         call mistakes%add(token%location, "'"//word//"' stands twice in "//info%name, "this name is taken", &
+         call mistakes%add(token%location, "'"//word//"' is given twice in "//info%name, "name already used", &
                          & "first in line "//to_text(items(previous)%location%line))
       end if
    end subroutine read_name
@@ -229,7 +229,7 @@ contains
       if (.not. is_set) then
          if (allocated(info%columns(header%column)%default)) return
          is_set = .true.
-         call mistakes%add(token%location, "a value is missing "//place, "there is no default")
+         call mistakes%add(token%location, "missing value "//place, "this column has no default")
       else if (header%has_unit) then
          call read_value(deck, info%columns(header%column), place, list, value, mistakes, header%unit)
       else
@@ -277,19 +277,19 @@ contains
          if (.not. is_numeric(text_of(deck, list(k))) .or. is_numeric(text_of(deck, list(k + 1)))) cycle
          word = text_of(deck, list(k + 1))
          call parse_unit(word, unit, message, first, last)
-         if (len(message) == 0) help = "in tables a unit is glued to its number: "//text_of(deck, list(k))//word
+         if (len(message) == 0) help = "in tables, put the unit directly after its number: "//text_of(deck, list(k))//word
       end do
-      if (any(list%kind == token_equals)) help = "a row holds cells only; settings stand in a section of their own"
+      if (any(list%kind == token_equals)) help = "a row has only cells; put settings in a separate section"
       if (size(list) > n_wanted) then
          at = span(list(n_wanted + 1), list(size(list)))
-         note = "too much"
+         note = "unexpected extra cell"
       else
          at = list(size(list))%location
          at%first = at%last + 1
          at%last = at%first
-         note = "too few"
+         note = "cells missing"
       end if
-      if (len(help) == 0) help = "a cell without blanks for each column; - takes the default"
+      if (len(help) == 0) help = "one cell without blanks for each column; use - for the default"
       call mistakes%add(at, "row '"//name//"' of "//info%name//" has "//to_text(size(list))//" cells, the header has " &
                       & //to_text(n_wanted), note, help)
    end subroutine report_count

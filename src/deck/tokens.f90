@@ -74,7 +74,8 @@ contains
          if (skip > 0) previous = token_equals
          if (line(at:at) == "#") return
          if (find_foreign_comment(line(at:))) then
-            call mistakes%add(location_t(file, number, at, len_trim(line)), "a comment begins with '#'", "not with this")
+            call mistakes%add(location_t(file, number, at, len_trim(line)), "a comment starts with '#'", "invalid comment "// &
+               "character")
             is_good = list%n > n
             return
          end if
@@ -85,8 +86,8 @@ contains
             return
          end if
          if (previous /= token_equals .and. kind /= token_equals) then
-            call mistakes%add(location_t(file, number, at, last), "a blank is missing between two cells", &
-                            & "a blank belongs before this", glued_help(previous))
+            call mistakes%add(location_t(file, number, at, last), "missing blank between two cells", &
+                            & "insert a blank before this", glued_help(previous))
             is_good = .false.
             return
          end if
@@ -149,12 +150,12 @@ contains
 
       select case (sign)
       case ("{")
-         call mistakes%add(location, "a brace is not closed", "'}' is missing", "an expression ends on its line")
+         call mistakes%add(location, "missing closing brace", "'}' is missing", "close an expression on the same line")
       case ("}")
-         call mistakes%add(location, "a brace is not opened", "'{' is missing before this")
+         call mistakes%add(location, "missing opening brace", "'{' is missing before this")
       case default
-         call mistakes%add(location, "a quote is not closed", "'""' is missing", &
-                         & "quoted text ends on its line; \"" and \n stand for a quote and a new line")
+         call mistakes%add(location, "missing closing quote", "'""' is missing", &
+                         & "close quoted text on the same line; \"" is a quote and \n a new line")
       end select
    end subroutine complain
 
@@ -164,7 +165,7 @@ contains
       character(:), allocatable :: help  !! the line
 
       help = ""
-      if (previous == token_brace) help = "the result of a brace carries its own unit"
+      if (previous == token_brace) help = "the result of an expression in braces has its own unit"
    end function glued_help
 
    !> The text of a token: a word, an expression without braces, or text without quotes and escapes.

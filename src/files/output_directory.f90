@@ -20,7 +20,7 @@ module output_directory
    integer, parameter :: most_attempts = 20  !! at a directory that others change at the same time
    integer, parameter :: most_kept = 9999    !! runs kept beside a directory because of other files in them
 
-   character(*), parameter :: elsewhere = "name another directory with --out DIRECTORY"  !! what to do
+   character(*), parameter :: elsewhere = "choose another directory with --out DIRECTORY"  !! what to do
 
    !> A directory that belongs to this run until it is closed.
    type :: output_directory_t
@@ -56,14 +56,14 @@ contains
       allocate (self%warnings(0))
       self%path = without_slash(path)
       if (len(self%path) == 0) then
-         call set_error(error, exit_file, "the output directory has no name; name one with --out DIRECTORY")
+         call set_error(error, exit_file, "the output directory has no name; give one with --out DIRECTORY")
          return
       end if
       self%place = self%path
       if (path_exists(self%place)) then
          self%place = real_path(self%place)
       else if (is_link(self%place)) then
-         call set_error(error, exit_file, self%path//" is a symbolic link to something that does not exist; "//elsewhere)
+         call set_error(error, exit_file, self%path//" is a symbolic link to a missing target; "//elsewhere)
          return
       end if
       call make_parent(self%place, error)
@@ -73,7 +73,7 @@ contains
       end do
       if (allocated(error)) return
       if (self%descriptor < 0) then
-         call set_error(error, exit_file, "others change "//self%path//" all the time; "//elsewhere)
+         call set_error(error, exit_file, "other programs change "//self%path//" continually; "//elsewhere)
          return
       end if
       if (allocated(self%older)) then
@@ -82,7 +82,7 @@ contains
          attempt = begin_marker(self%path)
       end if
       if (attempt == 0) return
-      call fail_file(error, "cannot write", self%path//"/"//marker_name, attempt, "Make room there, or "//elsewhere//".")
+      call fail_file(error, "cannot write", self%path//"/"//marker_name, attempt, "Free disk space there, or "//elsewhere//".")
       attempt = remove_file(self%path//"/"//marker_name)
       call close_file(self%descriptor)
       self%descriptor = -1
@@ -102,11 +102,11 @@ contains
       allocate (self%warnings(0))
       self%path = without_slash(path)
       self%place = real_path(self%path)
-      call lock_marker(self%place, .false., "go on in "//self%path, self%descriptor, error)
+      call lock_marker(self%place, .false., "resume in "//self%path, self%descriptor, error)
       if (allocated(error)) return
       if (self%descriptor >= 0) call read_marker(self%place, marker)
       if (.not. marker%is_ours) then
-         call set_error(error, exit_file, self%path//" is not the output of gudgeon: it has no marker "//marker_name)
+         call set_error(error, exit_file, self%path//" is not an output directory of gudgeon: it has no marker "//marker_name)
       else
          code = begin_marker(self%path, marker)
          if (code /= 0) call fail_file(error, "cannot write", self%path//"/"//marker_name, code, "")
@@ -160,7 +160,7 @@ contains
       if (at <= 1) return
       code = make_directory(path(1:at - 1))
       if (code /= 0) call fail_file(error, "cannot make the directory", path(1:at - 1), code, &
-                                    "Name another one with --out DIRECTORY.")
+                                    "Choose another one with --out DIRECTORY.")
    end subroutine make_parent
 
    !> One step on the way in: a new or empty directory is taken, an older run is moved out of the way. Then, or if another
@@ -178,9 +178,9 @@ contains
       if (code == 0) call list_directory(self%place, names, code)
       if (code /= 0) then
          if (path_exists(self%place) .and. .not. is_directory(self%place)) then
-            call set_error(error, exit_file, self%path//" is a file, not a directory; name another place with --out DIRECTORY")
+            call set_error(error, exit_file, self%path//" is a file, not a directory; choose another one with --out DIRECTORY")
          else
-            call fail_file(error, "cannot make the directory", self%path, code, "Name another one with --out DIRECTORY.")
+            call fail_file(error, "cannot make the directory", self%path, code, "Choose another one with --out DIRECTORY.")
          end if
          return
       end if
@@ -202,7 +202,7 @@ contains
       end if
       if (.not. marker%is_ours) then
          call set_error(error, exit_file, self%path//"/"//marker_name//" was not made by gudgeon, so "//self%path// &
-                        " is left alone; "//elsewhere)
+                        " stays unchanged; "//elsewhere)
       else if (keeps) then
          self%descriptor = file
          self%older = marker
@@ -258,14 +258,14 @@ contains
       do k = 1, size(names)
          select case (names(k)%s)
          case ("run.h5", "sweep.h5", "sweep.runs", "deck.echo", "summary.json")
-            call set_error(error, exit_file, path//" holds "//names(k)%s//", but no marker "//marker_name//" that would say "// &
-                           "that it is the output of gudgeon (older versions made none), so it is left alone; move it "// &
+            call set_error(error, exit_file, path//" holds "//names(k)%s//", but no marker "//marker_name//" that marks "// &
+                           "it as output of gudgeon (old versions wrote none); it stays unchanged. Move it "// &
                            "away, or "//elsewhere)
             return
          end select
       end do
-      call set_error(error, exit_file, path//" holds files that are not the output of gudgeon ("//names(1)%s// &
-                     "), so it is left alone; "//elsewhere)
+      call set_error(error, exit_file, path//" contains files not made by gudgeon ("//names(1)%s// &
+                     ") and stays unchanged; "//elsewhere)
    end subroutine refuse
 
    !> Take the lock of a directory's marker.
@@ -299,7 +299,7 @@ contains
          call set_error(error, exit_file, "cannot "//action//": "//who//" is writing to "//place//"; wait for it, or "//elsewhere)
       else if (code /= 0) then
          call fail_file(error, "cannot "//action//": cannot lock", place//"/"//marker_name, code, &
-                        "The marker of an output directory is a file that can be written; "//elsewhere//".")
+                        "The marker of an output directory must be writable; "//elsewhere//".")
       end if
    end subroutine lock_marker
 
@@ -354,7 +354,7 @@ contains
                else if (older%id == marker%id) then
                   call keep(self, place, "it is a copy", error)
                else if (allocated(tree%foreign)) then
-                  call keep(self, place, "it holds files that gudgeon did not make ("//tree%foreign//")", error)
+                  call keep(self, place, "it contains files not made by gudgeon ("//tree%foreign//")", error)
                else
                   call remove_run(place, code)
                   if (code /= 0) call fail_file(error, "cannot remove the older run", place, code, "Remove it by hand.")
@@ -365,8 +365,8 @@ contains
             call close_file(file)
          end if
       end if
-      call set_error(error, exit_file, "the older run cannot be kept as "//self%path//".1, because what is there "// &
-                     "is not the output of gudgeon (no marker "//marker_name//"); move it away, or "//elsewhere)
+      call set_error(error, exit_file, "the older run cannot be kept as "//self%path//".1: that directory "// &
+                     "is not output of gudgeon (no marker "//marker_name//"); move it away, or "//elsewhere)
    end subroutine free_older
 
    !> Keep an older run under the next free number.

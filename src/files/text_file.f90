@@ -49,7 +49,7 @@ contains
       if (code == 0) code = write_at(self%path, text, self%length)
       if (code /= 0) then
          call fail_file(error, "cannot write", self%path, code, &
-                        "Make room there, or write elsewhere with --out DIRECTORY.")
+                        "Free disk space there, or write elsewhere with --out DIRECTORY.")
          return
       end if
       self%length = self%length + len(text, i8)
@@ -65,7 +65,8 @@ contains
 
       code = cut_file(self%path, length)
       if (code /= 0) then
-         call fail_file(error, "cannot go on with", self%path, code, "It is not as the checkpoint knows it; run the deck anew.")
+         call fail_file(error, "cannot continue", self%path, code, "It differs from the state in the checkpoint; run the "// &
+            "deck again without --resume.")
          return
       end if
       self%length = length
@@ -109,7 +110,7 @@ contains
       if (code == 0) code = rename_path(path//".part", path)
       if (code == 0) call note_files(path)
       if (code == 0) code = sync_path(path(1:max(1, index(path, "/", back=.true.) - 1)))
-      if (code /= 0) call fail_file(error, "cannot put "//path//".part in place of", path, code, "")
+      if (code /= 0) call fail_file(error, "cannot rename "//path//".part to", path, code, "")
    end subroutine put_in_place
 
 end module text_file

@@ -43,7 +43,7 @@ contains
 
       info%name = "force.point"
       info%space = in_plane
-      info%help = "a force at a body-fixed point, components along the world axes as functions of time and motion"
+      info%help = "a force at a body-fixed point; components along the world axes as functions of time and motion"
       info%source = "Flores et al. (2008), section 2.3"
       call add_reference(info, "point", "points", "where the force acts")
       call add_expression(info, "fx", dim_force, "component along world x", default="0 N", sees_motion=.true.)

@@ -64,21 +64,21 @@ contains
       call add_reference(info, "j", "points", "point of the second body")
       call add_number(info, "stiffness", dim_stiffness, "stiffness", default="0 N/m", lower=0.0_wp)
       call add_number(info, "damping", dim_damping, "coefficient of the damper", default="0 N.s/m", lower=0.0_wp)
-      call add_number(info, "free_length", dim_length, "distance of the points at which the stiffness gives no force", &
+      call add_number(info, "free_length", dim_length, "free length: distance of the points without spring force", &
                       default="0 m", lower=0.0_wp)
-      call add_number(info, "preload", dim_force, "tension at the free length, negative if it pushes", default="0 N")
-      call add_expression(info, "actuator", dim_force, "tension as a function of time and motion", default="0 N", &
+      call add_number(info, "preload", dim_force, "preload: tension at the free length, negative for compression", default="0 N")
+      call add_expression(info, "actuator", dim_force, "tension of an actuator as a function of time and motion", default="0 N", &
                           sees_motion=.true.)
-      call add_expression(info, "damper", dim_force, "tension as a function of the rate v of the length, beside the damping", &
+      call add_expression(info, "damper", dim_force, "tension as a function of the rate v of the length, added to the damping", &
                           default="0 N", variable="v", argument=[dim_speed])
-      call add_expression(info, "law", dim_force, "tension as a function of the stretch x from the free length, beside the " &
+      call add_expression(info, "law", dim_force, "tension as a function of the elongation x from the free length, added to the " &
                           //"stiffness", default="0 N", variable="x", argument=[dim_length])
       call add_channel(info, "force", "N", "world", 2, "force on the body of i", of_force)
-      call add_channel(info, "tension", "N", "none", 1, "force along the line of the points, positive if it pulls them together", &
+      call add_channel(info, "tension", "N", "none", 1, "force along the line of the points, positive in tension", &
                        of_tension)
       call add_channel(info, "length", "m", "none", 1, "distance of the points", of_length)
       call add_channel(info, "rate", "m/s", "none", 1, "rate of the distance", of_rate)
-      call add_channel(info, "power", "W", "none", 1, "power given to the bodies by spring, damper and actuator together", of_power)
+      call add_channel(info, "power", "W", "none", 1, "total power of spring, damper and actuator on the bodies", of_power)
    end function spring_info
 
    !> Make the set.

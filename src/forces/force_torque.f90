@@ -42,7 +42,7 @@ contains
 
       info%name = "force.torque"
       info%space = in_plane
-      info%help = "a torque on a body as a function of time and motion, counter-clockwise positive"
+      info%help = "a torque on a body as a function of time and motion, positive counter-clockwise"
       info%source = "Flores et al. (2008), section 2.3"
       call add_reference(info, "body", "bodies", "the body")
       call add_expression(info, "moment", dim_moment, "moment about z", sees_motion=.true.)

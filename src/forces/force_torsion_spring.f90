@@ -57,10 +57,11 @@ contains
       call add_reference(info, "i", "bodies", "first body")
       call add_reference(info, "j", "bodies", "second body")
       call add_turning_law(info)
-      call add_channel(info, "moment", "N.m", "world", 1, "moment on the body of i, counter-clockwise positive", of_moment)
-      call add_channel(info, "angle", "rad", "none", 1, "angle of j relative to i, counter-clockwise, turns counted", of_angle)
+      call add_channel(info, "moment", "N.m", "world", 1, "moment on the body of i, positive counter-clockwise", of_moment)
+      call add_channel(info, "angle", "rad", "none", 1, "angle of j relative to i, counter-clockwise, accumulated over "// &
+         "revolutions", of_angle)
       call add_channel(info, "angular_rate", "rad/s", "none", 1, "rate of the angle", of_angular_rate)
-      call add_channel(info, "power", "W", "none", 1, "power given to the bodies by spring, damper and actuator together", of_power)
+      call add_channel(info, "power", "W", "none", 1, "total power of spring, damper and actuator on the bodies", of_power)
    end function torsion_info
 
    !> Make the set.

@@ -46,7 +46,7 @@ contains
       call add_reference(info, "point", "points", "where the force acts")
       call add_expression(info, "fx", dim_force, "component along x", default="0 N", sees_motion=.true.)
       call add_expression(info, "fy", dim_force, "component along y", default="0 N", sees_motion=.true.)
-      call add_expression(info, "fz", dim_force, "component along z", default="0 N", sees_motion=.true.)
+      call add_expression(info, "fz", dim_force, "frame of the components", default="0 N", sees_motion=.true.)
       call add_word(info, "frame", "whose axes x, y, z are", default="world", choices="world body")
       call add_channel(info, "force", "N", "world", 2, "force on the body", of_force)
       call add_channel(info, "power", "W", "none", 1, "power given to the mechanism", of_power)

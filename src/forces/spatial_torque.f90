@@ -46,7 +46,7 @@ contains
       call add_expression(info, "mx", dim_moment, "component along x", default="0 N.m", sees_motion=.true.)
       call add_expression(info, "my", dim_moment, "component along y", default="0 N.m", sees_motion=.true.)
       call add_expression(info, "mz", dim_moment, "component along z", default="0 N.m", sees_motion=.true.)
-      call add_word(info, "frame", "whose axes x, y, z are", default="world", choices="world body")
+      call add_word(info, "frame", "frame of the components", default="world", choices="world body")
       call add_channel(info, "moment", "N.m", "world", 2, "moment on the body", of_moment)
       call add_channel(info, "power", "W", "none", 1, "power given to the mechanism", of_power)
    end function torque_info

@@ -69,19 +69,20 @@ contains
 
       info%name = "force.torsion_spring"
       info%space = in_space
-      info%help = "torsional spring, damper and actuator between two bodies, about an axis that a joint holds parallel in both"
+      info%help = "torsional spring, damper and actuator between two bodies, about an axis that a joint keeps parallel in both"
       info%source = "Nikravesh (1988), section 4.3"
       info%counts_turns = .true.
       call add_reference(info, "i", "bodies", "first body")
       call add_reference(info, "j", "bodies", "second body")
       call add_direction(info, "axis_i", "axis, in the frame of body i", default='"0 0 1"')
-      call add_direction(info, "axis_j", "axis, in the frame of body j; left out: as the deck puts the bodies", default="")
+      call add_direction(info, "axis_j", "axis, in the frame of body j; default: consistent with the given positions", default="")
       call add_zero_columns(info)
       call add_turning_law(info)
       call add_channel(info, "moment", "N.m", "joint", 1, "moment on the body of i about the axis", of_moment)
-      call add_channel(info, "angle", "rad", "joint", 1, "angle of j relative to i about the axis, turns counted", of_angle)
+      call add_channel(info, "angle", "rad", "joint", 1, "angle of j relative to i about the axis, accumulated over "// &
+         "revolutions", of_angle)
       call add_channel(info, "angular_rate", "rad/s", "joint", 1, "rate of the angle", of_angular_rate)
-      call add_channel(info, "power", "W", "none", 1, "power given to the bodies by spring, damper and actuator together", of_power)
+      call add_channel(info, "power", "W", "none", 1, "total power of spring, damper and actuator on the bodies", of_power)
    end function torsion_info
 
    !> Make the set.
@@ -148,8 +149,8 @@ contains
 
       doubt = ""
       if (self%cosine(k) >= parallel) return
-      doubt = "has axes that came to be "//real_text(acos(max(self%cosine(k), -1.0_wp))*180.0_wp/pi, 3)// &
-              " deg apart: its angle is meant for axes that a joint holds parallel"
+      doubt = "has an angle between its axes of "//real_text(acos(max(self%cosine(k), -1.0_wp))*180.0_wp/pi, 3)// &
+              " deg: its angle is valid only if a joint keeps the axes parallel"
    end function torsion_doubt
 
    !> That the axes have come to be a right angle or more apart: what follows its name in a message.
@@ -158,8 +159,9 @@ contains
       integer, intent(in) :: k                             !! item
       character(:), allocatable :: words                   !! what is wrong
 
-      words = "has lost its angle: its axes are "//real_text(acos(max(self%cosine(k), -1.0_wp))*180.0_wp/pi, 4)// &
-              " deg apart, less than 90 deg is needed: let a joint hold them parallel"
+      words = "has an undefined angle: the angle between its axes is "//real_text(acos(max(self%cosine(k), &
+         -1.0_wp))*180.0_wp/pi, 4)// &
+              " deg, the limit is 90 deg; add a joint that keeps them parallel"
    end function words_of_lost_angle
 
    !> Angle of an item, turns counted.

@@ -48,14 +48,15 @@ contains
 
       call add_number(info, "stiffness", dim_angular_stiffness, "stiffness", default="0 N.m/rad", lower=0.0_wp)
       call add_number(info, "damping", dim_angular_damping, "coefficient of the damper", default="0 N.m.s/rad", lower=0.0_wp)
-      call add_number(info, "free_angle", dim_angle, "angle of j relative to i at which the stiffness gives no moment", &
+      call add_number(info, "free_angle", dim_angle, "free angle: angle of j relative to i without spring moment", &
                       default="0 rad")
       call add_number(info, "preload", dim_moment, "moment on the body of i at the free angle", default="0 N.m")
       call add_expression(info, "actuator", dim_moment, "moment on the body of i as a function of time and motion", &
                           default="0 N.m", sees_motion=.true.)
-      call add_expression(info, "damper", dim_moment, "moment as a function of the rate v of the angle, beside the damping", &
+      call add_expression(info, "damper", dim_moment, "moment as a function of the rate v of the angle, added to the damping", &
                           default="0 N.m", variable="v", argument=[dim_angular_speed])
-      call add_expression(info, "law", dim_moment, "moment as a function of the angle x from the free one, beside the stiffness", &
+      call add_expression(info, "law", dim_moment, "moment as a function of the angle x from the free angle, added to the "// &
+         "stiffness", &
                           default="0 N.m", variable="x", argument=[dim_angle])
    end subroutine add_turning_law
 

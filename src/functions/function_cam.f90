@@ -37,16 +37,16 @@ contains
       type(kind_info_t) :: info  !! name and columns
 
       info%name = "function.cam"
-      info%help = "rise, dwell and return of a cam's follower, called by its name in expressions: {lift(w*t)}"
+      info%help = "rise, dwell and return of a cam follower; expressions call it by its name: {lift(w*t)}"
       info%source = "R. L. Norton, Cam design and manufacturing handbook (2002), chapters 3 and 4"
-      call add_word(info, "law", "how it rises", default="cycloidal", choices=laws)
-      call add_any_number(info, "lift", "how far it rises")
-      call add_any_number(info, "rise", "angle or time that the rise takes")
-      call add_any_number(info, "dwell", "angle or time that it stays up", default="")
-      call add_any_number(info, "return", "angle or time that the return takes; left out: it stays up", default="")
-      call add_word(info, "return_law", "how it returns; left out: as it rises", default="", choices=laws)
-      call add_any_number(info, "start", "where it begins to rise", default="")
-      call add_any_number(info, "period", "angle or time after which it repeats itself; left out: it does not", default="")
+      call add_word(info, "law", "motion law of the rise", default="cycloidal", choices=laws)
+      call add_any_number(info, "lift", "height of the rise")
+      call add_any_number(info, "rise", "angle or time of the rise")
+      call add_any_number(info, "dwell", "angle or time of the dwell", default="")
+      call add_any_number(info, "return", "angle or time of the return; default: no return", default="")
+      call add_word(info, "return_law", "motion law of the return; default: that of the rise", default="", choices=laws)
+      call add_any_number(info, "start", "start of the rise", default="")
+      call add_any_number(info, "period", "angle or time of one period; default: not periodic", default="")
    end function cam_info
 
    !> The curve of a row.
@@ -100,20 +100,20 @@ contains
          end do
          total = rise%number + item%number("dwell") + item%number("return")
          if (.not. rise%number > 0.0_wp) then
-            call complain("rise", "a rise takes more than nothing")
+            call complain("rise", "the rise must be positive")
          else if (item%number("dwell") < 0.0_wp) then
-            call complain("dwell", "a dwell is not negative")
+            call complain("dwell", "the dwell must not be negative")
          else if (item%is_given("return") .and. .not. item%number("return") > 0.0_wp) then
-            call complain("return", "a return takes more than nothing")
+            call complain("return", "the return must be positive")
          else if (item%is_given("dwell") .and. .not. item%is_given("return")) then
-            call complain("dwell", "without a return it stays up for ever")
-            made%help = "give column return, or leave out dwell"
+            call complain("dwell", "without a return the dwell has no end")
+            made%help = "give column return, or omit dwell"
          else if (item%is_given("period") .and. .not. item%is_given("return")) then
-            call complain("period", "without a return it cannot repeat itself")
+            call complain("period", "without a return the function cannot be periodic")
             made%help = "give column return"
          else if (item%is_given("period") .and. item%number("period") < total*(1.0_wp - 8.0_wp*eps)) then
-            call complain("period", "the period is shorter than rise, dwell and return together")
-            made%help = "these take "//to_text(total)
+            call complain("period", "the period is shorter than the sum of rise, dwell and return")
+            made%help = "their sum is "//to_text(total)
             if (unit_text(rise%dimensions(1)) /= "1") made%help = made%help//" "//unit_text(rise%dimensions(1))
          end if
       end associate

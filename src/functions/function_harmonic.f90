@@ -28,7 +28,7 @@ contains
       type(kind_info_t) :: info  !! name and columns
 
       info%name = "function.harmonic"
-      info%help = "sine of the time, called by its name in expressions: {swing(t)}"
+      info%help = "sine of the time; expressions call it by its name: {swing(t)}"
       info%source = "Flores et al. (2008), section 2.2"
       call add_any_number(info, "amplitude", "amplitude")
       call add_number(info, "angular_frequency", dim_angular_speed, "angular frequency; 2 pi times the frequency")
@@ -53,7 +53,7 @@ contains
          if (.not. offset%given .or. same_dimension(offset%dimensions(1), made%dimension)) return
          made%column = place_of(item, "offset")
          made%message = "the amplitude is "//dimension_name(made%dimension)
-         made%help = "amplitude and offset have the same dimension"
+         made%help = "amplitude and offset need the same dimension"
       end associate
    end subroutine harmonic_make
 

@@ -38,15 +38,15 @@ contains
       integer :: k
 
       info%name = "function.polynomial"
-      info%help = "polynomial of the time, called by its name in expressions: {lift(t)}"
+      info%help = "polynomial of the time; expressions call it by its name: {lift(t)}"
       info%source = "Flores et al. (2008), section 2.2"
       do k = 0, degree
          call add_any_number(info, "c"//to_text(k), "coefficient of (t - origin)^"//to_text(k), default="0")
       end do
-      call add_number(info, "origin", dim_time, "time from which the powers count", default="0 s")
-      call add_number(info, "end", dim_time, "time up to which the polynomial reaches, from the origin; left out: it goes on for " &
-                      //"ever, either way", default="")
-      call add_word(info, "beyond", "what is before the origin and after the end, if there is one", default="hold", &
+      call add_number(info, "origin", dim_time, "origin of the time for the powers", default="0 s")
+      call add_number(info, "end", dim_time, "end of the domain, from the origin; default: unlimited " &
+                      //"on both sides", default="")
+      call add_word(info, "beyond", "continuation before the origin and after the end, if there is one", default="hold", &
                     choices="hold linear error")
    end function polynomial_info
 
@@ -76,7 +76,7 @@ contains
                made%dimension = dimension
             else if (.not. same_dimension(dimension, made%dimension)) then
                made%column = column
-               made%message = "column c"//to_text(first - 1)//" makes the function "//dimension_name(made%dimension)
+               made%message = "column c"//to_text(first - 1)//" gives the function "//dimension_name(made%dimension)
                made%help = "so the unit of c"//to_text(k)//" is "//unit_over_time(made%dimension, k)
                return
             end if
@@ -93,7 +93,7 @@ contains
          if (end <= origin) then
             made%column = place_of(item, "end")
             made%message = "the end must be after the origin"
-            made%help = "the polynomial reaches from "//to_text(origin)//" s to its end"
+            made%help = "the domain of the polynomial starts at "//to_text(origin)//" s to its end"
             return
          end if
          made%curve%x = [origin, end]

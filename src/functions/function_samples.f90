@@ -42,17 +42,17 @@ contains
       type(kind_info_t) :: info  !! name and columns
 
       info%name = "function.samples"
-      info%help = "smooth curve through samples, called by its name in expressions: {lift(t)}"
+      info%help = "smooth curve through samples; expressions call it by its name: {lift(t)}"
       info%source = "de Boor (1978), chapter IV; Akima (1970)"
-      call add_list(info, "at", "places of the samples, increasing", default="")
-      call add_list(info, "value", "values of the samples", default="")
-      call add_file(info, "file", "two columns, relative to the deck, with names and units in the first line; instead of at " &
+      call add_list(info, "at", "abscissas of the samples, increasing", default="")
+      call add_list(info, "value", "ordinates of the samples", default="")
+      call add_file(info, "file", "two-column file, relative to the deck, with names and units in the first line; instead of at " &
                     //"and value", default="")
-      call add_word(info, "curve", "what goes through the samples: a cubic spline, or Akima's curve, less disturbed by a wild " &
-                    //"sample, which bends at each", default="spline", choices="spline akima")
-      call add_word(info, "ends", "how a spline is closed; left out: not_a_knot", default="", &
+      call add_word(info, "curve", "interpolation: a cubic spline, or Akima's curve, which is less sensitive to an outlier " &
+                    //"but has kinks in the second derivative", default="spline", choices="spline akima")
+      call add_word(info, "ends", "end condition of a spline; default: not_a_knot", default="", &
                     choices="not_a_knot natural clamped fmm")
-      call add_word(info, "beyond", "what is outside the samples", default="error", choices="error hold linear periodic")
+      call add_word(info, "beyond", "continuation outside the samples", default="error", choices="error hold linear periodic")
    end function samples_info
 
    !> The curve of a row.
@@ -89,7 +89,7 @@ contains
             associate (list => item%values(column))
                if (list%given) then
                   made%column = column
-                  made%message = "the samples stand in a file already"
+                  made%message = "the samples are already given by a file"
                   made%help = "give columns at and value, or column file"
                   return
                end if
@@ -114,7 +114,7 @@ contains
       made%help = ""
       do k = 1, 2
          if (item%is_given(trim(lists(k)))) cycle
-         call complain(trim(lists(k)), "there are no samples")
+         call complain(trim(lists(k)), "the samples are missing")
          made%help = "give columns at and value, as ""0 10 20 30 ms"", or column file"
          return
       end do
@@ -125,23 +125,23 @@ contains
          if (size(y) /= n) then
             call complain("value", to_text(size(y))//" values at "//to_text(n)//" places")
          else if (n < least_samples) then
-            call complain("at", "there are "//to_text(n)//" samples, a smooth curve needs "//to_text(least_samples))
+            call complain("at", "there are "//to_text(n)//" samples, a smooth curve needs at least "//to_text(least_samples))
          else if (.not. all(x(2:) > x(:n - 1))) then
             do k = 2, n
                if (.not. x(k) > x(k - 1)) exit
             end do
-            call complain("at", "sample "//to_text(k)//" is not behind sample "//to_text(k - 1))
+            call complain("at", "sample "//to_text(k)//" is not greater than sample "//to_text(k - 1))
             made%place = k
-            made%help = "places increase from sample to sample"
+            made%help = "abscissas must increase from sample to sample"
          else if (beyond_of(item) == beyond_periodic .and. abs(y(n) - y(1)) > closed*maxval(abs(y))) then
             call complain("value", "the last value differs from the first one")
-            made%help = "with beyond = periodic the last sample is the first one of the next period"
+            made%help = "with beyond = periodic the last sample must equal the first sample of the next period"
          else if (beyond_of(item) == beyond_periodic .and. item%is_given("ends")) then
-            call complain("ends", "a periodic curve has no ends")
-            made%help = "leave out column ends, or write -"
+            call complain("ends", "a periodic curve has no end conditions")
+            made%help = "omit column ends, or write -"
          else if (item%word("curve") == "akima" .and. item%is_given("ends")) then
-            call complain("ends", "the ends of Akima's curve follow from its samples")
-            made%help = "leave out column ends, or write -; curve = spline has ends"
+            call complain("ends", "the end conditions of Akima's curve follow from its samples")
+            made%help = "omit column ends, or write -; curve = spline has end conditions"
          end if
       end associate
 

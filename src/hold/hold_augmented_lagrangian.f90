@@ -36,7 +36,7 @@ contains
       info%name = "augmented_lagrangian"
       info%help = "penalty, and gains omega mu, omega"
       info%source = "Flores et al. (2008), section 2.5, eqs. (2.32)-(2.35)"
-      call add_number(info, "penalty", dim_none, "of a violated row, of its inverse effective mass", default="", lower=0.0_wp, &
+      call add_number(info, "penalty", dim_none, "of a violated row, relative to its effective mass", default="", lower=0.0_wp, &
                       open_lower=.true.)
       call add_number(info, "omega", dim_frequency, "gain on the violation", default="", lower=0.0_wp)
       call add_number(info, "mu", dim_none, "damping: the gain on the rate of violation is omega mu", default="", lower=0.0_wp)

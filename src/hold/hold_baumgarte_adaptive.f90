@@ -49,7 +49,7 @@ contains
       type(kind_info_t) :: info  !! name, help, options
 
       info%name = "baumgarte_adaptive"
-      info%help = "gains that follow the violation to target"
+      info%help = "gains adapted to the constraint violation"
       info%source = "Chang and Nikravesh (1985), cited by Flores et al. (2008), section 2.5"
       call add_number(info, "target", dim_none, "scaled violation that the gains aim at", default="", lower=0.0_wp)
    end function adaptive_info

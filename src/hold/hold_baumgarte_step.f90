@@ -32,7 +32,7 @@ contains
       type(kind_info_t) :: info  !! name, help, options
 
       info%name = "baumgarte_step"
-      info%help = "gains alpha/h, beta/h from the step h"
+      info%help = "gains alpha/h and beta/h from the step h"
       info%source = "Flores et al. (2008), section 2.5, table 2.3"
       call add_number(info, "alpha", dim_none, "gain on the rate of violation, times the step", default="", lower=0.0_wp)
       call add_number(info, "beta", dim_none, "gain on the violation, times the step", default="", lower=0.0_wp)

@@ -22,7 +22,7 @@ contains
       type(kind_info_t) :: info  !! name and help
 
       info%name = "none"
-      info%help = "violations grow"
+      info%help = "none; the constraint violation grows"
       info%source = "Flores et al. (2008), section 2.4"
    end function none_info
 

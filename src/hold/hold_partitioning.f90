@@ -57,7 +57,7 @@ contains
       type(kind_info_t) :: info  !! name and help
 
       info%name = "partitioning"
-      info%help = "dependent coordinates from the constraints at every evaluation"
+      info%help = "dependent coordinates solved from the constraints at every evaluation"
       info%source = "Flores et al. (2008), section 2.5, eqs. (2.25)-(2.31)"
    end function partitioning_info
 

@@ -37,7 +37,7 @@ contains
       type(kind_info_t) :: info  !! name and help
 
       info%name = "projection"
-      info%help = "the least correction in kinetic energy at the end of every step"
+      info%help = "projection onto the constraints after every step, with minimum change in the metric of kinetic energy"
       info%source = "Eich (1993)"
    end function projection_info
 

@@ -29,7 +29,7 @@ contains
       type(kind_info_t) :: info  !! name and help
 
       info%name = "adams"
-      info%help = "Adams's method of variable order and step (CVODE): implicit, for smooth motion at small tolerances"
+      info%help = "Adams-Moulton, variable order and step (CVODE): implicit, for smooth motion at tight tolerances"
       info%source = "Hindmarsh et al. (2005)"
    end function adams_info
 

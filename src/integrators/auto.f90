@@ -198,8 +198,8 @@ contains
       type(kind_info_t) :: info  !! name and help
 
       info%name = "auto"
-      info%help = "chosen as the motion goes on: explicit of order 8 (dop853), or 6 (verner) at tolerances above 1e-8; radau " &
-                  //"where the equations are stiff"
+      info%help = "automatic choice during the run: explicit of order 8 (dop853), or 6 (verner) at tolerances above 1e-8; radau " &
+                  //"while the equations are stiff"
       info%source = "Petzold (1983); Hairer and Wanner (1996)"
    end function auto_info
 

@@ -12,13 +12,13 @@ contains
 
       may_change = self%controls%fixed_step <= 0.0_wp .and. self%controls%onset == onset_located
       if (.not. may_change) then
-         words = "its steps: those of verner, as they are fixed or onsets of contacts are not located"
+         words = "steps of verner, as they are fixed or the contact onset is not located"
       else if (self%controls%tolerance <= order_8_up_to) then
-         words = "its steps: explicit of order 8 (dop853: the tolerance is at most "//real_text(order_8_up_to, 1)//")"
+         words = "explicit steps of order 8 (dop853: the tolerance is at most "//real_text(order_8_up_to, 1)//")"
       else
-         words = "its steps: explicit of order 6 (verner: the tolerance is above "//real_text(order_8_up_to, 1)//")"
+         words = "explicit steps of order 6 (verner: the tolerance is above "//real_text(order_8_up_to, 1)//")"
       end if
-      if (may_change) words = words//"; implicit (radau) where stability keeps these short and it takes fewer evaluations"
+      if (may_change) words = words//"; implicit steps (radau) while stability limits these and radau takes fewer evaluations"
    end procedure parts_in_words
 
    !> What was chosen, when and why.
@@ -34,7 +34,7 @@ contains
             words = words//trim(merge("from", "to  ", modulo(k, 2) == 1))//" "//real_text(choice%t_change(k), 4)//" s"
             if (choice%product(k) > 0.0_wp) words = words//": h lambda = "//real_text(choice%product(k), 2)
          end do
-         if (choice%n_change > most_changes) words = words//", "//to_text(choice%n_change)//" changes in all"
+         if (choice%n_change > most_changes) words = words//", "//to_text(choice%n_change)//" switches in total"
          words = words//")"
       end associate
    end procedure choice_in_words

@@ -32,7 +32,7 @@ contains
       type(kind_info_t) :: info  !! name and help
 
       info%name = "bdf"
-      info%help = "backward differentiation of variable order and step (CVODE): for stiff contacts, springs and dampers"
+      info%help = "backward differentiation, variable order and step (CVODE): for stiff contacts, springs and dampers"
       info%source = "Hindmarsh et al. (2005)"
    end function bdf_info
 

@@ -44,7 +44,7 @@ contains
       type(kind_info_t) :: info  !! name and help
 
       info%name = "dop853"
-      info%help = "Dormand-Prince 8(5,3) as DOP853: explicit, twelve stages, for tight tolerances, events by re-stepping"
+      info%help = "Dormand-Prince 8(5,3), DOP853: explicit, twelve stages, for tight tolerances, events located by re-stepping"
       info%source = "Hairer, Norsett and Wanner (1993)"
    end function dop853_info
 

@@ -36,8 +36,8 @@ contains
       type(kind_info_t) :: info  !! name and help
 
       info%name = "ida"
-      info%help = "differential-algebraic, stabilised index 2 (Gear, Gupta, Leimkuhler), by backward differentiation (IDA): " &
-                  //"holds positions and velocities without stabilisation"
+      info%help = "differential-algebraic, stabilised index 2 (Gear, Gupta, Leimkuhler), backward differentiation (IDA): " &
+                  //"enforces positions and velocities without stabilisation"
       info%source = "Gear, Leimkuhler and Gupta (1985); Hindmarsh et al. (2005)"
    end function ida_info
 

@@ -49,23 +49,26 @@ contains
    subroutine add_control_columns(info)
       type(kind_info_t), intent(inout) :: info  !! settings of an analysis
 
-      call add_number(info, "tolerance", dim_none, "local error allowed (TOL), relative to the mechanism's size and speed", &
+      call add_number(info, "tolerance", dim_none, "local error tolerance (TOL), relative to the size and speed of the mechanism", &
                       default="1e-8", lower=least_tolerance, upper=0.01_wp)
-      call add_number(info, "step", dim_time, "length of fixed steps; 0: variable steps", default="0 s", lower=0.0_wp)
-      call add_number(info, "initial_step", dim_time, "first step tried; 0: chosen", default="0 s", lower=0.0_wp)
-      call add_number(info, "minimum_step", dim_time, "least step; 0: what arithmetic allows", default="0 s", lower=0.0_wp)
-      call add_number(info, "maximum_step", dim_time, "greatest step; 0: no limit", default="0 s", lower=0.0_wp)
-      call add_number(info, "maximum_steps", dim_none, "accepted steps allowed; 0: no limit", default="0", lower=0.0_wp, &
+      call add_number(info, "step", dim_time, "fixed step; 0: variable steps", default="0 s", lower=0.0_wp)
+      call add_number(info, "initial_step", dim_time, "initial step; 0: automatic", default="0 s", lower=0.0_wp)
+      call add_number(info, "minimum_step", dim_time, "minimum step; 0: limited by round-off only", default="0 s", lower=0.0_wp)
+      call add_number(info, "maximum_step", dim_time, "maximum step; 0: no limit", default="0 s", lower=0.0_wp)
+      call add_number(info, "maximum_steps", dim_none, "maximum number of accepted steps; 0: no limit", default="0", lower=0.0_wp, &
                       upper=most_counted)
-      call add_number(info, "maximum_evaluations", dim_none, "evaluations of the right-hand side allowed; 0: no limit", &
+      call add_number(info, "maximum_evaluations", dim_none, "maximum number of evaluations of the right-hand side; 0: no limit", &
                       default="0", lower=0.0_wp, upper=most_counted)
-      call add_word(info, "norm", "error norm: over natural scales (scaled), or as INORM: mixed 0, absolute 1, relative 2, " &
+      call add_word(info, "norm", "error norm: relative to natural scales (scaled), or as INORM: mixed 0, absolute 1, relative "// &
+         "2, " &
                     //"euclidean 3", default="scaled", choices="scaled mixed absolute relative euclidean")
-      call add_number(info, "floor", dim_none, "least |y| in the relative norm (FLOOR)", default="1", lower=0.0_wp, &
+      call add_number(info, "floor", dim_none, "minimum |y| in the relative norm (FLOOR)", default="1", lower=0.0_wp, &
                       open_lower=.true.)
-      call add_word(info, "contact_onset", "how the onset of a contact is met: located (on the onset, to round-off); interpolate " &
-                    //"(linearly back to it after a step that penetrates); reject (steps that penetrate more than limit are " &
-                    //"halved, default limit=0.1um); uncontrolled (at the end of the step that finds it)", default="located", &
+      call add_word(info, "contact_onset", "treatment of a contact onset: located (step ends at the onset, to round-off); "// &
+         "interpolate " &
+                    //"(linear interpolation back to it after a step that penetrates); reject (halve steps that penetrate more "// &
+                       "than limit, " &
+                    //"default limit=0.1um); uncontrolled (end of the step that detects it)", default="located", &
                     choices="located interpolate reject uncontrolled", options="limit")
       call add_number(info, "tol", dim_none, "IMSL name of tolerance; 0: not given", default="0", lower=0.0_wp, &
                       upper=0.01_wp)
@@ -76,7 +79,7 @@ contains
                       upper=most_counted)
       call add_number(info, "mxfcn", dim_none, "IMSL name of maximum_evaluations", default="0", lower=0.0_wp, &
                       upper=most_counted)
-      call add_number(info, "inorm", dim_none, "IMSL number of the norm, 0 to 3; -1: the word of norm", default="-1", &
+      call add_number(info, "inorm", dim_none, "IMSL number of the norm, 0 to 3; -1: value of norm", default="-1", &
                       lower=-1.0_wp, upper=3.0_wp)
    end subroutine add_control_columns
 
@@ -86,7 +89,7 @@ contains
       type(kind_info_t), intent(inout) :: info  !! its options
 
       if (word /= "reject") return
-      call add_number(info, "limit", dim_length, "greatest penetration at an onset", default="", lower=0.0_wp, open_lower=.true.)
+      call add_number(info, "limit", dim_length, "maximum penetration at an onset", default="", lower=0.0_wp, open_lower=.true.)
    end subroutine add_onset_options
 
    !> The controls from a section of settings that has the columns of `add_control_columns`; the scene

@@ -244,7 +244,7 @@ contains
       type(kind_info_t) :: info  !! name and help
 
       info%name = "radau"
-      info%help = "Radau IIA of order 5, implicit: for stiff springs, dampers and films, also where events follow one another"
+      info%help = "Radau IIA of order 5, implicit: for stiff springs, dampers and films, also with frequent events"
       info%source = "Hairer and Wanner (1996)"
    end function radau_info
 

@@ -38,8 +38,8 @@ contains
       type(kind_info_t) :: info  !! name and help
 
       info%name = "rk4"
-      info%help = "classical Runge-Kutta 4 with the fixed step of `step`, as legacy programs: no error control, " &
-                  //"events by re-stepping"
+      info%help = "classical Runge-Kutta of order 4 with the fixed step `step`, as in legacy programs: no error control, " &
+                  //"events located by re-stepping"
       info%source = "Kutta (1901)"
    end function rk4_info
 

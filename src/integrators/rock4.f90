@@ -75,8 +75,8 @@ contains
       type(kind_info_t) :: info  !! name and help
 
       info%name = "rock4"
-      info%help = "Runge-Kutta-Chebyshev of order 4, explicit: for what dampers and films make stiff, with as many " &
-                  //"stages as that asks for"
+      info%help = "Runge-Kutta-Chebyshev of order 4, explicit: for stiffness from dampers and films, with a " &
+                  //"variable number of stages"
       info%source = "Abdulle (2002)"
    end function rock4_info
 

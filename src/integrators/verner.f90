@@ -69,7 +69,7 @@ contains
       type(kind_info_t) :: info  !! name and help
 
       info%name = "verner"
-      info%help = "Runge-Kutta-Verner 5(6) as IMSL's IVPRK: explicit, eight stages, events by re-stepping"
+      info%help = "Runge-Kutta-Verner 5(6) as in IMSL's IVPRK: explicit, eight stages, events located by re-stepping"
       info%source = "Verner (1978); Hull, Enright and Jackson (1976)"
    end function verner_info
 

@@ -41,7 +41,7 @@ contains
 
       info%name = "driver.angle"
       info%space = in_plane
-      info%help = "turns a revolute joint to an angle that is a function of time"
+      info%help = "prescribes the angle of a revolute joint as a function of time"
       info%source = "Flores et al. (2008), section 2.2"
       info%n_row = 1
       info%drives_turn = .true.

@@ -39,7 +39,7 @@ contains
       type(kind_info_t) :: info  !! name, columns, rows and channels
 
       info%name = "driver.distance"
-      info%help = "holds two points at a distance that is a function of time, as a hydraulic cylinder does"
+      info%help = "prescribes the distance of two points as a function of time, like a hydraulic cylinder"
       info%source = "Flores et al. (2008), section 2.2"
       info%n_row = 1
       call add_reference(info, "i", "points", "point of the first body")

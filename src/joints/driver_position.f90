@@ -41,14 +41,14 @@ contains
 
       info%name = "driver.position"
       info%space = in_plane
-      info%help = "holds a point at a position along an axis that is a function of time"
+      info%help = "prescribes the position of a point along an axis as a function of time"
       info%source = "Flores et al. (2008), section 2.2"
       info%n_row = 1
       call add_reference(info, "i", "points", "origin of the axis")
       call add_reference(info, "j", "points", "the point that is driven")
       call add_axis_columns(info, "motion")
-      call add_expression(info, "position", dim_length, "position of j from i along the axis")
-      call add_length_channels(info, "driving force on the body of j along the axis", "position of j from i along the axis")
+      call add_expression(info, "position", dim_length, "position of j relative to i along the axis")
+      call add_length_channels(info, "driving force on the body of j along the axis", "position of j relative to i along the axis")
    end function position_info
 
    !> Axis and function of each item.

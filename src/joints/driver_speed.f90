@@ -39,7 +39,7 @@ contains
 
       info%name = "driver.speed"
       info%space = in_plane
-      info%help = "turns a revolute joint at a constant speed"
+      info%help = "prescribes a constant speed of a revolute joint"
       info%source = "Flores et al. (2008), section 2.2"
       info%n_row = 1
       info%drives_turn = .true.
@@ -140,7 +140,8 @@ contains
       type(kind_info_t), intent(inout) :: info  !! the kind
 
       call add_channel(info, "moment", "N.m", "world", 1, "driving moment on the body of j", of_moment)
-      call add_channel(info, "coordinate", "rad", "joint", 1, "angle of j relative to i, counter-clockwise, turns counted", &
+      call add_channel(info, "coordinate", "rad", "joint", 1, "angle of j relative to i, counter-clockwise, accumulated over "// &
+         "revolutions", &
                        of_coordinate)
       call add_channel(info, "power", "W", "none", 1, "power given to the mechanism", of_power)
    end subroutine add_driver_channels

@@ -28,12 +28,12 @@ contains
 
       info%name = "initial.speed"
       info%space = in_plane
-      info%help = "speed of a revolute joint at the start; after that the joint is free"
+      info%help = "initial speed of a revolute joint; afterwards the joint is free"
       info%source = "Flores et al. (2008), section 2.8"
       info%n_row = 1
       info%is_start_only = .true.
       call add_reference(info, "joint", "joint.revolute", "the revolute joint")
-      call add_number(info, "speed", dim_angular_speed, "speed of j relative to i at the start, counter-clockwise positive")
+      call add_number(info, "speed", dim_angular_speed, "initial speed of j relative to i, counter-clockwise positive")
    end function initial_info
 
 end module initial_speed

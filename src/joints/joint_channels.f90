@@ -14,10 +14,11 @@ contains
 
    !> The channels that every ideal joint has.
    module procedure add_joint_channels
-      call add_channel(info, "force", "N", "world", 2, "reaction force on the body of i, friction of the joint included", of_force)
+      call add_channel(info, "force", "N", "world", 2, "reaction force on the body of i, including joint friction", of_force)
       call add_channel(info, "moment", "N.m", "world", 1, "reaction moment on the body of i about the point of the force, "// &
-                       "friction of the joint included", of_moment)
-      call add_channel(info, "violation", "m", "none", 1, "norm of the constraint violation, angles times 1 m", of_violation)
+                       "including joint friction", of_moment)
+      call add_channel(info, "violation", "m", "none", 1, "norm of the constraint violation, angles multiplied by 1 m", &
+         of_violation)
       call add_channel(info, "violation_rate", "m/s", "none", 1, "norm of the rate of the constraint violation", &
                        of_violation_rate)
    end procedure add_joint_channels

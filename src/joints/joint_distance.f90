@@ -50,10 +50,10 @@ contains
       info%n_row = 1
       call add_reference(info, "i", "points", "point of the first body")
       call add_reference(info, "j", "points", "point of the second body")
-      call add_number(info, "length", dim_length, "length; left out: the distance where the deck puts the bodies at the start", &
+      call add_number(info, "length", dim_length, "length; default: the distance at the given initial positions", &
                       default="", lower=0.0_wp, open_lower=.true.)
       call add_joint_channels(info)
-      call add_channel(info, "tension", "N", "none", 1, "force along the link, positive if it pulls the points together", &
+      call add_channel(info, "tension", "N", "none", 1, "force along the link, positive in tension", &
                        of_own)
    end function distance_info
 

@@ -46,7 +46,7 @@ contains
 
       info%name = "joint.gear"
       info%space = in_plane
-      info%help = "two gears that roll on one another; their centres are held by other joints, on a carrier that may move"
+      info%help = "two gears in mesh; other joints guide their centres, on a carrier that may move"
       info%source = "Nikravesh (1988), section 4.2.4"
       info%n_row = 1
       call add_reference(info, "i", "points", "centre of the first gear")

@@ -35,7 +35,7 @@ contains
 
       info%name = "joint.parallel"
       info%space = in_plane
-      info%help = "parallel axes: two bodies do not turn against each other, but move freely"
+      info%help = "constant relative angle of two bodies; translation is free"
       info%source = "Nikravesh (1988), section 4.2"
       info%n_row = 1
       call add_reference(info, "i", "bodies", "the first body, or ground")

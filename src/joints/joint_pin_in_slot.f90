@@ -33,7 +33,7 @@ contains
 
       info%name = "joint.pin_in_slot"
       info%space = in_plane
-      info%help = "ideal slot: a point of j stays on a line of i, and turns freely"
+      info%help = "ideal slot: a point of j stays on a line of i; rotation is free"
       info%source = "Flores et al. (2008), eq. (2.8)"
       info%n_row = 1
       call add_reference(info, "i", "points", "point of the slot's centre line")

@@ -50,13 +50,13 @@ contains
 
       info%name = "joint.rack"
       info%space = in_plane
-      info%help = "rack and pinion: a gear rolls on a line of a body; other joints hold it there"
+      info%help = "rack and pinion: a gear rolls on a line of a body; other joints guide it"
       info%source = "Nikravesh (1988), section 4.2.4"
       info%n_row = 1
       call add_reference(info, "i", "points", "point of the rack's pitch line")
       call add_reference(info, "j", "points", "centre of the pinion")
       call add_axis_columns(info, "pitch line")
-      call add_number(info, "radius", dim_length, "radius of the pinion's pitch circle; negative: it lies to the right of the " &
+      call add_number(info, "radius", dim_length, "pitch radius of the pinion; negative: the pinion is on the right of the " &
                       //"axis", not_zero=.true.)
       call add_joint_channels(info)
    end function rack_info

@@ -45,9 +45,9 @@ contains
       call add_reference(info, "i", "points", "point of the first body")
       call add_reference(info, "j", "points", "point of the second body")
       call add_joint_channels(info)
-      call add_friction_columns(info, "radius", "radius of the pin, where it rubs", &
-                                "normal force between pin and hole without load, as of a press fit", &
-                                "friction_moment", "N.m", "friction moment on the body of j, of a joint with friction")
+      call add_friction_columns(info, "radius", "radius of the pin, for friction", &
+                                "preload: normal force between pin and hole without load, as of a press fit", &
+                                "friction_moment", "N.m", "friction moment on the body of j, for a joint with friction")
    end function revolute_info
 
    !> Nothing beyond the points.

@@ -35,7 +35,7 @@ contains
 
       info%name = "joint.rigid"
       info%space = in_plane
-      info%help = "weld: two points coincide and the bodies do not turn against each other"
+      info%help = "weld: two points coincide and the relative angle is constant"
       info%source = "Flores et al. (2008), eqs. (2.5), (2.6)"
       info%n_row = 3
       info%leaves = leaves_nothing

@@ -54,7 +54,7 @@ contains
 
       info%name = "joint.translational"
       info%space = in_plane
-      info%help = "ideal guide: a point of j stays on a line of i, and the bodies do not turn against each other"
+      info%help = "ideal guide: a point of j stays on a line of i, and the relative angle is constant"
       info%source = "Flores et al. (2008), eqs. (2.6), (2.8)"
       info%n_row = 2
       info%leaves = leaves_way
@@ -62,9 +62,10 @@ contains
       call add_reference(info, "j", "points", "point of the slider")
       call add_axis_columns(info, "guide")
       call add_joint_channels(info)
-      call add_friction_columns(info, "slider_length", "distance of the slider's ends, which bear its moment; 0: friction by the " &
-                                //"force alone", "normal force of the slider without load, as of a clamped guide", &
-                                "friction_force", "N", "friction force on the body of j along the axis, of a joint with friction")
+      call add_friction_columns(info, "slider_length", "distance between the slider ends, which carry its moment; 0: friction "// &
+         "by the " &
+                                //"force only", "preload: normal force of the slider without load, as of a clamped guide", &
+                                "friction_force", "N", "friction force on the body of j along the axis, for a joint with friction")
    end function translational_info
 
    !> The columns of a direction fixed in body i: numbers 3 and 4 of a kind.

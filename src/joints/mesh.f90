@@ -8,7 +8,7 @@ module mesh
    public :: axes_misfit, close_enough, distance_misfit, line_misfit, two_rings
 
    real(wp), parameter :: close_enough = 1.0e-3_wp  !! difference that is none, of the largest radius [1]
-   character(*), parameter :: two_rings = "has two negative radii: one gear of a pair at most is a ring gear"
+   character(*), parameter :: two_rings = "has two negative radii: at most one gear of a pair is a ring gear"
 
 contains
 
@@ -22,8 +22,9 @@ contains
       words = ""
       if (distance <= close_enough*maxval(abs(radius))) return
       if (abs(abs(sum(radius)) - distance) <= close_enough*maxval(abs(radius))) return
-      words = "has radii for axes that are "//real_text(abs(sum(radius)), 4)//" m apart, but they are "//real_text(distance, 4)// &
-              " m apart: the gears keep the ratio of their radii and touch where these divide that distance"
+      words = "has radii for an axis distance of "//real_text(abs(sum(radius)), 4)//" m, but the distance is "// &
+         real_text(distance, 4)// &
+              " m: the gears keep their ratio of radii and mesh where these divide that distance"
    end function distance_misfit
 
    !> Axes of bevel gears meet.
@@ -34,8 +35,8 @@ contains
 
       words = ""
       if (gap <= close_enough*maxval(abs(radius))) return
-      words = "is on axes that are neither parallel nor meet: they pass "//real_text(gap, 4)// &
-              " m from each other; the gears keep the ratio of their radii"
+      words = "has skew axes: their distance is "//real_text(gap, 4)// &
+              " m; the gears keep their ratio of radii"
    end function axes_misfit
 
    !> A pinion is beside its rack's pitch line by its radius, to the left if that is positive.
@@ -46,8 +47,8 @@ contains
 
       words = ""
       if (abs(radius - left) <= close_enough*abs(radius)) return
-      words = "has a pinion of radius "//real_text(radius, 4)//" m whose centre is "//real_text(left, 4)// &
-              " m to the left of the pitch line (negative: to the right): it rolls as the radius says"
+      words = "has a pinion of radius "//real_text(radius, 4)//" m, but its centre is "//real_text(left, 4)// &
+              " m to the left of the pitch line (negative: to the right): rolling uses the given radius"
    end function line_misfit
 
 end module mesh

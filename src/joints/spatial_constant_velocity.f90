@@ -48,14 +48,14 @@ contains
       type(kind_info_t) :: info  !! name, columns, rows and channels
 
       info%name = "joint.constant_velocity"
-      info%help = "constant-velocity joint: two points coincide and two shafts turn by the same angle"
+      info%help = "constant-velocity joint: two points coincide and two shafts rotate by the same angle"
       info%source = "Nikravesh (1988), section 7.2"
       info%n_row = 4
       info%leaves = leaves_angles
       call add_joint_columns(info)
       call add_axis_columns(info, "axis of the shaft")
       call add_spatial_channels(info)
-      call add_channel(info, "bend", "rad", "joint", 1, "angle of the two shafts, zero where they are in line", of_bend)
+      call add_channel(info, "bend", "rad", "joint", 1, "angle between the two shafts, zero if aligned", of_bend)
    end function constant_velocity_info
 
    !> Elements of the joint.
@@ -100,8 +100,9 @@ contains
       fault = ""
       if (1.0_wp + dot_product(axis_of(motion, self%body(1, k), self%axes%frame_i(:, 3, k)), &
                                axis_of(motion, self%body(2, k), self%axes%frame_j(:, 3, k))) > least) return
-      fault = "is closed the wrong way round: its shafts are bent by half a turn, so that the plane of the bend is not known"// &
-              new_line("a")//"  = turn one of its bodies, or reverse axis_i or axis_j, in the deck"
+      fault = "is assembled in the reversed configuration: the angle between its shafts is 180 deg, so the plane of the angle "// &
+         "is undefined"// &
+              new_line("a")//"  = rotate one of its bodies, or reverse axis_i or axis_j, in the deck"
    end function constant_velocity_closing_fault
 
    !> A channel of its own: the angle of the shafts here, the others as of any joint with axes.

@@ -27,7 +27,7 @@ contains
       type(kind_info_t) :: info  !! name, columns, rows and channels
 
       info%name = "joint.cylindrical"
-      info%help = "a shaft that turns and slides in a hole"
+      info%help = "a shaft that rotates and slides in a hole"
       info%source = "Nikravesh (1988), section 7.2.4"
       info%n_row = 4
       call add_joint_columns(info)

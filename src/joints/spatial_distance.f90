@@ -32,14 +32,14 @@ contains
       type(kind_info_t) :: info  !! name, columns, rows and channels
 
       info%name = "joint.distance"
-      info%help = "massless link with a ball at each end: the distance of two points is constant"
+      info%help = "massless link with spherical joints at both ends: constant distance of two points"
       info%source = "Flores et al. (2008), section 6.2"
       info%n_row = 1
       call add_joint_columns(info)
-      call add_number(info, "length", dim_length, "length; left out: the distance where the deck puts the bodies at the start", &
+      call add_number(info, "length", dim_length, "length; default: the distance at the given initial positions", &
                       default="", lower=0.0_wp, open_lower=.true.)
       call add_reaction_channels(info)
-      call add_channel(info, "tension", "N", "none", 1, "force along the link, positive if it pulls the points together", &
+      call add_channel(info, "tension", "N", "none", 1, "force along the link, positive in tension", &
                        of_own)
    end function distance_info
 

@@ -36,13 +36,14 @@ contains
 
       info%name = "driver.angle"
       info%space = in_space
-      info%help = "turns a joint about its axis to an angle that is a function of time"
+      info%help = "prescribes the angle of a joint about its axis as a function of time"
       info%source = "Nikravesh (1988), section 7.4.3"
       info%n_row = 1
       info%drives_turn = .true.
       call add_reference(info, "joint", "joint.revolute joint.cylindrical", "the joint that is driven")
       call add_expression(info, "angle", dim_angle, &
-                          "angle of j relative to i, counter-clockwise about the axis; zero: x axes of the joint")
+                          "angle of j relative to i, counter-clockwise about the axis; zero if the x axes of the joint are "// &
+                             "parallel")
       call add_driver_channels(info)
    end function spatial_info
 

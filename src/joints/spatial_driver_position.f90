@@ -39,13 +39,13 @@ contains
       type(kind_info_t) :: info  !! name, columns, rows and channels
 
       info%name = "driver.position"
-      info%help = "holds a point at a position along an axis that is a function of time"
+      info%help = "prescribes the position of a point along an axis as a function of time"
       info%source = "Nikravesh (1988), section 7.4.3"
       info%n_row = 1
       call add_joint_columns(info)
       call add_direction(info, "axis_i", "direction of the motion, in the frame of the body of i", default='"0 0 1"')
-      call add_expression(info, "position", dim_length, "position of j from i along the axis")
-      call add_length_channels(info, "driving force on the body of j along the axis", "position of j from i along the axis")
+      call add_expression(info, "position", dim_length, "position of j relative to i along the axis")
+      call add_length_channels(info, "driving force on the body of j along the axis", "position of j relative to i along the axis")
    end function position_info
 
    !> Axis, as in the deck, and function of each item.

@@ -36,7 +36,7 @@ contains
 
       info%name = "driver.speed"
       info%space = in_space
-      info%help = "turns a joint about its axis at a constant speed"
+      info%help = "prescribes a constant speed of a joint about its axis"
       info%source = "Nikravesh (1988), section 7.4.3"
       info%n_row = 1
       info%drives_turn = .true.

@@ -57,7 +57,7 @@ contains
       type(kind_info_t) :: info  !! name, columns, rows and channels
 
       info%name = "joint.gear"
-      info%help = "two gears that roll on one another, on parallel axes or on axes that meet; other joints hold them"
+      info%help = "two gears in mesh, on parallel or intersecting axes; other joints guide them"
       info%source = "Nikravesh (1988), section 4.2.4"
       info%n_row = 1
       info%counts_turns = .true.
@@ -216,17 +216,17 @@ contains
       real(wp) :: between(2)
 
       between = between_gears(self, k, motion)
-      words = "has lost its mesh: the axes of its gears are "// &
+      words = "has lost its mesh: the angle between the axes of its gears is "// &
               real_text(degrees_between(axis_of(motion, self%body(1, k), self%axes%frame_i(:, 3, k)), &
-                                        axis_of(motion, self%body(2, k), self%axes%frame_j(:, 3, k))), 4)//" deg apart"
+                                        axis_of(motion, self%body(2, k), self%axes%frame_j(:, 3, k))), 4)//" deg"
       if (self%is_parallel(k)) then
-         words = words//" and their centres "//real_text(between(2), 4)//" m (at the start parallel and "// &
+         words = words//" and the distance of their centres "//real_text(between(2), 4)//" m (initially 0 deg and "// &
                  real_text(self%between(2, k), 4)//" m)"
       else
-         words = words//" (the sine of that angle was "//real_text(self%between(1, k), 4)//" at the start, and is now "// &
-                 real_text(between(1), 4)//"; a quarter is the least)"
+         words = words//" (the sine of that angle was initially "//real_text(self%between(1, k), 4)//", is now "// &
+                 real_text(between(1), 4)//", and must be at least 0.25)"
       end if
-      words = words//": let other joints hold the gears where they mesh"
+      words = words//": add joints that keep the gears in mesh"
    end function words_of_lost_gear
 
    !> One of two gears at most is a ring gear, and on parallel axes they have a line of centres.
@@ -239,8 +239,8 @@ contains
       fault = ""
       if (all(own_radii(self, k, motion) < 0.0_wp)) fault = two_rings
       if (.not. self%is_parallel(k) .or. self%between(2, k) > close_enough*maxval(abs(self%radius(:, k)))) return
-      fault = "has gears on one axis, "//real_text(self%between(2, k), 4)//" m apart, so that there is no line of centres"// &
-              new_line("a")//"  = put the centres apart by the sum of the radii, or couple the bodies by another joint"
+      fault = "has coaxial gears, "//real_text(self%between(2, k), 4)//" m apart, without a line of centres"// &
+              new_line("a")//"  = separate the centres by the sum of the radii, or couple the bodies by another joint"
    end function gear_closing_fault
 
    !> Parallel axes are as far apart as the radii make it, others meet.

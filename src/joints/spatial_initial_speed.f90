@@ -25,12 +25,12 @@ contains
 
       info%name = "initial.speed"
       info%space = in_space
-      info%help = "speed of a joint about its axis at the start; after that the joint is free"
+      info%help = "initial speed of a joint about its axis; afterwards the joint is free"
       info%source = "Flores et al. (2008), section 2.8"
       info%n_row = 1
       info%is_start_only = .true.
       call add_reference(info, "joint", "joint.revolute joint.cylindrical", "the joint")
-      call add_number(info, "speed", dim_angular_speed, "speed of j relative to i at the start, counter-clockwise about the axis")
+      call add_number(info, "speed", dim_angular_speed, "initial speed of j relative to i, counter-clockwise about the axis")
    end function initial_info
 
 end module spatial_initial_speed

@@ -30,7 +30,7 @@ contains
       info%source = "Nikravesh (1988), section 7.2"
       info%n_row = 2
       call add_joint_columns(info)
-      call add_direction(info, "axis_i", "line that the point of j stays on, in the frame of the body of i", default='"0 0 1"')
+      call add_direction(info, "axis_i", "line of the point of j, in the frame of the body of i", default='"0 0 1"')
       call add_spatial_channels(info)
       call add_slide_channels(info)
    end function inline_info

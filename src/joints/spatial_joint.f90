@@ -114,7 +114,7 @@ contains
       character(*), intent(in) :: words         !! what the axis is
 
       call add_direction(info, "axis_i", words//", in the frame of the body of i", default='"0 0 1"')
-      call add_direction(info, "axis_j", words//", in the frame of the body of j; left out: as the deck puts the bodies", &
+      call add_direction(info, "axis_j", words//", in the frame of the body of j; default: consistent with the given positions", &
                          default="")
    end subroutine add_axis_columns
 
@@ -123,8 +123,8 @@ contains
       type(kind_info_t), intent(inout) :: info  !! the kind
 
       call add_reaction_channels(info)
-      call add_channel(info, "joint_force", "N", "joint", 2, "the force along the axes x, y, z of the joint in i", of_own_force)
-      call add_channel(info, "joint_moment", "N.m", "joint", 2, "the moment along the axes x, y, z of the joint in i", &
+      call add_channel(info, "joint_force", "N", "joint", 2, "force along the axes x, y, z of the joint in i", of_own_force)
+      call add_channel(info, "joint_moment", "N.m", "joint", 2, "moment along the axes x, y, z of the joint in i", &
                        of_own_moment)
    end subroutine add_spatial_channels
 
@@ -132,10 +132,11 @@ contains
    subroutine add_reaction_channels(info)
       type(kind_info_t), intent(inout) :: info  !! the kind
 
-      call add_channel(info, "force", "N", "world", 2, "reaction force on the body of i, friction of the joint included", of_force)
-      call add_channel(info, "moment", "N.m", "world", 2, "reaction moment on the body of i about its point, friction of the "// &
-                       "joint included", of_moment)
-      call add_channel(info, "violation", "m", "none", 1, "norm of the constraint violation, angles times 1 m", of_violation)
+      call add_channel(info, "force", "N", "world", 2, "reaction force on the body of i, including joint friction", of_force)
+      call add_channel(info, "moment", "N.m", "world", 2, "reaction moment on the body of i about its point, including "// &
+                       "joint friction", of_moment)
+      call add_channel(info, "violation", "m", "none", 1, "norm of the constraint violation, angles multiplied by 1 m", &
+         of_violation)
       call add_channel(info, "violation_rate", "m/s", "none", 1, "norm of the rate of the constraint violation", &
                        of_violation_rate)
    end subroutine add_reaction_channels
@@ -248,8 +249,8 @@ contains
 
       fault = ""
       if (is_turned_over(self, k, motion)) then
-         fault = "is closed the wrong way round: its axes are parallel but opposed"//new_line("a")// &
-                 "  = turn one of its bodies, or reverse axis_i or axis_j, in the deck"
+         fault = "is assembled in the reversed configuration: its axes are antiparallel"//new_line("a")// &
+                 "  = rotate one of its bodies, or reverse axis_i or axis_j, in the deck"
       end if
    end function spatial_closing_fault
 
@@ -260,9 +261,9 @@ contains
       type(motion_t), intent(in) :: motion        !! positions
       character(:), allocatable :: words          !! what is wrong
 
-      words = "went over to its other branch: its axes, which it keeps parallel, are "// &
+      words = "moved to its other branch: the angle between its axes, which must be parallel, is "// &
               real_text(degrees_between(axis_of(motion, self%body(1, k), self%axes%frame_i(:, 3, k)), &
-                                        axis_of(motion, self%body(2, k), self%axes%frame_j(:, 3, k))), 4)//" deg apart"
+                                        axis_of(motion, self%body(2, k), self%axes%frame_j(:, 3, k))), 4)//" deg"
    end function words_of_turned_over
 
    !> Angle of two axes.
@@ -320,8 +321,8 @@ contains
       type(kind_info_t), intent(inout) :: info  !! the kind
 
       call add_zero_columns(info)
-      call add_channel(info, "angle", "rad", "joint", 1, "angle of j against i about the axis, between -pi and pi", of_angle)
-      call add_channel(info, "angular_rate", "rad/s", "joint", 1, "angular velocity of j against i about the axis", &
+      call add_channel(info, "angle", "rad", "joint", 1, "angle of j relative to i about the axis, between -pi and pi", of_angle)
+      call add_channel(info, "angular_rate", "rad/s", "joint", 1, "angular velocity of j relative to i about the axis", &
                        of_angular_rate)
    end subroutine add_turn_channels
 
@@ -329,7 +330,8 @@ contains
    subroutine add_slide_channels(info)
       type(kind_info_t), intent(inout) :: info  !! the kind
 
-      call add_channel(info, "displacement", "m", "joint", 1, "displacement of j from i along the axis of i", of_displacement)
+      call add_channel(info, "displacement", "m", "joint", 1, "displacement of j relative to i along the axis of i", &
+         of_displacement)
       call add_channel(info, "sliding_rate", "m/s", "joint", 1, "rate of the displacement", of_sliding_rate)
    end subroutine add_slide_channels
 

@@ -27,7 +27,7 @@ contains
       type(kind_info_t) :: info  !! name, columns, rows and channels
 
       info%name = "joint.orientation"
-      info%help = "two bodies do not turn against each other, but move freely"
+      info%help = "constant relative orientation of two bodies; translation is free"
       info%source = "Nikravesh (1988), section 7.2"
       info%n_row = 3
       call add_joint_columns(info)

@@ -27,7 +27,7 @@ contains
       type(kind_info_t) :: info  !! name, columns, rows and channels
 
       info%name = "joint.perpendicular"
-      info%help = "an axis of one body stays at right angles to an axis of the other"
+      info%help = "an axis of one body stays perpendicular to an axis of the other"
       info%source = "Nikravesh (1988), section 7.2"
       info%n_row = 1
       call add_joint_columns(info)

@@ -53,14 +53,14 @@ contains
       type(kind_info_t) :: info  !! name, columns, rows and channels
 
       info%name = "joint.rack"
-      info%help = "rack and pinion: a gear rolls on a line of a body; other joints hold it there"
+      info%help = "rack and pinion: a gear rolls on a line of a body; other joints guide it"
       info%source = "Nikravesh (1988), section 4.2.4"
       info%n_row = 1
       info%counts_turns = .true.
       call add_joint_columns(info)
       call add_direction(info, "axis_i", "direction of the pitch line, in the frame of the body of i", default='"1 0 0"')
       call add_direction(info, "axis_j", "axis of the pinion, in the frame of the body of j", default='"0 0 1"')
-      call add_number(info, "radius", dim_length, "radius of the pinion's pitch circle; negative: it lies to the right of the " &
+      call add_number(info, "radius", dim_length, "pitch radius of the pinion; negative: the pinion is on the right of the " &
                       //"line, seen from the tip of its axis", not_zero=.true.)
       call add_reaction_channels(info)
    end function rack_info
@@ -164,8 +164,8 @@ contains
       fault = ""
       if (abs(dot_product(axis_of(motion, self%body(1, k), self%line(:, k)), &
                           axis_of(motion, self%body(2, k), self%axes%frame_j(:, 3, k)))) < square) return
-      fault = "rolls on a line that is not at right angles to its pinion's axis"//new_line("a")// &
-              "  = turn axis_i, axis_j or one of its bodies in the deck"
+      fault = "rolls on a line that is not perpendicular to the axis of the pinion"//new_line("a")// &
+              "  = rotate axis_i, axis_j or one of its bodies in the deck"
    end function rack_closing_fault
 
    !> The pinion is beside the line by its radius.
@@ -200,10 +200,10 @@ contains
       type(motion_t), intent(in) :: motion       !! positions
       character(:), allocatable :: words         !! what is wrong
 
-      words = "has lost the angle of its pinion, whose axis is "// &
+      words = "has lost its mesh: the pinion axis is "// &
               real_text(degrees_between(axis_of(motion, self%body(1, k), self%axes%frame_i(:, 3, k)), &
                                         axis_of(motion, self%body(2, k), self%axes%frame_j(:, 3, k))), 4)// &
-              " deg from where it meshed at the start (less than 90 deg): let other joints hold it there"
+              " deg from its initial direction (limit 90 deg): add joints that guide the pinion"
    end function words_of_lost_rack
 
 end module spatial_rack

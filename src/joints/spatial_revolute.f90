@@ -49,12 +49,12 @@ contains
       call add_axis_columns(info, "axis of the pin")
       call add_spatial_channels(info)
       call add_turn_channels(info)
-      call add_friction_columns(info, "radius", "radius of the pin, where it rubs", &
-                                "normal force between pin and hole without load, as of a press fit", &
-                                "friction_moment", "N.m", "friction moment on the body of j about the axis, where it rubs")
-      call add_number(info, "bearing_length", dim_length, "distance of the bearing's ends, which bear the moment across " &
-                      //"the axis; 0: friction without it", default="0 m", lower=0.0_wp)
-      call add_number(info, "face_radius", dim_length, "mean radius of the faces that bear the force along the axis; 0: friction " &
+      call add_friction_columns(info, "radius", "radius of the pin, for friction", &
+                                "preload: normal force between pin and hole without load, as of a press fit", &
+                                "friction_moment", "N.m", "friction moment on the body of j about the axis")
+      call add_number(info, "bearing_length", dim_length, "distance between the bearing ends, which carry the transverse moment" &
+                      //"; 0: friction without it", default="0 m", lower=0.0_wp)
+      call add_number(info, "face_radius", dim_length, "mean radius of the faces that carry the axial force; 0: friction " &
                       //"without it", default="0 m", lower=0.0_wp)
    end function revolute_info
 

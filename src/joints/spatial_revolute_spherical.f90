@@ -34,12 +34,12 @@ contains
       type(kind_info_t) :: info  !! name, columns, rows and channels
 
       info%name = "joint.revolute_spherical"
-      info%help = "massless link, pinned to one body and with a ball in the other"
+      info%help = "massless link with a revolute joint at one body and a spherical joint at the other"
       info%source = "Nikravesh (1988), section 7.2.5"
       info%n_row = 2
       call add_joint_columns(info)
       call add_direction(info, "axis_i", "axis of the pin, in the frame of the body of i", default='"0 0 1"')
-      call add_number(info, "length", dim_length, "length; left out: the distance where the deck puts the bodies at the start", &
+      call add_number(info, "length", dim_length, "length; default: the distance at the given initial positions", &
                       default="", lower=0.0_wp, open_lower=.true.)
       call add_spatial_channels(info)
    end function link_info

@@ -26,7 +26,7 @@ contains
       type(kind_info_t) :: info  !! name, columns, rows and channels
 
       info%name = "joint.rigid"
-      info%help = "two bodies move as one"
+      info%help = "two bodies move as one rigid body"
       info%source = "Nikravesh (1988), section 7.2"
       info%n_row = 6
       info%leaves = leaves_nothing

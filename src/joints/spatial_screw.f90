@@ -38,12 +38,12 @@ contains
       type(kind_info_t) :: info  !! name, columns, rows and channels
 
       info%name = "joint.screw"
-      info%help = "a nut on a screw: it slides along the axis as it turns about it"
+      info%help = "a nut on a screw: displacement along the axis is proportional to the angle about it"
       info%source = "Nikravesh (1988), section 7.2.4"
       info%n_row = 5
       call add_joint_columns(info)
       call add_axis_columns(info, "axis of the screw")
-      call add_number(info, "pitch", dim_length, "displacement of j along the axis in one turn; positive: right-handed")
+      call add_number(info, "pitch", dim_length, "displacement of j along the axis per revolution; positive: right-handed")
       call add_spatial_channels(info)
       call add_turn_channels(info)
       call add_slide_channels(info)

@@ -42,7 +42,7 @@ contains
       type(kind_info_t) :: info  !! name, columns, rows and channels
 
       info%name = "joint.translational"
-      info%help = "a slider in a guide: it slides along an axis and does not turn"
+      info%help = "a slider in a guide: slides along an axis without rotation"
       info%source = "Nikravesh (1988), section 7.2.4"
       info%n_row = 5
       info%leaves = leaves_way
@@ -50,10 +50,12 @@ contains
       call add_axis_columns(info, "axis of the guide")
       call add_spatial_channels(info)
       call add_slide_channels(info)
-      call add_friction_columns(info, "slider_length", "distance of the slider's ends, which bear the moment across the axis; 0: " &
-                                //"friction without it", "normal force of the slider without load, as of a clamped guide", &
-                                "friction_force", "N", "friction force on the body of j along the axis, of a joint with friction")
-      call add_number(info, "slider_width", dim_length, "distance of the sides that bear the moment about the axis; 0: friction " &
+      call add_friction_columns(info, "slider_length", "distance between the slider ends, which carry the transverse moment; 0: " &
+                                //"friction without it", "preload: normal force of the slider without load, as of a clamped "// &
+                                   "guide", &
+                                "friction_force", "N", "friction force on the body of j along the axis, for a joint with friction")
+      call add_number(info, "slider_width", dim_length, "distance between the sides that carry the moment about the axis; 0: "// &
+         "friction " &
                       //"without it", default="0 m", lower=0.0_wp)
    end function translational_info
 

@@ -43,7 +43,7 @@ contains
       type(kind_info_t) :: info  !! name, columns, rows and channels
 
       info%name = "joint.universal"
-      info%help = "universal joint: two points coincide and two axes stay at right angles"
+      info%help = "universal joint: two points coincide and two axes stay perpendicular"
       info%source = "Nikravesh (1988), section 7.2.3"
       info%n_row = 4
       info%leaves = leaves_angles

@@ -122,7 +122,7 @@ contains
 
       words = ""
       associate (b => parameters(first_own))
-         if (b < shortest .or. b > longest) words = "L/D = "//to_text(b)//" is beyond 1/8 to 1, for which it was made"
+         if (b < shortest .or. b > longest) words = "L/D = "//to_text(b)//" is outside 1/8 to 1, the range of the approximation"
       end associate
    end function butenschoen_story
 

@@ -40,7 +40,7 @@ contains
       type(kind_info_t) :: info  !! name and columns
 
       info%name = "film.finite"
-      info%help = "bearing of finite length, L/D from 1/4 to 4, film where the pressure is positive; quick, within 1 % of `grid`"
+      info%help = "bearing of finite length, L/D from 1/4 to 4, only positive pressure; fast, within 1 % of `grid`"
       info%source = "fitted to Reynolds' equation on a grid, see docs/films.md"
       allocate (info%columns(0))
    end function finite_info
@@ -69,7 +69,7 @@ contains
       ratio = 0.5_wp*bearing%length/bearing%radius
       if (ratio < least_ratio*(1.0_wp - slack) .or. ratio > greatest_ratio*(1.0_wp + slack)) then
          message = "L/D = "//to_text(ratio)//" is outside the range of 'finite', 0.25 to 4"
-         help = "shorter: short_exact, longer: long_exact, any: grid"
+         help = "shorter: short_exact, longer: long_exact, any length: grid"
          return
       end if
       parameters(parameter_scale) = bearing%viscosity*bearing%length*bearing%radius**3/bearing%clearance**2

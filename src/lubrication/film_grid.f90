@@ -77,22 +77,25 @@ contains
       type(kind_info_t) :: info  !! name and columns
 
       info%name = "film.grid"
-      info%help = "bearing of any length with grooves or holes: Reynolds' equation on a grid; exact to some 0.1 %, and slow"
+      info%help = "bearing of any length with grooves or holes: Reynolds' equation on a grid; accurate to 0.1 %, slow"
       info%source = "Reynolds (1886)"
-      call add_word(info, "boundary", "pressures not below zero, or of both signs", default="reynolds", choices="reynolds full")
+      call add_word(info, "boundary", "pressure condition: non-negative pressure (reynolds), or both signs (full)", &
+         default="reynolds", choices="reynolds full")
       call add_word(info, "resolution", "80 x 10, 160 x 16 or 240 x 24 cells on half the length", default="normal", &
                     choices="coarse normal fine")
-      call add_word(info, "supply", "where lubricant comes in beside the ends: at the widest gap, fixed in the bearing, or both", &
+      call add_word(info, "supply", "supply besides the ends: at the widest gap, fixed in the bearing, or both", &
                     default="none", choices="none widest_gap fixed both")
-      call add_number(info, "number", dim_none, "how many fixed supplies, at equal distances", default="1", lower=1.0_wp, &
+      call add_number(info, "number", dim_none, "number of fixed supplies, equally spaced", default="1", lower=1.0_wp, &
                       upper=12.0_wp)
-      call add_number(info, "angle", dim_angle, "of the first, from x of the bearing's body, in space from x_i of the bushing", &
+      call add_number(info, "angle", dim_angle, "angle of the first supply, from x of the bearing body, in space from x_i of "// &
+         "the bushing", &
                       default="0 deg")
-      call add_number(info, "width", dim_angle, "of a supply around the bearing; 0: a line", default="0 deg", lower=0.0_wp, &
+      call add_number(info, "width", dim_angle, "circumferential width of a supply; 0: a line", default="0 deg", lower=0.0_wp, &
                       upper=two_pi, open_upper=.true.)
-      call add_number(info, "length", dim_none, "of a supply, part of the bearing's length; 1: from end to end", default="1", &
+      call add_number(info, "length", dim_none, "axial length of a supply over that of the bearing; 1: from end to end", &
+         default="1", &
                       lower=0.0_wp, upper=1.0_wp, open_lower=.true.)
-      call add_number(info, "pressure", dim_pressure, "of the lubricant there above the ends", default="0 Pa", lower=0.0_wp)
+      call add_number(info, "pressure", dim_pressure, "supply pressure above that at the ends", default="0 Pa", lower=0.0_wp)
    end function grid_info
 
    !> Take the columns.
@@ -158,7 +161,7 @@ contains
 
       message = ""
       if (sum(self%supply%width) > 0.9_wp*two_pi) message = to_text(size(self%supply)) &
-                                                            //" supplies as wide as this leave no film: 324 deg is the most for all"
+                                                            //" supplies of this width leave no film: the maximum total is 324 deg"
    end function grid_mistake
 
    !> Parameters for a bearing, and its grid.

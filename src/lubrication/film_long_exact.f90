@@ -34,7 +34,7 @@ contains
       type(kind_info_t) :: info  !! name and columns
 
       info%name = "film.long_exact"
-      info%help = "infinitely long bearing, film where the pressure is positive; exact"
+      info%help = "infinitely long bearing, only positive pressure; exact"
       info%source = "Flores et al. (2008), eq. (5.5), integrated where it is positive"
       allocate (info%columns(0))
    end function long_exact_info

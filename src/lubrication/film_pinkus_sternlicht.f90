@@ -32,9 +32,9 @@ contains
       type(kind_info_t) :: info  !! name and columns
 
       info%name = "film.pinkus_sternlicht"
-      info%help = "infinitely long bearing without tension, approximated (Pinkus and Sternlicht)"
+      info%help = "infinitely long bearing without negative pressure, approximate (Pinkus and Sternlicht)"
       info%source = "Flores et al. (2008), eqs. (5.14)-(5.18)"
-      call add_word(info, "form", "sign of the radial force while the journal parts: corrected, or as the book prints it", &
+      call add_word(info, "form", "sign of the radial force during separation: corrected, or as printed in Flores et al. (2008)", &
                     default="corrected", choices="corrected book")
    end function pinkus_sternlicht_info
 

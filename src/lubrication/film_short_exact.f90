@@ -36,7 +36,7 @@ contains
       type(kind_info_t) :: info  !! name and columns
 
       info%name = "film.short_exact"
-      info%help = "infinitely short bearing, film where the pressure is positive; exact"
+      info%help = "infinitely short bearing, only positive pressure; exact"
       info%source = "Flores et al. (2008), eq. (5.3), integrated where it is positive"
       allocate (info%columns(0))
    end function short_exact_info

@@ -37,7 +37,7 @@ contains
       info%name = "film.short_gumbel"
       info%help = "infinitely short bearing, half film (Gumbel condition)"
       info%source = "Flores et al. (2008), eqs. (5.8), (5.9)"
-      call add_word(info, "form", "half film: the one that narrows, or always from 0 to pi as the book prints it", &
+      call add_word(info, "form", "half film: the converging half, or always from 0 to pi as printed in Flores et al. (2008)", &
                     default="corrected", choices="corrected book")
    end function short_gumbel_info
 

@@ -62,9 +62,9 @@ contains
 
       info%name = "film.spherical"
       info%space = in_space
-      info%help = "ball in a socket all round it: squeeze, and what rotation entrains"
+      info%help = "film all round a ball in a socket: squeeze and entrainment by rotation"
       info%source = "Reynolds (1886), solved for the gap of two spheres"
-      call add_word(info, "pressure", "only positive pressures, or those of both signs", default="positive", &
+      call add_word(info, "pressure", "only positive pressure, or both signs", default="positive", &
                     choices="positive full")
    end function spherical_info
 

@@ -36,9 +36,9 @@ contains
       type(kind_info_t) :: info  !! name and columns
 
       info%name = "film.squeeze"
-      info%help = "squeeze film of an infinitely long bearing: approach counts, sliding does not"
+      info%help = "squeeze film of an infinitely long bearing: normal approach only, no effect of sliding"
       info%source = "Flores et al. (2008), eqs. (5.21), (5.22)"
-      call add_word(info, "pressure", "pressures of both signs, or only positive ones", default="full", choices="full positive")
+      call add_word(info, "pressure", "pressure of both signs, or only positive", default="full", choices="full positive")
    end function squeeze_info
 
    !> Take which pressures count.

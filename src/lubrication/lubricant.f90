@@ -44,18 +44,18 @@ contains
       type(kind_info_t) :: info  !! columns
 
       info%name = "lubricant"
-      info%help = "lubricants of films: viscosity, or grade and temperature"
+      info%help = "lubricants: viscosity, or grade and temperature"
       info%source = "DIN 31654 (ISO VG); Seireg and Dandage (1982) (SAE)"
-      call add_number(info, "viscosity", dim_viscosity, "dynamic viscosity; left out: that of the grade", &
+      call add_number(info, "viscosity", dim_viscosity, "dynamic viscosity; default: that of the grade", &
                       default="0 Pa.s", lower=0.0_wp)
       call add_word(info, "grade", "grade of a mineral oil", default="none", &
                     choices="none "//iso_grades//" sae_10 sae_20 sae_30 sae_40 sae_50 sae_60")
       call add_number(info, "temperature", dim_temperature, "temperature of the film, for a grade", default="40 degC", &
                       lower=ice, upper=ice + 150.0_wp)
-      call add_number(info, "density", dim_density, "for the rise of temperature", default="900 kg/m^3", lower=0.0_wp, &
+      call add_number(info, "density", dim_density, "for the temperature rise", default="900 kg/m^3", lower=0.0_wp, &
                       open_lower=.true.)
-      call add_number(info, "heat_capacity", dim_specific_heat, "for the rise of temperature; with the density 1.8 MJ/(m^3.K), " &
-                      //"as DIN 31652 has it", default="2000 J/(kg.K)", lower=0.0_wp, open_lower=.true.)
+      call add_number(info, "heat_capacity", dim_specific_heat, "for the temperature rise; with the density 1.8 MJ/(m^3.K), " &
+                      //"as in DIN 31652", default="2000 J/(kg.K)", lower=0.0_wp, open_lower=.true.)
    end function lubricant_info
 
    !> Viscosity and grade: one of them, not both.
@@ -70,9 +70,9 @@ contains
       help = ""
       if ((item%number("viscosity") > 0.0_wp) .neqv. (item%word("grade") /= "none")) return
       column = place_of(item, "viscosity")
-      help = "give the viscosity, or a grade and its temperature"
+      help = "give either the viscosity, or a grade and its temperature"
       if (item%number("viscosity") > 0.0_wp) then
-         message = "lubricant '"//item%name//"' has a viscosity and a grade"
+         message = "lubricant '"//item%name//"' has both a viscosity and a grade"
       else
          message = "lubricant '"//item%name//"' has no viscosity"
       end if

@@ -99,8 +99,9 @@ contains
          call get_environment_variable(threads_variable, threads, status=status)
          if (status /= 0 .or. threads /= "1") call begin_anew()
          if (c_has_room(buffer_of_blas + room_of_program) == 0) then
-            call set_error(error, exit_file, "too little memory may be used: OpenBLAS and the program need "// &
-                           to_text((buffer_of_blas + room_of_program)/megabyte)//" MB more than are left (ulimit -v limits the "// &
+            call set_error(error, exit_file, "the memory limit is too low: OpenBLAS and the program need "// &
+                           to_text((buffer_of_blas + room_of_program)/megabyte)//" MB more than available (ulimit -v limits "// &
+                              "the "// &
                            "address space)")
             return
          end if

@@ -67,7 +67,7 @@ contains
       else if (dimension_agrees(a%dimension, a%is_soft .or. b%is_soft, b%dimension)) then
          if (a%is_soft) a%dimension = b%dimension
       else
-         message = "this is "//dimension_name(b%dimension)//", the part before it is "//dimension_name(a%dimension)
+         message = "this is "//dimension_name(b%dimension)//", the preceding part is "//dimension_name(a%dimension)
       end if
       a%is_soft = a%is_soft .and. b%is_soft
       a%is_constant = a%is_constant .and. b%is_constant

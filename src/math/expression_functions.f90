@@ -30,12 +30,12 @@ module expression_functions
    character(76), parameter :: signature_help(n_signature) = [character(76) :: "of an angle or a number", "an angle", &
       & "the angle of the point (x, y), from -pi to pi", "hyperbolic functions", "exponential, natural and decimal logarithm", &
       & "square root, magnitude", "the smaller, the larger", "0 for negative x, else 1", &
-      & "h0 up to x0, h1 from x1 on, between them a cubic: velocity without jumps", &
-      & "the same, a quintic: acceleration without jumps", "the same, half a wave of a cosine: velocity without jumps", &
-      & "the same as cams rise, on a cycloid: acceleration without jumps", &
-      & "the same as cams rise, 3-4-5 polynomial: acceleration without jumps", &
-      & "the same as cams rise, 4-5-6-7 polynomial: jerk without jumps", &
-      & "the same as cams rise, modified sine: acceleration without jumps"]
+      & "h0 up to x0, h1 from x1 on, cubic transition: continuous velocity", &
+      & "the same, quintic: continuous acceleration", "the same, half a cosine wave: continuous velocity", &
+      & "cycloidal cam rise from h0 to h1: continuous acceleration", &
+      & "cam rise, 3-4-5 polynomial: continuous acceleration", &
+      & "cam rise, 4-5-6-7 polynomial: continuous jerk", &
+      & "cam rise, modified sine: continuous acceleration"]
 
 contains
 
@@ -89,7 +89,7 @@ contains
          call set_dimension(value, is_angle=.false.)
       case default
          if (.not. is_angle_like(value%dimension)) then
-            message = name//" takes a dimensionless number or an angle, not "//dimension_name(value%dimension)
+            message = name//" takes a dimensionless number or an angle, got "//dimension_name(value%dimension)
          end if
          call set_dimension(value, operation == op_asin .or. operation == op_acos .or. operation == op_atan)
       end select

@@ -33,21 +33,21 @@ contains
          term%dimension = parser%arguments(find_variable(parser, name))
          term%is_constant = .false.
          if (parser%symbols%find(name) > 0) call fail(parser, term%first, last, "'"//name &
-            & //"' is the variable here, and a parameter", "rename the parameter")
+            & //"' is both the variable here and a parameter", "rename the parameter")
          call emit(parser, op_time, real(find_variable(parser, name), wp))
          return
       else if (name == "t") then
-         call fail(parser, term%first, last, "the time 't' has no place here", "only drivers and loads depend on the time")
+         call fail(parser, term%first, last, "the time 't' is not allowed here", "only drivers and loads may depend on time")
          return
       end if
       if (parser%symbols%find(name) > 0) then
          call use_symbol(parser, parser%symbols%find(name), term, last)
       else if (function_operation(name) > 0) then
-         call fail(parser, term%first, last, "the function '"//name//"' lacks its argument in parentheses")
+         call fail(parser, term%first, last, "the function '"//name//"' needs its argument in parentheses")
       else
          call fail(parser, term%first, last, "unknown parameter '"//name//"'", &
                  & suggestion(name, parser%symbols%names_of(functions=.false.), &
-                 & "a parameter stands in [parameters], before it is used"))
+                 & "define the parameter in [parameters], before its use"))
       end if
    end subroutine parse_name
 
@@ -66,11 +66,11 @@ contains
             call emit(parser, op_number, symbol%number)
             call resolve(parser, i, term%first, last)
          case (symbol_word)
-            call fail(parser, term%first, last, "the parameter '"//symbol%name//"' is the word '" &
+            call fail(parser, term%first, last, "the parameter '"//symbol%name//"' has the value '" &
                     & //symbol%word//"', not a number")
          case (symbol_function)
             call fail(parser, term%first, last, "the function '"//symbol%name &
-                    & //"' lacks its argument in parentheses", "as "//symbol%name//"(t)")
+                    & //"' needs its argument in parentheses", "as "//symbol%name//"(t)")
          case default
             call fail(parser, term%first, last, "")
          end select
@@ -93,8 +93,8 @@ contains
       if (scan(peek(parser), letters//"%") == 1) call parse_glued_unit(parser, unit)
       if (allocated(parser%fault)) return
       call read_quantity(parser%source(first:first + length - 1), unit, x, is_finite)
-      if (.not. is_finite) call fail(parser, first, first + length - 1, "too large: numbers up to "// &
-                                    to_text(largest_quantity)//" in SI units are computed with")
+      if (.not. is_finite) call fail(parser, first, first + length - 1, "too large: the limit is "// &
+                                    to_text(largest_quantity)//" in SI units")
       term%dimension = unit%dimension
       call emit(parser, op_number, x)
    end subroutine parse_number
@@ -115,7 +115,7 @@ contains
          if (len(message) == 0 .and. name /= "t") then
             call advance(parser, length)
          else if (is_name(parser, name)) then
-            call fail(parser, start, start + len(name) - 1, "an operator is missing before '"//name//"'")
+            call fail(parser, start, start + len(name) - 1, "missing operator before '"//name//"'")
          else
             call fail(parser, start + first - 1, start + last - 1, message)
          end if
@@ -155,8 +155,8 @@ contains
                if (word == "t") exit
                call parse_unit(word, unit, message, first, last)
                if (len(message) > 0) exit
-               if (is_name(parser, word)) call fail(parser, at, at + n, "'"//word//"' is a unit and a parameter", &
-                                                  & "put blanks around the slash for the parameter, or rename it")
+               if (is_name(parser, word)) call fail(parser, at, at + n, "'"//word//"' is both a unit and a parameter", &
+                                                  & "put blanks around the slash to use the parameter, or rename it")
             end if
             at = at + 1 + n
          else

@@ -53,12 +53,12 @@ contains
       case ("")
          return
       case (")")
-         call fail(parser, parser%at, parser%at, "this parenthesis was not opened")
+         call fail(parser, parser%at, parser%at, "no matching opening parenthesis")
       case ("<", ">", "=")
-         call fail(parser, parser%at, parser%at, "there are no comparisons in expressions", &
-                 & "step(x) is 0 for negative x, else 1")
+         call fail(parser, parser%at, parser%at, "expressions have no comparisons", &
+                 & "use step(x): 0 for negative x, else 1")
       case default
-         call fail(parser, parser%at, parser%at, "an operator is missing here")
+         call fail(parser, parser%at, parser%at, "missing operator")
       end select
    end subroutine parse_whole
 
@@ -99,7 +99,7 @@ contains
          if (sign /= "*" .and. sign /= "/") return
          call advance(parser, 1)
          if (sign == "*" .and. peek(parser) == "*") then
-            call fail(parser, parser%at - 1, parser%at, "a power is written with ^")
+            call fail(parser, parser%at - 1, parser%at, "write a power with ^")
             return
          end if
          call parse_signed(parser, right)
@@ -150,7 +150,7 @@ contains
       if (allocated(parser%fault)) return
       term%last = right%last
       if (.not. same_dimension(right%dimension, dim_none)) then
-         call fail(parser, right%first, right%last, "an exponent is a dimensionless number, not " &
+         call fail(parser, right%first, right%last, "an exponent must be dimensionless, got " &
                  & //dimension_name(right%dimension))
       else if (right%is_constant) then
          call raise_to_constant(parser, term, right)
@@ -158,7 +158,7 @@ contains
          term%is_constant = .false.
          call emit(parser, op_power)
       else
-         call fail(parser, term%first, term%last, "only a dimensionless number has an exponent that varies")
+         call fail(parser, term%first, term%last, "a variable exponent needs a dimensionless base")
       end if
    end subroutine parse_power
 
@@ -177,7 +177,7 @@ contains
                        & parser%curves, spread(0.0_wp, 1, n_variable), 1, jet)
       parser%n_code = right%start - 1
       if (.not. abs(jet(1)) <= largest) then
-         call fail(parser, right%first, right%last, "this exponent is not a number up to 1000")
+         call fail(parser, right%first, right%last, "this exponent must be a number up to 1000")
          return
       end if
       call combine_power(term, jet(1))
@@ -199,7 +199,7 @@ contains
       start = parser%n_code + 1
       term%first = first
       if (peek(parser) == "") then
-         call fail(parser, len(parser%source), len(parser%source), "the expression ends too early")
+         call fail(parser, len(parser%source), len(parser%source), "the expression is incomplete")
       else if (peek(parser) == "(") then
          call advance(parser, 1)
          call descend(parser)
@@ -211,7 +211,7 @@ contains
       else if (number_length(parser%source(parser%at:)) > 0) then
          call parse_number(parser, term)
       else
-         call fail(parser, parser%at, parser%at, "a number, a name or a parenthesis belongs here")
+         call fail(parser, parser%at, parser%at, "expected a number, a name or a parenthesis")
       end if
       term%first = first
       term%last = parser%last
@@ -228,9 +228,9 @@ contains
       if (peek(parser) == ")") then
          call advance(parser, 1)
       else if (peek(parser) == "") then
-         call fail(parser, first, parser%last, "a parenthesis is not closed")
+         call fail(parser, first, parser%last, "missing closing parenthesis")
       else
-         call fail(parser, parser%at, parser%at, "an operator or a closing parenthesis belongs here")
+         call fail(parser, parser%at, parser%at, "expected an operator or a closing parenthesis")
       end if
    end subroutine close_parenthesis
 

@@ -52,7 +52,7 @@ contains
             end if
          else if (k == n .and. peek(parser) == ",") then
             message = ""
-            if (name == "step") message = "step(x) is 0 for negative x, else 1; smooth ones are step3 and step5(x, x0, h0, x1, h1)"
+            if (name == "step") message = "step(x) is 0 for negative x, else 1; smooth steps: step3 and step5(x, x0, h0, x1, h1)"
             call fail(parser, parser%at, parser%at, "too many arguments for '"//name//"'", message)
          end if
       end do
@@ -86,7 +86,7 @@ contains
          place(k) = jet(1)
       end do
       if (abs(place(2) - place(1)) > 0.0_wp) return
-      call fail(parser, arguments(4)%first, arguments(4)%last, "'"//name//"' has no way to rise: x0 and x1 are one place", &
+      call fail(parser, arguments(4)%first, arguments(4)%last, "'"//name//"' has zero width: x0 equals x1", &
               & name//"(x, x0, h0, x1, h1) goes from h0 at x0 to h1 at x1")
    end subroutine check_places
 
@@ -165,8 +165,8 @@ contains
 
       call advance(parser, len(word))
       if (.not. associated(parser%finder)) then
-         call fail(parser, term%first, parser%last, "the channel '"//word//"' has no place here", &
-                 & "only loads and requests use channels")
+         call fail(parser, term%first, parser%last, "the channel '"//word//"' is not allowed here", &
+                 & "only loads and requests may use channels")
          return
       end if
       do k = 1, parser%n_seen
@@ -175,7 +175,7 @@ contains
       if (k > parser%n_seen) then
          if (k > most_seen) then
             call fail(parser, term%first, parser%last, "more than "//to_text(most_seen)//" channels in one expression", &
-                    & "make requests of its parts")
+                    & "split it into requests")
             return
          end if
          call parser%finder%find(word, parser%seen_dimensions(k), message, help)
@@ -209,7 +209,7 @@ contains
             call fail(parser, term%first, parser%last, "")
          else
             known = function_names//function_list(parser)
-            call fail(parser, term%first, parser%last, "there is no function '"//name//"'", &
+            call fail(parser, term%first, parser%last, "unknown function '"//name//"'", &
                     & suggestion(name, split_blank(known), "functions: "//known))
          end if
          return
@@ -225,7 +225,7 @@ contains
       associate (symbol => parser%symbols%list(i))
          if (.not. dimension_agrees(argument%dimension, argument%is_soft, symbol%argument)) then
             call fail(parser, argument%first, argument%last, "'"//name//"' takes "//dimension_name(symbol%argument) &
-                    & //", this is "//dimension_name(argument%dimension))
+                    & //", got "//dimension_name(argument%dimension))
          end if
          term%dimension = symbol%dimension
       end associate

@@ -70,24 +70,25 @@ contains
 
       info%name = "bodies"
       info%space = in_plane
-      info%help = "rigid bodies; the ground is there without a row"
+      info%help = "rigid bodies; the ground needs no row"
       info%source = "Flores et al. (2008), section 2.1"
       call add_number(info, "mass", dim_mass, "mass", lower=0.0_wp, open_lower=.true.)
       call add_number(info, "inertia", dim_inertia, "moment of inertia about the centre of mass", &
                       lower=0.0_wp, open_lower=.true.)
-      call add_number(info, "x", dim_length, "centre of mass at the start, world frame", default="0 m")
-      call add_number(info, "y", dim_length, "centre of mass at the start, world frame", default="0 m")
-      call add_number(info, "angle", dim_angle, "angle at the start, counter-clockwise", default="0 rad")
-      call add_number(info, "vx", dim_speed, "velocity of the centre of mass at the start; made consistent, left out: free", &
+      call add_number(info, "x", dim_length, "initial position of the centre of mass, world frame", default="0 m")
+      call add_number(info, "y", dim_length, "initial position of the centre of mass, world frame", default="0 m")
+      call add_number(info, "angle", dim_angle, "initial angle, counter-clockwise", default="0 rad")
+      call add_number(info, "vx", dim_speed, "initial velocity of the centre of mass; made consistent; default: undetermined", &
                       default="0 m/s", is_free=.true.)
-      call add_number(info, "vy", dim_speed, "velocity of the centre of mass at the start; made consistent, left out: free", &
+      call add_number(info, "vy", dim_speed, "initial velocity of the centre of mass; made consistent; default: undetermined", &
                       default="0 m/s", is_free=.true.)
-      call add_number(info, "omega", dim_angular_speed, "angular velocity at the start; made consistent, left out: free", &
+      call add_number(info, "omega", dim_angular_speed, "initial angular velocity; made consistent; default: undetermined", &
                       default="0 rad/s", is_free=.true.)
       call add_channel(info, "position", "m", "world", 2, "position of the centre of mass", of_position)
       call add_channel(info, "velocity", "m/s", "world", 2, "velocity of the centre of mass", of_velocity)
       call add_channel(info, "acceleration", "m/s^2", "world", 2, "acceleration of the centre of mass", of_acceleration)
-      call add_channel(info, "angle", "rad", "world", 1, "angle of rotation, counter-clockwise, turns counted", of_angle)
+      call add_channel(info, "angle", "rad", "world", 1, "rotation angle, counter-clockwise, accumulated over revolutions", &
+         of_angle)
       call add_channel(info, "angular_velocity", "rad/s", "world", 1, "angular velocity", of_angular_velocity)
       call add_channel(info, "angular_acceleration", "rad/s^2", "world", 1, "angular acceleration", of_angular_acceleration)
    end function bodies_info
@@ -98,7 +99,7 @@ contains
 
       info%name = "points"
       info%space = in_plane
-      info%help = "points fixed in a body, from its centre of mass along its axes (ground: the world's)"
+      info%help = "points fixed in a body, relative to its centre of mass along its axes (ground: world axes)"
       info%source = "Flores et al. (2008), eq. (2.1)"
       call add_reference(info, "body", "bodies", "the body, or ground")
       call add_number(info, "xi", dim_length, "first coordinate in the body's frame", default="0 m")
@@ -110,14 +111,14 @@ contains
       type(kind_info_t) :: info  !! columns
 
       info%name = "material"
-      info%help = "elastic materials of surfaces in contact"
+      info%help = "elastic materials of contact surfaces"
       info%source = "Flores et al. (2008), eq. (3.4)"
-      call add_number(info, "young", dim_pressure, "modulus of elasticity", lower=0.0_wp, open_lower=.true.)
-      call add_number(info, "poisson", dim_none, "ratio of Poisson", lower=-1.0_wp, upper=0.5_wp, open_lower=.true.)
-      call add_number(info, "density", dim_density, "density, for the validity of quasi-static contact; 0: not checked", &
+      call add_number(info, "young", dim_pressure, "Young's modulus", lower=0.0_wp, open_lower=.true.)
+      call add_number(info, "poisson", dim_none, "Poisson's ratio", lower=-1.0_wp, upper=0.5_wp, open_lower=.true.)
+      call add_number(info, "density", dim_density, "density, for the validity check of quasi-static contact; 0: no check", &
                       default="0 kg/m^3", lower=0.0_wp)
-      call add_number(info, "strength", dim_pressure, "greatest contact pressure that its surface bears (1.6 times the yield " &
-                      //"strength for balls, 1.8 for cylinders); 0: not checked", default="0 Pa", lower=0.0_wp)
+      call add_number(info, "strength", dim_pressure, "maximum contact pressure of the surface (1.6 times the yield " &
+                      //"strength for balls, 1.8 for cylinders); 0: no check", default="0 Pa", lower=0.0_wp)
    end function material_info
 
    !> Bodies from their rows.

@@ -98,9 +98,10 @@ contains
    pure function noise_words() result(words)
       character(:), allocatable :: words    !! one line
 
-      words = "shown as zero: channels below "//real_text(of_length, 2)//" of the greatest length, angle (1 rad) or number, "// &
-              real_text(of_rate, 2)//" of the greatest speed or energy, "//real_text(of_load, 2)// &
-              " of the greatest force, acceleration or power of the run"
+      words = "channels shown as zero: those below "//real_text(of_length, 2)//" of the maximum length, angle (1 rad) or "// &
+         "number, "// &
+              real_text(of_rate, 2)//" of the maximum speed or energy, "//real_text(of_load, 2)// &
+              " of the maximum force, acceleration or power of the run"
    end function noise_words
 
 end module channel_noise

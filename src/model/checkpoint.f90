@@ -79,23 +79,23 @@ contains
       do k = 1, min(size(pieces), size(self%pieces))
          associate (here => pieces(k), there => self%pieces(k))
             if (there%name /= here%name) then
-               call refuse("it holds the memory of "//there%name//" where that of "//here%name//" is wanted")
+               call refuse("it contains the state of "//there%name//" instead of that of "//here%name)
             else if (there%version /= here%version) then
-               call refuse("the memory of "//here%name//" is of version "//to_text(there%version)// &
-                           ", and version "//to_text(here%version)//" is read")
+               call refuse("the state of "//here%name//" has version "//to_text(there%version)// &
+                           ", supported is version "//to_text(here%version))
             else if (there%size /= here%size .and. here%is_fixed) then
-               call refuse("the memory of "//here%name//" has "//counted(there%size, "number", "numbers")// &
-                           ", and "//to_text(here%size)//" are wanted")
+               call refuse("the state of "//here%name//" has "//counted(there%size, "number", "numbers")// &
+                           ", expected "//to_text(here%size))
             end if
          end associate
          if (allocated(error)) return
       end do
       if (size(self%pieces) > size(pieces)) then
-         call refuse("it holds the memory of "//self%pieces(size(pieces) + 1)%name//", which nothing here has")
+         call refuse("it contains the state of "//self%pieces(size(pieces) + 1)%name//", which is not part of this run")
       else if (size(pieces) > size(self%pieces)) then
-         call refuse("the memory of "//pieces(size(self%pieces) + 1)%name//" is missing")
+         call refuse("the state of "//pieces(size(self%pieces) + 1)%name//" is missing")
       else if (size(self%row) /= size_of_pieces(self%pieces)) then
-         call refuse("it has "//counted(size(self%row), "number", "numbers")//", and its pieces say "// &
+         call refuse("it has "//counted(size(self%row), "number", "numbers")//", but its segments describe "// &
                      to_text(size_of_pieces(self%pieces)))
       end if
 
@@ -106,7 +106,7 @@ contains
          character(*), intent(in) :: difference  !! the sentence
 
          call set_error(error, exit_usage, "the checkpoint does not belong to this run: "//difference//new_line("a")// &
-                        "  = go on with the deck, the options and the version of gudgeon that wrote it")
+                        "  = use the same deck, options and version of gudgeon as the interrupted run")
       end subroutine refuse
 
    end subroutine checkpoint_compare

@@ -29,7 +29,7 @@ module recorder
    integer, parameter :: row_stop = 5     !! a condition ends the run
    integer, parameter :: n_row_kind = 5   !! the greatest of these numbers
    !> What the numbers mean.
-   character(*), parameter :: row_kinds = "0 output instant, 1 onset, 2 peak, 3 end, 4 before or after a jump, 5 stop"
+   character(*), parameter :: row_kinds = "0 output time, 1 onset, 2 peak, 3 separation, 4 before or after a jump, 5 stop"
 
    !> One located event. A contact is one row: its time is the onset.
    type :: event_t

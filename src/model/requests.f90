@@ -76,10 +76,10 @@ contains
       type(kind_info_t) :: info  !! columns
 
       info%name = "request"
-      info%help = "expressions over channels, which are channels themselves: request.NAME"
+      info%help = "requests: expressions of channels, recorded as channels request.NAME"
       info%source = ""
-      call add_formula(info, "value", "expression over channels, the time t and functions: {-ram.velocity.y*hand.force.y}")
-      call add_word(info, "unit", "unit that the value must have; left out: whatever it has", default="")
+      call add_formula(info, "value", "expression of channels, the time t and functions: {-ram.velocity.y*hand.force.y}")
+      call add_word(info, "unit", "unit of the value; default: that of the expression", default="")
    end function request_info
 
    !> The deck table of points as seen from elsewhere.
@@ -87,19 +87,20 @@ contains
       type(kind_info_t) :: info  !! columns and channels
 
       info%name = "request.motion"
-      info%help = "a point as it is seen from another point or from a body: relative motion, coupler curves, accelerometers"
+      info%help = "motion of a point relative to another point or a body: relative motion, coupler curves, accelerometers"
       info%source = "Flores et al. (2008), eqs. (2.1), (6.1)"
       call add_reference(info, "point", "points", "the point")
-      call add_reference(info, "from", "points", "the point from which it is seen; none: the origin of the frame", default="none")
-      call add_reference(info, "frame", "bodies", "body along whose axes components are told, or ground", default="ground")
-      call add_word(info, "observer", "who sees rates: frame, one that turns with the frame's body, so that they are the " &
-                    //"derivatives of the components; world, as an accelerometer on that body does", default="frame", &
+      call add_reference(info, "from", "points", "reference point; none: the origin of the frame", default="none")
+      call add_reference(info, "frame", "bodies", "body whose axes define the components, or ground", default="ground")
+      call add_word(info, "observer", "observer of rates: frame, rotating with the body of the frame, so that they are the " &
+                    //"derivatives of the components; world, like an accelerometer on that body", default="frame", &
                     choices="frame world")
-      call add_channel(info, "position", "m", "body", 2, "position of the point, from the other one, along the axes of the frame", &
+      call add_channel(info, "position", "m", "body", 2, "position of the point relative to the reference point, along the "// &
+         "axes of the frame", &
                        sees_position)
       call add_channel(info, "velocity", "m/s", "body", 2, "its velocity", sees_velocity)
       call add_channel(info, "acceleration", "m/s^2", "body", 2, "its acceleration", sees_acceleration)
-      call add_channel(info, "distance", "m", "none", 1, "distance of both points", sees_distance)
+      call add_channel(info, "distance", "m", "none", 1, "distance of the two points", sees_distance)
       call add_channel(info, "distance_rate", "m/s", "none", 1, "its rate", sees_distance_rate)
    end function motion_request_info
 
@@ -120,13 +121,13 @@ contains
 
       info%name = "request.reaction"
       info%space = merge(in_space, in_plane, is_spatial)
-      info%help = "the reaction of a joint, driver or spring at a point, along the axes of a body"
+      info%help = "reaction of a joint, driver or spring at a point, along the axes of a body"
       info%source = "Flores et al. (2008), eq. (2.24)"
       call add_word(info, "joint", "the joint, driver, joint with clearance, spring or torsional spring")
       call add_word(info, "on", "the body that it acts on", default="i", choices="i j")
-      call add_reference(info, "point", "points", "point about which the moment is told; left out: where the joint tells its own", &
+      call add_reference(info, "point", "points", "reference point of the moment; default: that of the joint", &
                          default="none")
-      call add_reference(info, "frame", "bodies", "body along whose axes components are told, or ground", default="ground")
+      call add_reference(info, "frame", "bodies", "body whose axes define the components, or ground", default="ground")
       call add_channel(info, "force", "N", "body", 2, "force on the body", of_reaction_force)
       call add_channel(info, "moment", "N.m", "body", merge(2, 1, is_spatial), "moment on the body about the point", &
                        of_reaction_moment)

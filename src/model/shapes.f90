@@ -27,20 +27,21 @@ contains
       type(kind_info_t) :: info  !! columns
 
       info%name = "shapes"
-      info%help = "what bodies look like in pictures and in files for other programs; a body without rows is drawn by its points"
+      info%help = "shapes of bodies for figures and for other programs; default: lines between the points of the body"
       info%source = ""
       call add_reference(info, "body", "bodies", "the body, or ground")
-      call add_word(info, "shape", "what it is", choices="polygon circle box cylinder sphere")
+      call add_word(info, "shape", "type of the shape", choices="polygon circle box cylinder sphere")
       call add_list(info, "points", "of a polygon: its corners, xi and eta of each, in space zeta too", default="")
       call add_number(info, "radius", dim_length, "of a circle, cylinder or sphere", default="0 m", lower=0.0_wp)
-      call add_number(info, "length", dim_length, "of a box along xi, of a cylinder along its axis", default="0 m", lower=0.0_wp)
-      call add_number(info, "width", dim_length, "of a box along eta", default="0 m", lower=0.0_wp)
-      call add_number(info, "height", dim_length, "of a box along zeta; 0: a rectangle", default="0 m", lower=0.0_wp)
-      call add_number(info, "xi", dim_length, "centre of what is no polygon, in the body's frame", default="0 m")
+      call add_number(info, "length", dim_length, "length of a box along xi, of a cylinder along its axis", default="0 m", &
+         lower=0.0_wp)
+      call add_number(info, "width", dim_length, "width of a box along eta", default="0 m", lower=0.0_wp)
+      call add_number(info, "height", dim_length, "height of a box along zeta; 0: a rectangle", default="0 m", lower=0.0_wp)
+      call add_number(info, "xi", dim_length, "centre of the shape, except polygons, in the body frame", default="0 m")
       call add_number(info, "eta", dim_length, "the same, second coordinate", default="0 m")
       call add_number(info, "zeta", dim_length, "the same, third coordinate", default="0 m")
-      call add_direction(info, "axis", "of a circle or cylinder; axis of the turn of a box", default='"0 0 1"')
-      call add_number(info, "angle", dim_angle, "turn of a box about the axis", default="0 rad")
+      call add_direction(info, "axis", "axis of a circle or cylinder; rotation axis of a box", default='"0 0 1"')
+      call add_number(info, "angle", dim_angle, "rotation angle of a box about the axis", default="0 rad")
    end function shapes_info
 
    !> What is wrong with a row; blank: nothing.
@@ -59,10 +60,10 @@ contains
             of_corner = merge(3, 2, is_spatial)
             if (allocated(list%table)) n = size(list%table)
             if (n < 3*of_corner .or. mod(n, of_corner) /= 0) then
-               message = "the polygon '"//item%name//"' needs three corners or more, "// &
+               message = "the polygon '"//item%name//"' needs at least three corners, "// &
                          trim(merge("three", "two  ", is_spatial))//" coordinates each, in column points"
             else if (.not. same_dimension(list%dimensions(1), dim_length)) then
-               message = "the corners of polygon '"//item%name//"' are no lengths"
+               message = "the corners of polygon '"//item%name//"' are not lengths"
             end if
          end associate
       case ("box")

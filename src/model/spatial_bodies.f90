@@ -39,13 +39,13 @@ contains
    function spatial_bodies_info() result(info)
       type(kind_info_t) :: info  !! columns and channels
 
-      character(*), parameter :: at_start = " of the centre of mass at the start; made consistent, left out: free"
-      character(*), parameter :: turning = " of the angular velocity at the start, world frame; made consistent, left out: free"
+      character(*), parameter :: at_start = " of the initial velocity of the centre of mass; made consistent; default: undetermined"
+      character(*), parameter :: turning = " of the initial angular velocity, world frame; made consistent; default: undetermined"
       integer :: k
 
       info%name = "bodies"
       info%space = in_space
-      info%help = "rigid bodies; the ground is there without a row"
+      info%help = "rigid bodies; the ground needs no row"
       info%source = "Flores et al. (2008), section 6.2"
       call add_number(info, "mass", dim_mass, "mass", lower=0.0_wp, open_lower=.true.)
       call add_number(info, "ixx", dim_inertia, "moment of inertia about the body's xi axis", lower=0.0_wp, open_lower=.true.)
@@ -54,21 +54,21 @@ contains
       call add_number(info, "ixy", dim_inertia, "product of inertia, integral of xi eta dm", default="0 kg.m^2")
       call add_number(info, "ixz", dim_inertia, "product of inertia, integral of xi zeta dm", default="0 kg.m^2")
       call add_number(info, "iyz", dim_inertia, "product of inertia, integral of eta zeta dm", default="0 kg.m^2")
-      call add_number(info, "x", dim_length, "centre of mass at the start, world frame", default="0 m")
-      call add_number(info, "y", dim_length, "centre of mass at the start, world frame", default="0 m")
-      call add_number(info, "z", dim_length, "centre of mass at the start, world frame", default="0 m")
+      call add_number(info, "x", dim_length, "initial position of the centre of mass, world frame", default="0 m")
+      call add_number(info, "y", dim_length, "initial position of the centre of mass, world frame", default="0 m")
+      call add_number(info, "z", dim_length, "initial position of the centre of mass, world frame", default="0 m")
       do k = 0, 3
-         call add_number(info, "e"//achar(iachar("0") + k), dim_none, "Euler parameter at the start, world to body", &
+         call add_number(info, "e"//achar(iachar("0") + k), dim_none, "initial Euler parameter, world to body", &
                          default=merge("1", "0", k == 0), is_free=.true.)
       end do
-      call add_direction(info, "axis", "axis of a turn to the orientation at the start", default="")
-      call add_number(info, "angle", dim_angle, "angle of the turn about `axis`", default="0 rad", is_free=.true.)
-      call add_word(info, "sequence", "axes of three turns to the orientation at the start", default="none", choices=sequences)
-      call add_number(info, "angle1", dim_angle, "first turn of the sequence", default="0 rad", is_free=.true.)
-      call add_number(info, "angle2", dim_angle, "second turn of the sequence", default="0 rad", is_free=.true.)
-      call add_number(info, "angle3", dim_angle, "third turn of the sequence", default="0 rad", is_free=.true.)
-      call add_direction(info, "xi_axis", "direction of the xi axis at the start, world frame", default="")
-      call add_direction(info, "eta_axis", "direction near that of the eta axis at the start, world frame", default="")
+      call add_direction(info, "axis", "rotation axis of the initial orientation", default="")
+      call add_number(info, "angle", dim_angle, "rotation angle about `axis`", default="0 rad", is_free=.true.)
+      call add_word(info, "sequence", "axes of three rotations to the initial orientation", default="none", choices=sequences)
+      call add_number(info, "angle1", dim_angle, "first angle of the sequence", default="0 rad", is_free=.true.)
+      call add_number(info, "angle2", dim_angle, "second angle of the sequence", default="0 rad", is_free=.true.)
+      call add_number(info, "angle3", dim_angle, "third angle of the sequence", default="0 rad", is_free=.true.)
+      call add_direction(info, "xi_axis", "initial direction of the xi axis, world frame", default="")
+      call add_direction(info, "eta_axis", "approximate initial direction of the eta axis, world frame", default="")
       do k = 1, 3
          call add_number(info, rates(k), dim_speed, "velocity"//at_start, default="0 m/s", is_free=.true.)
       end do
@@ -79,10 +79,10 @@ contains
       call add_channel(info, "velocity", "m/s", "world", 2, "velocity of the centre of mass", of_velocity)
       call add_channel(info, "acceleration", "m/s^2", "world", 2, "acceleration of the centre of mass", &
                        of_acceleration)
-      call add_channel(info, "orientation", "1", "world", 4, "Euler parameters of the body's own axes", of_orientation)
+      call add_channel(info, "orientation", "1", "world", 4, "Euler parameters of the body axes", of_orientation)
       call add_channel(info, "angular_velocity", "rad/s", "world", 2, "angular velocity", of_angular_velocity)
       call add_channel(info, "angular_acceleration", "rad/s^2", "world", 2, "angular acceleration", of_angular_acceleration)
-      call add_channel(info, "spin", "rad/s", "body", 2, "angular velocity along the body's own axes", of_spin)
+      call add_channel(info, "spin", "rad/s", "body", 2, "angular velocity along the body axes", of_spin)
    end function spatial_bodies_info
 
    !> The deck table of points in space.
@@ -91,7 +91,7 @@ contains
 
       info%name = "points"
       info%space = in_space
-      info%help = "points fixed in a body, from its centre of mass along its own axes (ground: the world's)"
+      info%help = "points fixed in a body, relative to its centre of mass along its axes (ground: world axes)"
       info%source = "Flores et al. (2008), eq. (6.1)"
       call add_reference(info, "body", "bodies", "the body, or ground")
       call add_number(info, "xi", dim_length, "first coordinate in the body's frame", default="0 m")
@@ -110,23 +110,23 @@ contains
       message = ""
       call principal_axes(tensor_of(item), moments, axes)
       if (.not. minval(moments) > 0.0_wp) then
-         message = "the inertia tensor of '"//item%name//"' is not positive: a principal moment is zero or negative"
+         message = "the inertia tensor of '"//item%name//"' is not positive definite: a principal moment is zero or negative"
       else if (2.0_wp*maxval(moments) > (1.0_wp + rounding)*sum(moments)) then
-         message = "no body has the inertia tensor of '"//item%name// &
-                   "': one principal moment is greater than the two others together"
+         message = "the inertia tensor of '"//item%name// &
+                   "' is impossible: one principal moment exceeds the sum of the other two"
       else if (count(ways_given(item)) > 1) then
-         message = "the orientation of '"//item%name//"' is given in more than one way"
+         message = "the orientation of '"//item%name//"' is given twice, by different columns"
       else if (item%is_given("angle") .and. .not. item%is_given("axis")) then
-         message = "the turn of '"//item%name//"' has an angle but no axis"
+         message = "the rotation of '"//item%name//"' has an angle but no axis"
       else if (any([item%is_given("angle1"), item%is_given("angle2"), item%is_given("angle3")]) &
                .and. .not. item%is_given("sequence")) then
-         message = "the turns of '"//item%name//"' have no sequence"
+         message = "the rotations of '"//item%name//"' have no sequence"
       else if (item%is_given("xi_axis") .neqv. item%is_given("eta_axis")) then
          message = "the orientation of '"//item%name//"' needs both xi_axis and eta_axis"
       else
          rotation = start_rotation(item)
          if (.not. any(abs(rotation) > 0.0_wp)) then
-            message = "the orientation of '"//item%name//"' is none: Euler parameters of length zero, or two axes along one line"
+            message = "the orientation of '"//item%name//"' is undefined: Euler parameters of zero length, or two parallel axes"
          end if
       end if
    end function mistake_of_body

@@ -58,16 +58,17 @@ contains
          row = [row, saved%parts(p)%row]
       end do
       call real_dataset(file, "time", [1], [saved%t], "s", "time of the motion", status)
-      call text_dataset(file, "belongs_to", whose(plan), .false., "program, options, deck with included files, as understood", &
+      call text_dataset(file, "belongs_to", whose(plan), .false., "program, options, deck with included files, deck with "// &
+         "defaults", &
                         status)
-      call text_dataset(file, "parts/names", names, .false., "what remembers", status)
-      call integer_dataset(file, "parts/versions", [size(versions)], versions, "of the forms of what is remembered", status)
-      call integer_dataset(file, "parts/sizes", [size(sizes)], sizes, "numbers of each", status)
+      call text_dataset(file, "parts/names", names, .false., "names of the saved subsystems", status)
+      call integer_dataset(file, "parts/versions", [size(versions)], versions, "format version of each", status)
+      call integer_dataset(file, "parts/sizes", [size(sizes)], sizes, "number of values of each", status)
       call integer_dataset(file, "parts/pieces", [size(saved%parts)], [(size(saved%parts(p)%pieces), p=1, size(saved%parts))], &
                            "names of each part of the mechanism", status)
-      call real_dataset(file, "parts/row", [size(row)], row, "any", "the numbers of all, one behind the other", status)
-      call put_tape(file, "motion", saved%motion, "of the whole motion", status)
-      call put_tape(file, "output", saved%output, "of samples, statistics and files", status)
+      call real_dataset(file, "parts/row", [size(row)], row, "any", "values of all parts, concatenated", status)
+      call put_tape(file, "motion", saved%motion, "state of the whole motion", status)
+      call put_tape(file, "output", saved%output, "state of samples, statistics and files", status)
       call end_whole_file(path, file, status, error)
    end subroutine write_checkpoint
 
@@ -118,8 +119,8 @@ contains
       path = plan%directory//"/"//checkpoint_name
       status = seal_state(path)
       if (status /= seal_right) then  ! the library may crash on a damaged file, or read other numbers
-         words = " is damaged: its content is not that of its checksum"
-         if (status == seal_none) words = " is damaged: it does not end with its checksum"
+         words = " is corrupt: its content does not match its checksum"
+         if (status == seal_none) words = " is corrupt: its checksum is missing"
          call set_error(error, exit_file, path//words//new_line("a")//"  = run the deck anew, without --resume")
          return
       end if
@@ -130,7 +131,7 @@ contains
       if (status >= 0) call compare(path, there, whose(plan), error)
       if (.not. allocated(error)) call read_memory(file, saved, status)
       if (file >= 0) call h5fclose_f(file, closed)
-      if (status < 0) call set_error(error, exit_file, path//" cannot be read, or is no checkpoint; run the deck anew")
+      if (status < 0) call set_error(error, exit_file, path//" is unreadable or not a checkpoint; run the deck again")
    end subroutine read_checkpoint
 
    !> Read what is remembered.
@@ -203,10 +204,10 @@ contains
       end if
       do k = 1, size(here)
          if (there(k)%s == here(k)%s .and. len(there(k)%s) == len(here(k)%s)) cycle
-         difference = trim(belonging(k))//" "//quoted(there(k)%s)//", and here is "//quoted(here(k)%s)
+         difference = trim(belonging(k))//" "//quoted(there(k)%s)//", this is "//quoted(here(k)%s)
          if (k >= first_of_deck) difference = trim(belonging(k))//", "//first_difference(there(k)%s, here(k)%s)
          call set_error(error, exit_usage, path//" belongs to another run: "//difference//new_line("a")// &
-                        "  = go on with the deck, the options and the program that wrote it, or leave out --resume to begin anew")
+                        "  = use the same deck, options and program as that run, or omit --resume to start again")
          return
       end do
    end subroutine compare
@@ -235,7 +236,7 @@ contains
          if (there(at(1):at(1) + n(1) - 1) /= here(at(2):at(2) + n(2) - 1) .or. any(at + n > [len(there), len(here)])) exit
          at = at + n + 1
       end do
-      words = "line "//to_text(line)//" "//quoted(there(at(1):at(1) + n(1) - 1))//", and here is "// &
+      words = "line "//to_text(line)//" "//quoted(there(at(1):at(1) + n(1) - 1))//", this is "// &
               quoted(here(at(2):at(2) + n(2) - 1))
    end function first_difference
 

@@ -41,25 +41,27 @@ contains
             names(k)%s = films(k)%joint
          end do
          call text_dataset(file, "films/names", names, .false., "joint of each film", status)
-         call put("eccentricity_ratio", films%eccentricity_ratio, "1", "eccentricity over clearance")
-         call put("attitude", films%attitude, "rad", "from the load to the journal's centre, the way the film is entrained")
-         call put("load", films%load, "N", "size of the film's force")
-         call put("journal_speed", films%journal_speed, "rad/s", "inertial speed of the journal's body")
-         call put("temperature", films%temperature, "K", "of the film; of a lubricant without a grade of no meaning")
-         call put("viscosity", films%viscosity, "Pa.s", "dynamic, that the film has")
-         call put("error", films%error, "1", "of the greatest entry of stiffness and damping, as a part of it")
-         call put("equivalent_stiffness", films%equivalent_stiffness, "N/m", "of a rigid rotor that begins to whirl")
-         call put("whirl_frequency", films%whirl_frequency, "rad/s", "of that rotor; NaN: none whirls")
-         call put("critical_mass", films%critical_mass, "kg", "of that rotor, which whirls above it; NaN: none whirls")
+         call put("eccentricity_ratio", films%eccentricity_ratio, "1", "eccentricity ratio")
+         call put("attitude", films%attitude, "rad", "attitude angle: from the load to the journal centre, in the direction of "// &
+            "entrainment")
+         call put("load", films%load, "N", "magnitude of the film force")
+         call put("journal_speed", films%journal_speed, "rad/s", "absolute angular speed of the journal body")
+         call put("temperature", films%temperature, "K", "of the film; undefined for a lubricant without a grade")
+         call put("viscosity", films%viscosity, "Pa.s", "dynamic viscosity of the film")
+         call put("error", films%error, "1", "error of stiffness and damping, relative to the maximum entry")
+         call put("equivalent_stiffness", films%equivalent_stiffness, "N/m", "critical mass of a rigid rotor, at the onset of "// &
+            "whirl")
+         call put("whirl_frequency", films%whirl_frequency, "rad/s", "whirl frequency of that rotor; NaN: no whirl")
+         call put("critical_mass", films%critical_mass, "kg", "stability limit of the rotor mass: whirl above it; NaN: no whirl")
          call real_dataset(file, "films/stiffness", [2, 2, n], [(transpose(films(k)%stiffness), k=1, n)], "N/m", &
-                           "force of the film, eccentricity: minus the derivative, world frame", status)
+                           "negative derivative of the film force by the eccentricity, world frame", status)
          call real_dataset(file, "films/damping", [2, 2, n], [(transpose(films(k)%damping), k=1, n)], "N.s/m", &
-                           "force of the film, rate of the eccentricity: minus the derivative, world frame", status)
+                           "negative derivative of the film force by the rate of the eccentricity, world frame", status)
       end associate
       if (.not. linear%is_judged) return
       associate (values => linear%eigenvalues)
          call real_dataset(file, "films/eigenvalues", shape(values), reshape(values, [size(values)]), "1/s", &
-                           "of the mechanism: real and imaginary parts, greatest growth first", status)
+                           "eigenvalues of the mechanism: real and imaginary parts, fastest growth first", status)
       end associate
 
    contains

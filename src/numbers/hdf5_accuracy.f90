@@ -58,12 +58,12 @@ contains
             all_units = trim(all_units//" "//extremes(k)%unit)
          end do
          all_units = trim(adjustl(all_units))
-         call text_dataset(file, "accuracy/names", names, .false., "channels of which errors are known", status)
+         call text_dataset(file, "accuracy/names", names, .false., "channels with known errors", status)
          call text_dataset(file, "accuracy/units", units, .false., "their units", status)
-         call put("scale", extremes%scale, "what relative errors are parts of")
-         call put("error", extremes%error, "greatest error up to claimed_until, and of the extremes")
-         call put("min", extremes%least, "least value up to claimed_until")
-         call put("max", extremes%most, "greatest value up to claimed_until")
+         call put("scale", extremes%scale, "reference values of relative errors")
+         call put("error", extremes%error, "maximum error up to claimed_until, and of the extremes")
+         call put("min", extremes%least, "minimum up to claimed_until")
+         call put("max", extremes%most, "maximum up to claimed_until")
       end associate
       if (group >= 0) call h5gclose_f(group, closed)
 

@@ -43,32 +43,32 @@ contains
             names(k)%s = scalar_name(catalogue, extremes%channels(k))
             units(k)%s = catalogue%groups(extremes%channels(k)%group)%channel%unit
          end do
-         call text_dataset(file, "extremes/channels/name", names, .false., "names of the numbers", status)
+         call text_dataset(file, "extremes/channels/name", names, .false., "names of the statistics", status)
          call text_dataset(file, "extremes/channels/unit", units, .false., "their units", status)
-         call put("channels/least", one%least, "list", "least value, located between rows too")
-         call put("channels/least_time", one%least_time, "s", "when it was first there")
-         call put("channels/greatest", one%greatest, "list", "greatest value, located between rows too")
-         call put("channels/greatest_time", one%greatest_time, "s", "when it was first there")
-         call put("channels/mean", [(extremes%mean(k), k=1, n)], "list", "mean over the time")
-         call put("channels/rms", [(extremes%rms(k), k=1, n)], "list", "root mean square over the time")
+         call put("channels/least", one%least, "list", "minimum, located between rows too")
+         call put("channels/least_time", one%least_time, "s", "time of the first minimum")
+         call put("channels/greatest", one%greatest, "list", "maximum, located between rows too")
+         call put("channels/greatest_time", one%greatest_time, "s", "time of the first maximum")
+         call put("channels/mean", [(extremes%mean(k), k=1, n)], "list", "time average")
+         call put("channels/rms", [(extremes%rms(k), k=1, n)], "list", "root mean square over time")
       end if
       if (size(joints) == 0) return
       do k = 1, size(joints)
          of_joints(k)%s = joints(k)%name
       end do
-      call text_dataset(file, "extremes/joints/name", of_joints, .false., "loose joints", status)
-      call integer_dataset(file, "extremes/joints/impacts", [size(joints)], joints%impacts, "contacts that began", status)
-      call put("joints/contact_fraction", joints%contact_fraction, "1", "part of the time in contact")
-      call put("joints/impact_speed", joints%speed, "m/s", "greatest impact speed")
+      call text_dataset(file, "extremes/joints/name", of_joints, .false., "joints with clearance", status)
+      call integer_dataset(file, "extremes/joints/impacts", [size(joints)], joints%impacts, "number of impacts", status)
+      call put("joints/contact_fraction", joints%contact_fraction, "1", "fraction of time in contact")
+      call put("joints/impact_speed", joints%speed, "m/s", "maximum impact speed")
       call put("joints/impact_speed_onset", joints%speed_onset, "s", "onset of that contact")
-      call put("joints/peak_force", joints%force, "N", "greatest normal force")
-      call put("joints/peak_force_onset", joints%force_onset, "s", "onset of the contact that had it")
-      call put("joints/peak_force_time", joints%force_time, "s", "when it was there")
-      call put("joints/peak_penetration", joints%penetration, "m", "greatest penetration")
-      call put("joints/peak_penetration_onset", joints%penetration_onset, "s", "onset of the contact that had it")
-      call put("joints/peak_penetration_time", joints%penetration_time, "s", "when it was there")
+      call put("joints/peak_force", joints%force, "N", "maximum normal force")
+      call put("joints/peak_force_onset", joints%force_onset, "s", "onset of the contact with maximum force")
+      call put("joints/peak_force_time", joints%force_time, "s", "time of the maximum force")
+      call put("joints/peak_penetration", joints%penetration, "m", "maximum penetration")
+      call put("joints/peak_penetration_onset", joints%penetration_onset, "s", "onset of the contact with maximum penetration")
+      call put("joints/peak_penetration_time", joints%penetration_time, "s", "time of the maximum penetration")
       call put("joints/impulse", joints%impulse, "N.s", "impulse of the normal forces of all contacts")
-      call put("joints/energy_lost", joints%energy_lost, "J", "lost in all contacts; NaN without ledger")
+      call put("joints/energy_lost", joints%energy_lost, "J", "energy lost in all contacts; NaN if the energy balance is off")
 
    contains
 

@@ -60,7 +60,7 @@ contains
       call text_attribute(group, "film", field%film, status)
       select case (field%request%moment)
       case (moment_end); call text_attribute(group, "moment", "end of the run", status)
-      case (moment_least); call text_attribute(group, "moment", "least film", status)
+      case (moment_least); call text_attribute(group, "moment", "minimum film thickness", status)
       case default; call text_attribute(group, "moment", "time", status)
       end select
       call real_attribute(group, "time", field%t, status)
@@ -74,10 +74,10 @@ contains
       call h5gclose_f(group, closed)
       associate (m => size(field%y), n => size(field%theta))
          call real_dataset(file, path//"/theta", [n], field%theta, "rad", "angle around the bearing, frame of its body", status)
-         call real_dataset(file, path//"/y", [m], field%y, "m", "place along the axis, from the middle", status)
+         call real_dataset(file, path//"/y", [m], field%y, "m", "axial position, from the middle", status)
          call real_dataset(file, path//"/pressure", [m, n], reshape(field%pressure, [m*n]), "Pa", &
-                           "pressure of the film above that at its ends", status)
-         call real_dataset(file, path//"/gap", [m, n], reshape(field%gap, [m*n]), "m", "thickness of the film", status)
+                           "film pressure relative to that at the ends", status)
+         call real_dataset(file, path//"/gap", [m, n], reshape(field%gap, [m*n]), "m", "film thickness", status)
       end associate
    end subroutine write_field
 

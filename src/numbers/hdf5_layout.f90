@@ -137,7 +137,7 @@ contains
       dataset%is_state = .true.
       allocate (dataset%shape(0), dataset%rows(1, block))
       call new_dataset(file, "row_kind", h5t_std_i8le, [0_hsize_t], dataset%id, status, chunk=[int(block, hsize_t)])
-      call describe(dataset%id, "1", "what the row is", "none", status)
+      call describe(dataset%id, "1", "type of the row", "none", status)
       call text_attribute(dataset%id, "kinds", row_kinds, status)
    end subroutine make_row_kind
 

@@ -37,10 +37,10 @@ contains
          units(k)%s = numbers(k)%unit
          all_units = trim(all_units//" "//numbers(k)%unit)
       end do
-      call text_dataset(file, "statistics/names", names, .false., "names of the numbers", status)
+      call text_dataset(file, "statistics/names", names, .false., "names of the statistics", status)
       call text_dataset(file, "statistics/units", units, .false., "their units", status)
       call real_dataset(file, "statistics/values", [size(numbers)], [(numbers(k)%value, k=1, size(numbers))], &
-                        trim(adjustl(all_units)), "numbers of the motion after its transient", status)
+                        trim(adjustl(all_units)), "statistics after the transient", status)
       if (statistics%n_strobe > 0) call write_strobes(file, statistics, catalogue, status)
       if (size(statistics%spectra) > 0) call write_spectra(file, statistics, catalogue, status)
       call write_histograms(file, statistics, catalogue, events, t_end, status)
@@ -57,12 +57,12 @@ contains
 
       n = statistics%n_strobe
       call text_dataset(file, "statistics/strobe_names", names_of(statistics%channels, catalogue), .false., &
-                        "channels once per period", status)
+                        "channels sampled once per period", status)
       call real_dataset(file, "statistics/strobe_time", [n], statistics%strobe_times(1:n), "s", &
-                        "multiples of the drive's period", status)
+                        "multiples of the drive period", status)
       call real_dataset(file, "statistics/strobe", [size(statistics%channels), n], &
                         reshape(statistics%strobes(:, 1:n), [n*size(statistics%channels)]), &
-                        units_of(statistics%channels, catalogue), "the channels at these instants", status)
+                        units_of(statistics%channels, catalogue), "channel values at these times", status)
    end subroutine write_strobes
 
    !> The spectra.
@@ -82,7 +82,8 @@ contains
       end do
       call text_dataset(file, "statistics/spectrum_names", names_of(statistics%spectra, catalogue), .false., &
                         "channels of the spectra", status)
-      call real_dataset(file, "statistics/frequency", [size(frequency)], frequency, "Hz", "frequency of the lines", status)
+      call real_dataset(file, "statistics/frequency", [size(frequency)], frequency, "Hz", "frequencies of the spectral lines", &
+         status)
       call real_dataset(file, "statistics/spectrum", [size(lines, 1), size(lines, 2)], reshape(lines, [size(lines)]), &
                         units_of(statistics%spectra, catalogue), "amplitude spectrum, Hann window", status)
    end subroutine write_spectra
@@ -115,11 +116,11 @@ contains
          names(2*k - 1)%s = joints(k)%s//".impact_speed"
          names(2*k)%s = joints(k)%s//".peak_force"
       end do
-      call text_dataset(file, "statistics/histogram_names", names, .false., "what is counted", status)
+      call text_dataset(file, "statistics/histogram_names", names, .false., "histogrammed quantity", status)
       call real_dataset(file, "statistics/histogram_edges", [bins + 1, size(names)], reshape(edges, [size(edges)]), &
                         units(2:), "edges of the bins", status)
       call integer_dataset(file, "statistics/histogram_counts", [bins, size(names)], reshape(counts, [size(counts)]), &
-                           "impacts in the bins", status)
+                           "number of impacts in the bins", status)
    end subroutine write_histograms
 
    !> Names of channels.

@@ -120,7 +120,7 @@ contains
       call note_files()
       if (status >= 0) return
       closed = remove_file(self%path)
-      call fail(self, "cannot make", "no space, or no right to write there", error)
+      call fail(self, "cannot make", "no disk space, or no write permission there", error)
    end subroutine start_file
 
    !> Keep a row; write the block and the new events if it is full.
@@ -223,8 +223,8 @@ contains
       if (status >= 0) status = merge(0, -1, all(transfer(self%sums%sums, sums) == sums))
       if (status < 0) then
          self%is_broken = .true.
-         call set_error(error, exit_file, "cannot go on with "//path//": it does not have the "//to_text(self%written)// &
-                        " rows of the checkpoint as they were written; run the deck anew")
+         call set_error(error, exit_file, "cannot append to "//path//": it has fewer than the "//to_text(self%written)// &
+                        " rows recorded in the checkpoint; run the deck again without --resume")
          return
       end if
       call flush_file(self, status)
@@ -232,7 +232,7 @@ contains
       if (status >= 0) status = -rename_path(self%path, path)
       call note_files(path)
       if (status < 0) then
-         call fail(self, "cannot make", "no space, or no right to write there", error)
+         call fail(self, "cannot make", "no disk space, or no write permission there", error)
          return
       end if
       self%path = path
@@ -312,12 +312,12 @@ contains
       self%is_broken = .true.
       saved = "nothing was saved"
       reason = why
-      if (is_memory_short()) reason = "there is no more memory (ulimit -v)"
-      if (.not. path_exists(self%path)) saved = "the file is gone: it was removed while the run went on"
+      if (is_memory_short()) reason = "out of memory (ulimit -v)"
+      if (.not. path_exists(self%path)) saved = "the file was removed during the run"
       if (path_exists(self%path) .and. self%written > 0) saved = "saved and readable: "//to_text(self%written)// &
                                     " rows up to t = "//to_text(self%last_time)//" s"
       call set_error(error, exit_file, action//" "//self%path//": "//reason//"; "//saved// &
-                     ". Make room, or write elsewhere with --out DIRECTORY.")
+                     ". Free disk space, or write elsewhere with --out DIRECTORY.")
    end subroutine fail
 
    !> Write what waits, the statistics, the warnings and how the run went, and close the file.
@@ -354,7 +354,7 @@ contains
          if (self%accuracy%asked > 0.0_wp) call write_accuracy(self%file, self%accuracy, status)
          call write_extremes(self%file, extremes, joints, catalogue, status)
          call write_fields(self%file, fields, status)
-         call text_dataset(self%file, "warnings", warnings, .false., "what a careful reader should know", status)
+         call text_dataset(self%file, "warnings", warnings, .false., "warnings", status)
          call write_films(self%file, summary%linear, status)
          call write_summary(self%file, summary, status)
          call text_attribute(self%file, "status_message", summary%message, status)

@@ -40,13 +40,14 @@ contains
       call h5gclose_f(group, closed)
       call real_dataset(file, "horizon/time", [n], horizon%t, "s", "instants", status)
       call real_dataset(file, "horizon/growth", [n], horizon%tangent%growth, "1", &
-                        "ln of a small change over that of the start, by the tangent", status)
-      call real_dataset(file, "horizon/growth_by_twin", [n], horizon%twin%growth, "1", "the same by a twin", status)
+                        "ln of the growth of a perturbation, from the tangent equations", status)
+      call real_dataset(file, "horizon/growth_by_twin", [n], horizon%twin%growth, "1", "the same, from a neighbouring "// &
+         "trajectory", status)
       call real_dataset(file, "horizon/digits", [n_digit], horizon%digits, "s", &
-                        "time up to which there can be 1, 2, ... digits in double precision; NaN: beyond the end", status)
+                        "time up to which a solution in double precision has 1, 2, ... digits; NaN: beyond the end", status)
       if (horizon%asked <= 0.0_wp) return
       call real_dataset(file, "horizon/digits_of_run", [n_digit], horizon%run_digits, "s", &
-                        "the same of a run of the tolerance of this one", status)
+                        "the same for a run with the tolerance of this one", status)
 
    contains
 

@@ -101,7 +101,7 @@ contains
       call note_files()
       if (status >= 0) return
       closed = remove_file(self%path)
-      call fail(self, "cannot make", "no space, or no right to write there", error)
+      call fail(self, "cannot make", "no disk space, or no write permission there", error)
    end subroutine start_file
 
    !> Names of the contacts.
@@ -225,8 +225,8 @@ contains
       end do
       if (earlier >= 0) call h5fclose_f(earlier, closed)
       if (status < 0) then
-         call set_error(error, exit_file, "cannot go on with "//path//": it does not have the "//to_text(self%written)// &
-                        " steps of the checkpoint as they were written; run the deck anew")
+         call set_error(error, exit_file, "cannot append to "//path//": it has fewer than the "//to_text(self%written)// &
+                        " steps recorded in the checkpoint; run the deck again without --resume")
          return
       end if
       call set_steps(self%file, self%written, status)
@@ -235,7 +235,7 @@ contains
       if (status >= 0) status = -rename_path(self%path, path)
       call note_files(path)
       if (status < 0) then
-         call fail(self, "cannot make", "no space, or no right to write there", error)
+         call fail(self, "cannot make", "no disk space, or no write permission there", error)
          return
       end if
       self%path = path
@@ -302,12 +302,12 @@ contains
       status = 0
       reason = why
       saved = "saved and readable: "//to_text(self%written)//" steps"
-      if (.not. path_exists(self%path)) saved = "the file is gone: it was removed while the run went on"
-      if (is_memory_short()) reason = "there is no more memory (ulimit -v)"
+      if (.not. path_exists(self%path)) saved = "the file was removed during the run"
+      if (is_memory_short()) reason = "out of memory (ulimit -v)"
       if (self%file >= 0) call write_status(self%file, status_failed, status)
       if (self%file >= 0) call close_all(self, status)
       call set_error(error, exit_file, action//" "//self%path//": "//reason//"; "//saved// &
-                     ". Make room, write elsewhere with --out DIRECTORY, or leave the file out (motion = off).")
+                     ". Free disk space, write elsewhere with --out DIRECTORY, or omit the file (motion = off).")
    end subroutine fail
 
    !> Write what waits and how the run went, and close the file.

@@ -69,7 +69,7 @@ contains
       end do
       call text_dataset(file, "ladders/names", names, .false., "settings compared", status)
       call integer_dataset(file, "ladders/is_fixed", [n], [(merge(1, 0, study%ladders(k)%is_fixed), k=1, n)], &
-                           "1: a ladder of fixed steps, 0: of tolerances", status)
+                           "1: sequence of fixed steps, 0: of tolerances", status)
       call real_dataset(file, "ladders/order", [n], study%ladders%order, "1", "observed order: -d ln error/d ln steps", status)
       call real_dataset(file, "ladders/exponent", [n], study%ladders%exponent, "1", "d ln error/d ln tolerance", status)
       call real_dataset(file, "ladders/ratio", [n], study%ladders%ratio, "1", "median of error over tolerance", status)
@@ -106,28 +106,29 @@ contains
          call append_text(units, trim(error_units(k)))
          call append_text(words, trim(error_words(k)))
       end do
-      call text_dataset(file, "errors/names", names, .false., "kinds of error", status)
+      call text_dataset(file, "errors/names", names, .false., "types of error", status)
       call text_dataset(file, "errors/units", units, .false., "their units", status)
-      call text_dataset(file, "errors/long_names", words, .false., "what they are", status)
+      call text_dataset(file, "errors/long_names", words, .false., "descriptions", status)
       call integer_dataset(file, "runs/ladder", [n], owner, "number of the setting, from 1", status)
       call put("asked", rungs%asked, "1 or s", "tolerance, or length of fixed steps")
-      call integer_dataset(file, "runs/state", [n], rungs%state, "0 not run, 1 done, 2 failed, 3 other contacts or another end", &
+      call integer_dataset(file, "runs/state", [n], rungs%state, "0 not run, 1 done, 2 failed, 3 different contact sequence or "// &
+         "end time", &
                            status)
-      call text_dataset(file, "runs/reason", reasons, .false., "why a run failed or was not made", status)
-      call real_dataset(file, "runs/error", [n_error, n], reshape(errors, [n_error*n]), "list", "errors by kind", status)
+      call text_dataset(file, "runs/reason", reasons, .false., "reason of a failed or omitted run", status)
+      call real_dataset(file, "runs/error", [n_error, n], reshape(errors, [n_error*n]), "list", "errors by type", status)
       call integer_dataset(file, "runs/is_below", [n], merge(1, 0, rungs%is_below), &
-                           "1: the error is within that of the reference", status)
+                           "1: the error is below that of the reference", status)
       call integer_dataset(file, "runs/is_front", [n], merge(1, 0, rungs%is_front), &
-                           "1: no other run is both cheaper and more exact", status)
-      call put("holds_until", rungs%holds_until, "s", "last instant with no more than the error wanted")
-      call put("cpu", rungs%cpu, "s", "processor time of the solution, median of the rounds")
-      call put("cpu_least", rungs%cpu_least, "s", "processor time of the solution, least of the rounds")
-      call real_dataset(file, "runs/rounds", [most, n], reshape(rounds, [most*n]), "s", "processor time of each round", status)
-      call put("setup", rungs%setup, "s", "processor time of the system and its start")
-      call put("wall", rungs%wall, "s", "time that the compared run took, all in all")
+                           "1: on the Pareto front, no run is both cheaper and more accurate", status)
+      call put("holds_until", rungs%holds_until, "s", "last time with an error below the target")
+      call put("cpu", rungs%cpu, "s", "CPU time of the integration, median of the rounds")
+      call put("cpu_least", rungs%cpu_least, "s", "CPU time of the integration, minimum of the rounds")
+      call real_dataset(file, "runs/rounds", [most, n], reshape(rounds, [most*n]), "s", "CPU time of each round", status)
+      call put("setup", rungs%setup, "s", "CPU time of set-up and initial state")
+      call put("wall", rungs%wall, "s", "total CPU time of the compared run")
       call put("steps", real(rungs%count%steps, wp), "1", "accepted steps")
       call put("rejected_steps", real(rungs%count%rejected, wp), "1", "rejected steps")
-      call put("rhs_evaluations", real(rungs%count%evaluations, wp), "1", "right-hand sides, without those for output")
+      call put("rhs_evaluations", real(rungs%count%evaluations, wp), "1", "right-hand sides, except those for output")
 
    contains
 
@@ -160,9 +161,9 @@ contains
       call real_attribute(group, "end", study%end, status)
       call h5gclose_f(group, closed)
       call real_dataset(file, "reference/error", [n_compared], study%reference%bar, "list", &
-                        "difference to what confirms it: the first kinds of error", status)
+                        "difference from the confirming run: the first types of error", status)
       call real_dataset(file, "reference/agrees_until", [n_digit], study%reference%agreed, "s", &
-                        "last time at which both have 1, 2, ... digits in common", status)
+                        "last time with 1, 2, ... common digits", status)
    end subroutine write_reference
 
    !> Statistics of the time that is not compared, if there is one.
@@ -190,25 +191,26 @@ contains
          end do
          call text_dataset(file, "statistics/names", names, .false., "statistics", status)
          call text_dataset(file, "statistics/units", units, .false., "their units", status)
-         call text_dataset(file, "statistics/long_names", words, .false., "what they are", status)
+         call text_dataset(file, "statistics/long_names", words, .false., "descriptions", status)
          call put("reference", 1, reference%list%value, "of the reference")
-         call put("reference_interval", 1, reference%list%half, "half its interval of 95 %")
+         call put("reference_interval", 1, reference%list%half, "half-width of the 95 % confidence interval")
          n = size(ladders)
-      call put("settings", n, [(ladders(k)%statistics%list%value, k=1, n)], "mean over the runs of a setting that go their own way")
+      call put("settings", n, [(ladders(k)%statistics%list%value, k=1, n)], "mean over the runs of a setting that diverged "// &
+         "from the reference")
          call put("settings_interval", n, [(ladders(k)%statistics%list%half, k=1, n)], &
-                  "half its interval of 95 %, from how the runs scatter")
+                  "half-width of the 95 % confidence interval, from the scatter of runs")
          call integer_dataset(file, "statistics/runs", [n_statistic, n], [(ladders(k)%statistics%n_run, k=1, n)], &
-                              "runs of a setting that go their own way", status)
+                              "number of runs of a setting that diverged from the reference", status)
          call integer_dataset(file, "statistics/apart", [n_statistic, n], [(ladders(k)%statistics%n_apart, k=1, n)], &
-                              "those of them that are apart from the reference", status)
+                              "number of those runs with significantly different statistics", status)
          call integer_dataset(file, "statistics/is_own", [sum([(size(ladders(k)%rungs), k=1, n)])], &
                               [((merge(1, 0, ladders(k)%rungs(i)%statistics%is_own), i=1, size(ladders(k)%rungs)), k=1, n)], &
-                              "1: the run parts from the reference and goes its own way", status)
+                              "1: the run diverges from the reference", status)
          call put("values", sum([(size(ladders(k)%rungs), k=1, n)]), &
                   [((ladders(k)%rungs(i)%statistics%list%value, i=1, size(ladders(k)%rungs)), k=1, n)], "of every run")
          call put("intervals", sum([(size(ladders(k)%rungs), k=1, n)]), &
                   [((ladders(k)%rungs(i)%statistics%list%half, i=1, size(ladders(k)%rungs)), k=1, n)], &
-                  "half the interval of 95 % of every run, by batches")
+                  "half-width of the 95 % confidence interval of every run, by batch means")
       end associate
 
    contains
@@ -249,11 +251,12 @@ contains
          end if
          call h5gclose_f(group, closed)
          call real_dataset(file, "twins/horizon", [n_digit], growth%horizon, "s", &
-                           "time up to which a trajectory can have 1, 2, ... digits; NaN: beyond the run", status)
+                           "time up to which a trajectory has 1, 2, ... digits; NaN: beyond the run", status)
          if (size(growth%t) == 0) return
          call real_dataset(file, "twins/time", [size(growth%t)], growth%t, "s", "instants", status)
          call real_dataset(file, "twins/ratio", [size(growth%ratio, 2), size(growth%t)], &
-                           reshape(transpose(growth%ratio), [size(growth%ratio)]), "1", "distance over that of the starts", status)
+                           reshape(transpose(growth%ratio), [size(growth%ratio)]), "1", "distance relative to the initial "// &
+                              "distance", status)
       end associate
    end subroutine write_growth
 

@@ -53,7 +53,7 @@ contains
          call text_dataset(group, "files/names", names, .false., "files read, the deck first", status)
          call text_dataset(group, "files/sha256", digests, .false., "SHA-256 of each", status)
          call text_dataset(group, "parameters/names", origin%parameter_names, .false., "parameters of the deck", status)
-         call text_dataset(group, "parameters/values", origin%parameter_texts, .false., "values in force, as written", status)
+         call text_dataset(group, "parameters/values", origin%parameter_texts, .false., "values used, as written", status)
       end associate
       if (group >= 0) call h5gclose_f(group, closed)
    end subroutine make_provenance

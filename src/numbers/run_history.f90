@@ -46,14 +46,15 @@ contains
          if (.not. survives(can_be_taken, path)) state = seal_wrong
       end if
       if (state == seal_wrong) then
-         call set_error(error, exit_file, "cannot read '"//path//"': it is damaged, was changed after it was written, or is no "// &
-                        "file of gudgeon; make the run again")
+         call set_error(error, exit_file, "cannot read '"//path//"': it is corrupt, was changed after it was written, or is "// &
+            "not a "// &
+                        "file of gudgeon; run the deck again")
          return
       end if
       call take_run(path, history, has_lost_it, error)
       if (.not. has_lost_it .or. state /= seal_none .or. allocated(error)) return
-      call set_error(error, exit_file, "cannot read '"//path//"': it does not end with its checksum, it was cut off or changed "// &
-                     "after it was written; make the run again")
+      call set_error(error, exit_file, "cannot read '"//path//"': its checksum is missing; the file was truncated or changed "// &
+                     "after it was written; run the deck again")
    end subroutine read_run
 
    !> Whether a run can be read, or refused with words.
@@ -111,7 +112,7 @@ contains
       call open_library(status)
       if (status >= 0) call h5fopen_f(path, h5f_acc_rdonly_f, file, status)
       if (status < 0) then
-         call set_error(error, exit_file, "cannot read '"//path//"': it is no HDF5 file, or cannot be opened")
+         call set_error(error, exit_file, "cannot read '"//path//"': not an HDF5 file, or not readable")
          return
       end if
       history%path = path
@@ -128,7 +129,7 @@ contains
          end do
          if (has_top(file, "extremes")) call read_extremes(file, history, status)
          if (has_top(file, "events")) call read_impacts(file, history, status)
-         if (status < 0) call set_error(error, exit_file, "cannot read '"//path//"': the file is damaged, or of another format")
+         if (status < 0) call set_error(error, exit_file, "cannot read '"//path//"': the file is corrupt, or has another format")
       end if
       call h5fclose_f(file, closed)
    end subroutine take_run

@@ -22,7 +22,7 @@ module sweep_file
    public :: write_sweep
 
    character(*), parameter :: spread_help(n_spread) = [character(40) :: "mean over the runs of a case", &
-      "standard deviation over these runs", "least value of these runs", "greatest value of these runs"]
+      "standard deviation over these runs", "minimum of these runs", "maximum of these runs"]
 
 contains
 
@@ -87,7 +87,7 @@ contains
          end do
       end do
       if (p == 0) return
-      call text_dataset(file, "parameters/names", names, .false., "what is swept", status)
+      call text_dataset(file, "parameters/names", names, .false., "parameters of the sweep", status)
       call text_dataset(file, "parameters/units", units, .false., "units of the values", status)
       call text_table(file, "parameters/texts", texts, p, status)
       call real_dataset(file, "parameters/values", [p, n], values, trim(adjustl(all_units)), &
@@ -145,21 +145,21 @@ contains
       end do
       call integer_dataset(file, "runs/case", [n], [((k - 1)/results%n_member + 1, k=1, n)], "case of the run", status)
       call integer_dataset(file, "runs/member", [n], [(merge(mod(k - 1, results%n_member) + 1, 0, results%is_ensemble), &
-                                                       k=1, n)], "run of the ensemble; 0: there is none", status)
+                                                       k=1, n)], "number of the run in the ensemble; 0: no ensemble", status)
       call integer_dataset(file, "runs/exit_code", [n], [(results%runs(k)%exit_code, k=1, n)], &
-                           "0: done; -1: not run; else what the run ended with", status)
-      call text_dataset(file, "runs/message", messages, .false., "why a run failed; blank if it did not", status)
-      call text_dataset(file, "runs/warnings", warnings, .false., "what was noticed in a run; blank: nothing", status)
-      call text_dataset(file, "runs/names", results%names, .false., "names of the numbers", status)
+                           "0: done; -1: not run; otherwise the exit code", status)
+      call text_dataset(file, "runs/message", messages, .false., "reason of a failure; blank if none", status)
+      call text_dataset(file, "runs/warnings", warnings, .false., "warnings of a run; blank if none", status)
+      call text_dataset(file, "runs/names", results%names, .false., "names of the statistics", status)
       call text_dataset(file, "runs/units", results%units, .false., "their units", status)
       call real_dataset(file, "runs/values", [size(results%names), n], reshape(values, [size(values)]), &
-                        all_units(results), "numbers of every run", status)
+                        all_units(results), "statistics of every run", status)
       if (size(times) == 0) return
-      call text_dataset(file, "strobe/names", results%strobe_names, .false., "channels once per period", status)
+      call text_dataset(file, "strobe/names", results%strobe_names, .false., "channels sampled once per period", status)
       call integer_dataset(file, "strobe/run", [size(owners)], owners, "number of the run, from 1", status)
-      call real_dataset(file, "strobe/time", [size(times)], times, "s", "multiples of the drive's period", status)
+      call real_dataset(file, "strobe/time", [size(times)], times, "s", "multiples of the drive period", status)
       call real_dataset(file, "strobe/values", [size(results%strobe_names), size(times)], samples, "list", &
-                        "the channels at these instants", status)
+                        "channel values at these times", status)
    end subroutine write_runs
 
    !> What the runs cost, which no two sweeps have alike.
@@ -172,9 +172,9 @@ contains
 
       n = size(results%runs)
       call real_dataset(file, "provenance/cpu_start", [n], [(results%runs(k)%cpu(1), k=1, n)], "s", &
-                        "processor time of a run until its motion begins", status)
+                        "CPU time of a run before its motion starts", status)
       call real_dataset(file, "provenance/cpu_run", [n], [(results%runs(k)%cpu(2), k=1, n)], "s", &
-                        "processor time of a run's motion and output", status)
+                        "CPU time of the motion and output of a run", status)
    end subroutine write_cost
 
    !> Statistics over the runs of each case.
@@ -194,7 +194,7 @@ contains
          end do
          done(k) = count(results%runs((k - 1)*results%n_member + 1:k*results%n_member)%exit_code == 0)
       end do
-      call integer_dataset(file, "cases/runs", [n], done, "runs of the case that ended well", status)
+      call integer_dataset(file, "cases/runs", [n], done, "completed runs of the case", status)
       do i = 1, n_spread
          call real_dataset(file, "cases/"//trim(spread_names(i)), [n_number, n], &
                            reshape(spreads(i, :, :), [n_number*n]), all_units(results), trim(spread_help(i)), status)

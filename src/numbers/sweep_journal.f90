@@ -268,7 +268,7 @@ contains
       words = ""
       if (a%program /= b%program) words = words//", the program"
       if (a%settings /= b%settings) words = words//", options of the command line"
-      if (size(a%files) /= size(b%files)) words = words//", the number of files that were read"
+      if (size(a%files) /= size(b%files)) words = words//", the number of input files"
       do k = 1, min(size(a%files), size(b%files))
          if (len(a%files(k)%bytes) == len(b%files(k)%bytes) .and. a%files(k)%bytes == b%files(k)%bytes) cycle
          words = words//", file "//b%files(k)%path

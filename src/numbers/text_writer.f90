@@ -195,7 +195,7 @@ contains
       end do
       call heading%line("")
       call heading%add(file_heading(plan))
-      call heading%line("# one row per located event, by time; a contact is one row, its time the onset")
+      call heading%line("# one row per located event, by time; a contact is one row, at the time of its onset")
       self%heading = heading%get()
       if (.not. plan%life%goes_on) call self%events%append(self%heading, error)
       call note_files()

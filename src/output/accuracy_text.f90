@@ -24,40 +24,41 @@ contains
       character(:), allocatable :: asked, until
 
       until = "t = "//real_text(accuracy%until, 6)//" s"
-      asked = "asked      accuracy "//real_text(accuracy%asked, 3)
+      asked = "requested  accuracy "//real_text(accuracy%asked, 3)
       select case (accuracy%claim)
       case (claim_whole)
          call lines%line(asked//": reached, "//short(accuracy%error)//" up to the end")
       case (claim_window)
          call lines%line(asked//": reached up to "//until//", "//short(accuracy%error))
-         call lines%line("           beyond "//until//" no digits are claimed: runs part there, first in "//worst_of(accuracy))
-         if (accuracy%reason /= "") call lines%line("           the search ended there: "//accuracy%reason)
+         call lines%line("           beyond "//until//" the solution is not predictable: runs diverge there, first in "// &
+            worst_of(accuracy))
+         if (accuracy%reason /= "") call lines%line("           the search stopped: "//accuracy%reason)
       case (claim_reached)
-         call lines%line(asked//": not reached, but "//short(accuracy%error)//" up to the end: "// &
+         call lines%line(asked//": not reached; error "//short(accuracy%error)//" up to the end: "// &
                          accuracy%reason)
          call lines%line("           limited by "//worst_of(accuracy))
          if (accuracy%asked_until > 0.0_wp) then
-            call lines%line("           it holds up to t = "//real_text(accuracy%asked_until, 6)//" s")
+            call lines%line("           satisfied up to t = "//real_text(accuracy%asked_until, 6)//" s")
          end if
       case default
-         call lines%line(asked//": not reached, no error of this run is known: "//accuracy%reason)
+         call lines%line(asked//": not reached, the error of this run is unknown: "//accuracy%reason)
       end select
       if (accuracy%claim == claim_window .and. accuracy%growth%reason == "") then
          call lines%line("           "//growth_words(accuracy%growth))
       end if
       if (accuracy%claim /= claim_none) then
-         call lines%line("           "//to_text(nint(accuracy%evidence%factor))//" times the greatest difference to "// &
+         call lines%line("           "//to_text(nint(accuracy%evidence%factor))//" times the maximum difference to "// &
                          accuracy%evidence%coarser//" ("//short(accuracy%evidence%apart(1))// &
                          ") and to "//accuracy%evidence%confirmation//" ("//short(accuracy%evidence%apart(2))//")")
       end if
       if (ieee_is_finite(accuracy%evidence%residual) .and. accuracy%evidence%residual > accuracy%asked) then
-         call lines%line("           the ledger does not add up to that: its residual is "//short(accuracy%evidence%residual)// &
-                         " of the largest energy")
+         call lines%line("           the energy error does not support this accuracy: it is "//short(accuracy%evidence%residual)// &
+                         " of the maximum energy")
       end if
       if (ieee_is_finite(accuracy%evidence%other_from)) then
          call lines%line("           from about t = "//real_text(accuracy%evidence%other_from, 3)// &
-                         " s on these meet other contacts: "// &
-                         "none of theirs is claimed")
+                         " s on the runs have different contacts: "// &
+                         "these have no error estimate")
       end if
       call lines%line("           "//to_text(accuracy%evidence%runs)//" runs in "//real_text(accuracy%evidence%spent, 3)//" s")
    end subroutine asked_lines
@@ -84,7 +85,7 @@ contains
       call lines%line("")
       name = "extremes"  ! located: those of the run
       if (accuracy%claim == claim_window) name = name//" up to t = "//real_text(accuracy%until, 6)//" s"
-      call lines%line(padded(name, 42)//right("least", 20)//right("greatest", 20)//right("+-", 11))
+      call lines%line(padded(name, 42)//right("min", 20)//right("max", 20)//right("+-", 11))
       do k = 1, min(n, most_extremes)
          associate (extreme => accuracy%extremes(k))
             name = "  "//extreme%name
@@ -94,7 +95,7 @@ contains
          end associate
       end do
       if (.not. all(ieee_is_finite(accuracy%extremes%least))) then
-         call lines%line("  -: never a number up to there; where a contact acts is one while it touches only")
+         call lines%line("  -: NaN; a contact point is defined only during contact")
       end if
       if (n > most_extremes) call lines%line("  and "//to_text(n - most_extremes)//" more in summary.json and run.h5")
    end subroutine extreme_lines

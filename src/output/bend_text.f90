@@ -43,11 +43,11 @@ contains
                n = count(ladder%rungs%state == rung_done .and. ladder%rungs%count%steps*study%longest_step < held*study%end)
             end if
             if (n > 0) call append_text(remarks, "held: "//ladder%name//", "//to_text(n)// &
-                                        " runs: 'maximum_step' of the deck, "//real_text(study%longest_step, 3)// &
-                                        " s, sets their steps, not the tolerance")
+                                        " runs: the 'maximum_step' of the deck, "//real_text(study%longest_step, 3)// &
+                                        " s, limits the steps, not the tolerance")
             do i = 1, size(ladder%bends)
                call append_text(remarks, "bent: "//ladder%name//" "//stretch(ladder, ladder%bends(i))// &
-                                ": errors fall by less than 3 over two decades; "//cause_text(ladder, ladder%bends(i)))
+                                ": errors fall by less than a factor of 3 over two decades; "//cause_text(ladder, ladder%bends(i)))
             end do
          end associate
       end do
@@ -71,18 +71,18 @@ contains
 
       select case (bend%cause)
       case (bend_steps)
-         words = "its steps hardly change ("//to_text(ladder%rungs(bend%first)%count%steps)//" to "// &
-                 to_text(ladder%rungs(bend%last)%count%steps)//"): stability, or events and instants that are met, set them"
+         words = "its number of steps hardly changes ("//to_text(ladder%rungs(bend%first)%count%steps)//" to "// &
+                 to_text(ladder%rungs(bend%last)%count%steps)//"): stability or events determine the steps"
       case (bend_violation)
-         words = "the constraint violation does not fall either: the way of holding sets both"
+         words = "the constraint violation stays constant too: the stabilisation determines both"
       case (bend_lost)
-         words = "they are as large as the motion itself"
+         words = "the errors are as large as the motion itself"
       case (bend_short)
-         words = "they do not change at all: what makes them is shorter than any of these steps, as a contact that is grazed"
+         words = "the errors are constant: their source, as a grazing contact, is shorter than all these steps"
       case (bend_luck)
-         words = "those of neighbouring runs scatter: in some of them errors of both signs cancel"
+         words = "the errors of neighbouring runs scatter: in some runs errors of opposite sign cancel"
       case (bend_scatter)
-         words = "no cause was found"
+         words = "cause unknown"
       end select
    end function cause_text
 

@@ -32,8 +32,8 @@ contains
             n_ended = n_ended + count(study%ladders(k)%rungs%state == rung_done .or. study%ladders(k)%rungs%state == rung_other)
          end do
          call lines%line("statistics from "//real_text(reference%from, 4)//" to "//real_text(study%end, 4)// &
-                         " s, where runs are not compared with the reference, with intervals of 95 %,")
-         call lines%line("of the reference and of runs that go their own way, which "//to_text(n_own)//" of "// &
+                         " s, beyond the comparison window, with 95 % confidence intervals,")
+         call lines%line("of the reference and of the runs that diverged from it, "//to_text(n_own)//" of "// &
                          to_text(n_ended)//" do:")
          longest = len("reference")
          do k = 1, size(study%ladders)
@@ -43,7 +43,7 @@ contains
             if (.not. ieee_is_finite(reference%list(s)%value)) cycle
             call lines%line("  "//trim(statistic_words(s))//" ["//trim(statistic_units(s))//"]")
             line = "    "//padded("reference", longest)//padded(estimate_text(reference%list(s)), width)
-            call lines%line(trim(line)//told(.not. ieee_is_finite(reference%list(s)%half), "too few for an interval"))
+            call lines%line(trim(line)//told(.not. ieee_is_finite(reference%list(s)%half), "too few values for an interval"))
             do k = 1, size(study%ladders)
                associate (ladder => study%ladders(k))
                   if (ladder%statistics%n_run(s) == 0) cycle
@@ -63,8 +63,8 @@ contains
       character(:), allocatable :: words         !! as `1 of 27 apart from the reference`
 
       associate (n => ladder%statistics%n_run(s), apart => ladder%statistics%n_apart(s))
-         words = to_text(apart)//" of "//to_text(n)//" apart from the reference"// &
-                 told(apart > 0 .and. by_chance(apart, n) > 1.001_wp*chance, "as chance has it")
+         words = to_text(apart)//" of "//to_text(n)//" significantly different from the reference"// &
+                 told(apart > 0 .and. by_chance(apart, n) > 1.001_wp*chance, "within chance")
       end associate
    end function apart_text
 

@@ -40,7 +40,7 @@ contains
       end do
       call lines%line("")
       if (extremes%has_course()) then
-         call lines%line("extremes"//repeat(" ", width + 3)//right("least")//right("at [s]")//right("greatest")//right("at [s]")// &
+         call lines%line("extremes"//repeat(" ", width + 3)//right("min")//right("at [s]")//right("max")//right("at [s]")// &
                          right("mean")//right("rms"))
       else
          call lines%line("values")
@@ -58,10 +58,10 @@ contains
          end associate
       end do
       if (extremes%has_course() .and. .not. extremes%has_time()) call lines%line( &
-         "           -: there is no mean of one output instant")
+         "           -: no mean of a single output time")
       if (n > size(list)) call lines%line("           "//to_text(n - size(list))//" more in summary.json and in run.h5, /extremes")
-      call rest(count([(extremes%is_nothing(k), k=1, size(extremes%channels))]), "that are always zero, or round-off")
-      call rest(count([(.not. extremes%has_values(k), k=1, size(extremes%channels))]), "without a number")
+      call rest(count([(extremes%is_nothing(k), k=1, size(extremes%channels))]), "that are zero or round-off")
+      call rest(count([(.not. extremes%has_values(k), k=1, size(extremes%channels))]), "without values")
 
    contains
 
@@ -70,7 +70,7 @@ contains
          integer, intent(in) :: how_many    !! their number
          character(*), intent(in) :: what   !! what they are
 
-         if (how_many > 0) call lines%line("           "//to_text(how_many)//" "//what)
+         if (how_many > 0) call lines%line("           "//to_text(how_many)//" channels "//what)
       end subroutine rest
 
    end subroutine channel_table
@@ -84,14 +84,14 @@ contains
 
       if (size(joints) == 0) return
       call lines%line("")
-      call lines%line("loose joints")
+      call lines%line("joints with clearance")
       do k = 1, min(size(joints), most_lines)
          associate (joint => joints(k))
             call lines%add("           "//joint%name//": "//to_text(joint%impacts)//" impacts, "// &
                            known_text(100.0_wp*joint%contact_fraction, 4)//" % of the time in contact")
             if (joint%impacts > 0) then
-               call lines%add("; at most "//known_text(joint%speed, 5)//" m/s at "//known_text(joint%speed_onset, 6)//" s, "// &
-                              known_text(joint%force, 6)//" N at "//known_text(joint%force_time, 6)//" s, depth "// &
+               call lines%add("; max. "//known_text(joint%speed, 5)//" m/s at "//known_text(joint%speed_onset, 6)//" s, "// &
+                              known_text(joint%force, 6)//" N at "//known_text(joint%force_time, 6)//" s, penetration "// &
                               known_text(joint%penetration, 5)//" m at "//known_text(joint%penetration_time, 6)//" s; impulse "// &
                               known_text(joint%impulse, 5)//" N.s")
                if (ieee_is_finite(joint%energy_lost)) call lines%add("; lost "//known_text(joint%energy_lost, 5)//" J")

@@ -22,32 +22,33 @@ contains
 
       if (.not. allocated(horizon%t)) return
       if (verdict(horizon) == verdict_unknown) then
-         call lines%line("exponent   not known: "//horizon%tangent%reason)
+         call lines%line("exponent   unknown: "//horizon%tangent%reason)
          return
       end if
       if (horizon%tangent%reason == "") then
          call lines%line("exponent   "//rate_text(horizon%tangent%rate)//" from "//real_text(horizon%after, 3)//" to "// &
-                         real_text(horizon%t(size(horizon%t)), 3)//" s, by the tangent, which jumps at "// &
+                         real_text(horizon%t(size(horizon%t)), 3)//" s, from the tangent equations, with jumps at "// &
                          to_text(horizon%n_crossed)//" events")
       else
-         call lines%line("exponent   by the tangent not known: "//horizon%tangent%reason)
+         call lines%line("exponent   from the tangent equations unknown: "//horizon%tangent%reason)
       end if
-      if (horizon%is_cut) call lines%line("           there its time was up, before the end of the motion: "// &
-                                          "more of it (--budget) goes on")
+      if (horizon%is_cut) call lines%line("           time budget exhausted before the end of the motion: "// &
+                                          "raise it with --budget")
       if (horizon%twin%reason == "") then
-         call lines%line("           "//rate_text(horizon%twin%rate)//" by a twin, brought back "//to_text(horizon%n_renewed)// &
+         call lines%line("           "//rate_text(horizon%twin%rate)//" from a neighbouring trajectory, rescaled "// &
+            to_text(horizon%n_renewed)// &
                          " times"//agreement(horizon))
       else if (horizon%with_twin) then
-         call lines%line("           by a twin not known: "//horizon%twin%reason)
+         call lines%line("           from a neighbouring trajectory unknown: "//horizon%twin%reason)
       end if
       call lines%line("           "//meaning(horizon))
       if (horizon%n_grazed > 0) call lines%line("           "//to_text(horizon%n_grazed)// &
-         " events graze: there is no tangent at such an instant, and it was taken as if nothing jumped")
+         " grazing events: the tangent is undefined there, and was continued without a jump")
       if (horizon%n_together > 0) call lines%line("           "//to_text(horizon%n_together)// &
-         " instants have several events: the tangent knows of the first only")
+         " times with simultaneous events: the tangent includes only the first")
       if (horizon%tangent%reason /= "") return
       call lines%line("           digits in double precision"// &
-                      trim(merge(", by the tangent", "                ", verdict(horizon) == verdict_differ))//": "// &
+                      trim(merge(", from the tangent", "                  ", verdict(horizon) == verdict_differ))//": "// &
                       digits_text(horizon%digits, horizon%is_cut))
       if (horizon%asked > 0.0_wp) call lines%line("           digits of a run of tolerance "//to_text(horizon%asked)//": "// &
                                                   digits_text(horizon%run_digits, horizon%is_cut))
@@ -68,7 +69,8 @@ contains
 
       words = ""
       if (horizon%tangent%reason /= "" .or. horizon%twin%reason /= "") return
-      words = trim(merge(": within both intervals the same       ", ": NOT the same within their intervals  ", horizon%is_agreed))
+      words = trim(merge(": consistent within their intervals    ", ": NOT consistent within their intervals", &
+         horizon%is_agreed))
    end function agreement
 
    !> What the exponent means.
@@ -78,15 +80,15 @@ contains
 
       select case (verdict(horizon))
       case (verdict_apart)
-         words = "neighbouring motions part exponentially: chaotic, or unstable"
+         words = "neighbouring trajectories diverge exponentially: chaotic, or unstable"
       case (verdict_together)
-         words = "neighbouring motions come together: the motion is stable"
+         words = "neighbouring trajectories converge: the motion is stable"
       case (verdict_differ)
-         words = "no verdict: the two methods differ by more than their intervals allow, and neither is claimed"
+         words = "undecided: the two methods differ by more than their intervals"
       case (verdict_unclear)
-         words = "not told from zero: its interval has both signs; a longer motion (exponent_end) tells more"
+         words = "not significantly different from zero: the interval includes zero; extend the motion (exponent_end)"
       case default
-         words = "not told from zero: neighbouring motions part no faster than a power of time"
+         words = "not significantly different from zero: neighbouring trajectories diverge no faster than a power of time"
       end select
    end function meaning
 
@@ -104,7 +106,7 @@ contains
          if (digits(k) <= 0.0_wp) cycle
          words = words//", "//to_text(k)//" to "//real_text(digits(k), 3)//" s"
       end do
-      if (k > 0) words = words//", "//to_text(k)//" "//trim(merge("as far as was looked", "to the end          ", is_cut))
+      if (k > 0) words = words//", "//to_text(k)//" "//trim(merge("to the end of the search", "to the end              ", is_cut))
       words = piece(words, 3)
    end function digits_text
 

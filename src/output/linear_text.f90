@@ -44,19 +44,19 @@ contains
 
       allocate (words(0))
       call append_text(words, film%joint//": eccentricity "//real_text(film%eccentricity_ratio, n_digit)// &
-                       " of the clearance, attitude "//real_text(film%attitude*180.0_wp/pi, n_digit)//" deg, load "// &
+                       " of the clearance, attitude angle "//real_text(film%attitude*180.0_wp/pi, n_digit)//" deg, load "// &
                        real_text(film%load, n_digit)//" N, journal at "//real_text(film%journal_speed, n_digit)//" rad/s")
       if (film%is_heated) then
          call append_text(words, "temperature "//real_text(film%temperature - ice, n_digit)// &
-                          " degC by a balance of heat, viscosity "//real_text(film%viscosity, n_digit)//" Pa.s")
+                          " degC from the heat balance, viscosity "//real_text(film%viscosity, n_digit)//" Pa.s")
       end if
       if (.not. film%load > 0.0_wp) then
-         call append_text(words, "it carries nothing here")
+         call append_text(words, "no film force")
          return
       end if
       call append_text(words, "stiffness [N/m]   "//entries(film%stiffness, film%error))
       call append_text(words, "damping [N.s/m]   "//entries(film%damping, film%error)//"; error "//real_text(film%error, 1))
-      call append_text(words, "a rigid rotor alone on it "//rotor_words(film))
+      call append_text(words, "rigid rotor: "//rotor_words(film))
    end function film_lines
 
    !> The entries of a matrix; those within the error of the greatest as zero.
@@ -83,11 +83,11 @@ contains
       character(:), allocatable :: words             !! to follow the rotor
 
       if (.not. ieee_is_finite(film%critical_mass)) then
-         words = "has no mass at which it begins to whirl"
+         words = "no whirl at any mass"
       else if (.not. film%critical_mass > 0.0_wp) then
-         words = "whirls, whatever its mass"
+         words = "whirl at any mass"
       else
-         words = "whirls from "//real_text(film%critical_mass, n_digit)//" kg on, at "// &
+         words = "critical mass "//real_text(film%critical_mass, n_digit)//" kg, whirl frequency "// &
                  real_text(film%whirl_frequency/two_pi, n_digit)//" Hz"//ratio_words(film)
       end if
    end function rotor_words
@@ -99,7 +99,7 @@ contains
 
       words = ""
       if (abs(film%journal_speed) > 0.0_wp) words = ", "//real_text(film%whirl_frequency/abs(film%journal_speed), n_digit)// &
-                                                    " of the journal's speed"
+                                                    " times the journal speed"
    end function ratio_words
 
    !> The same for scripts; nothing if no film was linearised.

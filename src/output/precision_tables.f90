@@ -24,8 +24,9 @@ contains
 
       call lines%add(precision_summary(study, title))
       call lines%line("")
-      call lines%line("errors: onsets in s, violation in m, all others as parts; CPU of the solution in ms, median and least of")
-      call lines%line("the rounds; * on the front of best settings; < within the reference's own error, so not known")
+      call lines%line("errors: onsets in s, violation in m, others relative; CPU time of the integration in ms, median and "// &
+         "minimum of")
+      call lines%line("the rounds; * on the Pareto front; < below the error of the reference, hence unknown")
       do k = 1, size(study%ladders)
          associate (ladder => study%ladders(k))
             call lines%line("")
@@ -34,7 +35,7 @@ contains
             do kind = 1, n_error
                call lines%add(column(trim(error_names(kind))))
             end do
-            call lines%line(column("CPU")//column("least")//column("RHS")//column("steps")//"  state")
+            call lines%line(column("CPU")//column("min")//column("RHS")//column("steps")//"  state")
             do i = 1, size(ladder%rungs)
                call lines%line(rung_line(ladder%rungs(i)))
             end do

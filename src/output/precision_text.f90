@@ -29,7 +29,7 @@ contains
 
       call lines%line(title)
       call lines%line("compared   "//to_text(size(study%ladders))//" settings on a motion of "//real_text(study%end, 6)// &
-                      " s"//trim(merge(" that a condition ends", "                      ", study%is_stopped))//", at "// &
+                      " s"//trim(merge(" with a stop condition", "                      ", study%is_stopped))//", at "// &
                       to_text(study%instants)//" instants"//window_text(study))
       call lines%line("machine    "//study%machine%processor//"; "//study%machine%compiler)
       call lines%line("           "//flags_of(study%machine%flags))
@@ -59,7 +59,7 @@ contains
       end do
       words = "timed in "//to_text(study%rounds)
       if (most > study%rounds) words = words//" to "//to_text(most)
-      words = words//trim(merge(" round ", " rounds", most == 1))//" with nothing written"
+      words = words//trim(merge(" round ", " rounds", most == 1))//" without output"
    end function rounds_text
 
    !> The flags of the compiler that may change its code: without those that warn.
@@ -94,7 +94,7 @@ contains
 
       words = ""
       if (study%reference%is_cut .and. .not. study%reference%is_unsure) words = " up to "//real_text(study%reference%window, 4)// &
-         " s, where the reference is known to a tenth of the error wanted"
+         " s, where the error of the reference is below a tenth of the target"
    end function window_text
 
    !> The reference and its own errors.
@@ -105,23 +105,23 @@ contains
       integer :: k
 
       if (study%reference%what == "") then
-         call lines%line("reference  none: no run came to its end, so there are costs but no errors")
+         call lines%line("reference  none: no run was completed, so costs are known but errors are not")
          return
       end if
       if (study%reference%confirmation == "") then
-         call lines%line("reference  "//study%reference%what//", which nothing confirms: its own error is not known")
+         call lines%line("reference  "//study%reference%what//", not confirmed by a second run: its error is unknown")
          return
       end if
-      call lines%line("reference  "//study%reference%what//", confirmed by "//study%reference%confirmation//"; they differ by")
+      call lines%line("reference  "//study%reference%what//", confirmed by "//study%reference%confirmation//"; differences:")
       do k = 2, n_compared
          if (.not. ieee_is_finite(study%reference%bar(k))) cycle
          call lines%line("           "//with_unit(study%reference%bar(k), k)//"  "//trim(error_words(k))// &
-                         trim(merge(" and of the end", "               ", k == error_onsets .and. study%is_stopped)))
+                         trim(merge(" and end time  ", "               ", k == error_onsets .and. study%is_stopped)))
       end do
       if (study%reference%is_poor) then
-         call lines%line("           a tighter one failed or took too long: a greater budget may give a better one")
+         call lines%line("           a tighter reference failed or took too long: raise the budget")
       end if
-      if (study%reference%is_unsure) call lines%line("           at no time do they agree to a tenth of the error wanted")
+      if (study%reference%is_unsure) call lines%line("           they never agree to a tenth of the target error")
    end subroutine add_reference
 
    !> An error with its unit.
@@ -158,7 +158,7 @@ contains
 
       associate (growth => study%growth)
          if (growth%reason /= "") then
-            call lines%line("horizon    not known: "//growth%reason)
+            call lines%line("horizon    unknown: "//growth%reason)
             return
          end if
          call lines%line("horizon    "//growth_words(growth))
@@ -169,9 +169,9 @@ contains
          end do
          if (words /= "" .and. k > 0) words = words//", "//to_text(k)//" to the end"
          if (words == "") then
-            call lines%line("           a trajectory can have "//to_text(n_digit)//" digits up to the end of the run")
+            call lines%line("           a solution has "//to_text(n_digit)//" digits up to the end of the run")
          else
-            call lines%line("           digits that a trajectory can have in double precision: "//words(3:))
+            call lines%line("           digits of a solution in double precision: "//words(3:))
          end if
       end associate
    end subroutine add_growth
@@ -182,13 +182,13 @@ contains
       character(:), allocatable :: words          !! a sentence
 
       if (growth%is_exponential) then
-         words = "neighbouring starts part as exp("//real_text(growth%rate, 4)//" t/s), +-"// &
-                 real_text(growth%rate_interval, 2)//", seen from "//real_text(growth%fit_begin, 3)//" to "// &
+         words = "neighbouring trajectories diverge as exp("//real_text(growth%rate, 4)//" t/s), +-"// &
+                 real_text(growth%rate_interval, 2)//", fitted from "//real_text(growth%fit_begin, 3)//" to "// &
                  real_text(growth%fit_end, 3)//" s by "//to_text(growth%n_twin)//" twins"
       else
-         words = "neighbouring starts part as a power of time, t^"//rounded(growth%power)//" +-"// &
+         words = "neighbouring trajectories diverge as a power of time, t^"//rounded(growth%power)//" +-"// &
                  rounded(growth%power_interval)//", by "//to_text(growth%n_twin)//" twins: "// &
-                 trim(merge("regular motion               ", "more than regular motion has ", growth%is_regular))
+                 trim(merge("regular motion               ", "faster than regular motion   ", growth%is_regular))
       end if
    end function growth_words
 
@@ -213,7 +213,7 @@ contains
       end do
       call lines%line("")
       call lines%line(padded("setting", longest)//column("runs")//column("order")//column("exponent")//column("error/tol")// &
-                      column("least error")//column("CPU/ms")//column("RHS"))
+                      column("minimum error")//column("CPU/ms")//column("RHS"))
       do k = 1, size(study%ladders)
          associate (ladder => study%ladders(k))
             best = least_error(ladder, study%wanted)
@@ -310,7 +310,7 @@ contains
       character(:), allocatable :: words          !! as `: reason`
 
       words = ": "//rung%reason
-      if (rung%state == rung_other .and. rung%reason == "") words = ": contacts in another order or number than in the reference"
+      if (rung%state == rung_other .and. rung%reason == "") words = ": the order or number of contacts differs from the reference"
    end function why
 
    !> The choice.
@@ -322,7 +322,7 @@ contains
 
       kind = trim(error_names(study%wanted))
       if (study%reference%what == "" .or. study%reference%confirmation == "") then
-         call lines%line("choice     none: there is no reference that is confirmed")
+         call lines%line("choice     none: no confirmed reference")
          return
       end if
       if (study%choice%ladder == 0) then
@@ -331,16 +331,16 @@ contains
       end if
       associate (ladder => study%ladders(study%choice%ladder), rung => study%ladders(study%choice%ladder)%rungs(study%choice%rung))
          call lines%line("choice     "//settings_text(ladder, rung))
-         call lines%line("           the cheapest for an error of "//short(study%accuracy)//" ("//kind//"): error "// &
+         call lines%line("           the cheapest with an error below "//short(study%accuracy)//" ("//kind//"): error "// &
                          short(rung%error(study%wanted))//", "//real_text(1.0e3_wp*rung%cpu, 3)//" ms, "// &
                          to_text(rung%count%evaluations)//" right-hand sides")
-         if (study%reference%is_cut) call lines%line("           as far as the reference is known, up to "// &
+         if (study%reference%is_cut) call lines%line("           within the range of the reference, up to "// &
                                            real_text(study%reference%window, 4)//" s of "//real_text(study%end, 4)//" s")
          if (ieee_is_finite(study%choice%error)) then
-            call lines%line("           run once more: error "//short(study%choice%error)//", "// &
+            call lines%line("           repeated: error "//short(study%choice%error)//", "// &
                             real_text(1.0e3_wp*study%choice%cpu, 3)//" ms")
          else
-            call lines%line("           not run once more: no time was left in the budget")
+            call lines%line("           not repeated: time budget exhausted")
          end if
       end associate
    end subroutine add_choice

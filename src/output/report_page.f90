@@ -63,14 +63,14 @@ contains
       call extremes_table(lines, outcome%extremes, catalogue, summary%time_end)
       call number_table(lines, plan%statistics%after, outcome%numbers)
       call cost_table(lines, summary)
-      call head(lines, "summary", "The summary in words")
+      call head(lines, "summary", "Summary")
       call lines%line("<details><summary>summary.txt</summary><pre>")
       call add_text(lines, more)
       call lines%line("</pre></details>")
       call add_origin(lines, plan)
-      call head(lines, "deck", "The deck as understood, in SI units")
+      call head(lines, "deck", "The deck with all defaults, in SI units")
       if (allocated(plan%origin%deck_echo)) call deck_tables(lines, plan%origin%deck_echo)
-      call lines%line("<details><summary>the deck as written</summary><pre>")
+      call lines%line("<details><summary>the original deck</summary><pre>")
       call add_text(lines, plan%origin%deck_text)
       call lines%line("</pre></details></body></html>")
       page = lines%get()
@@ -157,7 +157,7 @@ contains
 
       integer :: k
 
-      call head(lines, "origin", "Where it comes from")
+      call head(lines, "origin", "Run information")
       call lines%line("<table>")
       call row(lines, "deck", plan%origin%deck_name)
       call row(lines, "command", plan%origin%command)

@@ -74,7 +74,7 @@ contains
       character(:), allocatable :: s              !! the cell
 
       s = "<td>"//real_text(unit%factor*x, digits)//"</td>"
-      if (.not. ieee_is_finite(x)) s = "<td>not known</td>"
+      if (.not. ieee_is_finite(x)) s = "<td>unknown</td>"
    end function cell
 
    !> A cell with a number and the unit that suits it.
@@ -85,7 +85,7 @@ contains
 
       type(display_unit_t) :: unit
 
-      s = "<td>not known</td>"
+      s = "<td>unknown</td>"
       if (.not. ieee_is_finite(x)) return
       unit = choose_unit(si, abs(x))
       s = "<td>"//real_text(unit%factor*x, digits)//" "//unit%symbol//"</td>"
@@ -109,7 +109,7 @@ contains
          return
       end if
       call head(lines, "extremes", "Extremes of the channels")
-      call begin_table(lines, [character(16) :: "channel", "unit", "least", "at ["//time%symbol//"]", "greatest", &
+      call begin_table(lines, [character(16) :: "channel", "unit", "minimum", "at ["//time%symbol//"]", "maximum", &
                                "at ["//time%symbol//"]", "mean", "rms"])
       do k = 1, n
          associate (one => extremes%shown_extreme(k))
@@ -157,7 +157,7 @@ contains
       if (size(joints) == 0) return
       time = choose_unit("s", abs(time_end))
       n = min(size(joints), most_joints)
-      call head(lines, "joints", "Loose joints")
+      call head(lines, "joints", "Joints with clearance")
       call begin_table(lines, [character(26) :: "joint", "impacts", "in contact [% of time]", "impact speed", &
                                "at ["//time%symbol//"]", "force", "at ["//time%symbol//"]", "penetration", &
                                "at ["//time%symbol//"]", "impulse", "energy lost"])
@@ -192,9 +192,9 @@ contains
       list = first_impacts(events, most_impacts)
       if (size(list) == 0) return
       time = choose_unit("s", abs(time_end))
-      call head(lines, "impacts", "Impacts, by their onsets")
+      call head(lines, "impacts", "Impacts, by onset time")
       call begin_table(lines, [character(16) :: "joint", "contact", "onset ["//time%symbol//"]", "impact speed", "peak force", &
-                               "penetration", "duration", "release speed", "impulse", "energy lost"])
+                               "penetration", "duration", "separation speed", "impulse", "energy lost"])
       do k = 1, size(list)
          call lines%add("<tr><td>"//escaped(events%word(list(k), 2), .true.)//"</td><td>"// &
                         escaped(events%word(list(k), 3), .true.)//"</td>"//cell(events%numbers(1, list(k)), time))
@@ -235,7 +235,7 @@ contains
 
       type(buffer_t) :: words
 
-      call head(lines, "cost", "Cost and error")
+      call head(lines, "cost", "Cost and accuracy")
       call cost_lines(words, summary)
       call accuracy_lines(words, summary)
       call lines%line("<pre>")

@@ -263,8 +263,9 @@ contains
       call self%events%add(event, is_added)
       if (is_added) return
       self%is_broken = .true.
-      call set_error(error, exit_file, "there is no memory for more than "//to_text(self%events%n)//" events (ulimit -v); what "// &
-                     "was written before is kept. Give it more, or end the run earlier.")
+      call set_error(error, exit_file, "not enough memory for more than "//to_text(self%events%n)//" events (ulimit -v); the "// &
+         "results "// &
+                     "so far are saved. Raise the limit, or end the run earlier.")
    end subroutine event_run
 
    !> Show how far the run is.
@@ -305,7 +306,7 @@ contains
          call append_all(outcome%warnings, films_too_hot(self%extremes, self%items))
          call append_all(outcome%warnings, statistics_without_numbers(self%statistics, self%items, full%time_end))
          if (self%plan%with%hdf5 .and. size(self%extremes%channels) > 0 .and. .not. self%extremes%has_rows()) then
-            call append_text(outcome%warnings, "the time histories have no row: the run ended before they begin")
+            call append_text(outcome%warnings, "the time histories are empty: the run ended before their start")
          end if
          if (self%plan%with%hdf5) then
             call self%hdf5%finish(full, self%events, self%statistics, self%items, outcome%numbers, self%extremes, outcome%joints, &
@@ -347,7 +348,7 @@ contains
          if (len(warning) > 0) call append_text(self%outcome%warnings, warning)
       end if
       if (self%plan%with%figures .and. self%summary%status == status_stopped) then
-         call append_text(self%outcome%warnings, "figures are drawn when the run has come to its end")
+         call append_text(self%outcome%warnings, "figures are drawn after a complete run")
       else if (self%plan%with%figures .and. .not. self%is_broken) then
          call draw_figures(self, error)
       end if

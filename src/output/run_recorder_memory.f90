@@ -109,7 +109,7 @@ contains
          if (allocated(error)) then
             self%is_broken = .true.
          else if (.not. tape%is_at_end()) then
-            call set_error(error, exit_usage, "the checkpoint does not belong to this run: what it holds of the output is of "// &
+            call set_error(error, exit_usage, "the checkpoint does not belong to this run: its output data have "// &
                            "another length")
          end if
       end associate

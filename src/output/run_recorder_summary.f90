@@ -49,7 +49,7 @@ contains
       if (self%is_broken .or. self%summary%status == status_stopped .or. .not. self%plan%with%figures) return
       if (size(self%figures) == 0) return
       outcome = self%outcome
-      call append_text(outcome%warnings, "the run was ended before its figures were drawn")
+      call append_text(outcome%warnings, "the run ended before its figures were drawn")
       call replace_summaries(self, summary_lines(self%plan, self%summary, self%events, outcome, self%items), &
                              summary_json(self%plan, self%summary, self%events, outcome, self%items), error)
    end procedure write_without_figures

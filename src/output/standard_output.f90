@@ -19,7 +19,7 @@ contains
       code = write_output(text)
       if (is_pipe_gone(code)) return
       if (code /= 0) call fail_file(error, "cannot write the summary to", "the standard output", code, &
-                                    "It is in the output directory.")
+                                    "The summary is in the output directory.")
    end subroutine print_text
 
 end module standard_output

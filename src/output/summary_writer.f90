@@ -96,17 +96,18 @@ contains
       if (len(summary%equilibrium) > 0) call lines%line("equilibrium: "//summary%equilibrium)
       call linear_lines(lines, summary%linear)
       call lines%line("")
-      if (plan%moved > worth_telling) call lines%line("start      bodies were moved by up to "//real_text(plan%moved, 3)// &
-                                                      " m from where the deck puts them, to close the joints")
+      if (plan%moved > worth_telling) call lines%line("start      initial assembly correction: up to "//real_text(plan%moved, 3)// &
+                                                      " m")
       call cost_lines(lines, summary)
       call accuracy_lines(lines, summary)
       if (plan%accuracy%asked > 0.0_wp) call asked_lines(lines, plan%accuracy)
       call lines%line("events     "//to_text(summary%count%events)//" located, "//to_text(summary%count%contacts)// &
-                      " contacts began; "//to_text(summary%count%samples)//" output instants")
+                      " impacts; "//to_text(summary%count%samples)//" output times")
       if (sum(summary%count%rows(row_onset:row_jump)) > 0) then
-         call lines%line("rows       "//to_text(sum(summary%count%rows(row_onset:row_jump)))//" more at contacts: "// &
+         call lines%line("rows       "//to_text(sum(summary%count%rows(row_onset:row_jump)))//" additional output rows at "// &
+            "contact events: "// &
                          to_text(summary%count%rows(row_onset))//" onsets, "//to_text(summary%count%rows(row_peak))//" peaks, "// &
-                         to_text(summary%count%rows(row_end))//" ends, "//to_text(summary%count%rows(row_jump))//" jumps")
+                         to_text(summary%count%rows(row_end))//" separations, "//to_text(summary%count%rows(row_jump))//" jumps")
       else if (len(plan%contact_rows) > 0 .and. .not. plan%with%contact_rows) then
          call lines%line("rows       "//plan%contact_rows)
       end if
@@ -120,7 +121,7 @@ contains
       call lines%line("output     "//plan%directory//"/")
       if (plan%with%hdf5) call lines%line("           run.h5")
       call lines%line("           "//to_text(size(outcome%files))//" time histories (.dat), events.dat")
-      if (plan%with%csv) call lines%line("           "//to_text(size(outcome%csv))//" files of comma-separated values (.csv)")
+      if (plan%with%csv) call lines%line("           "//to_text(size(outcome%csv))//" comma-separated files (.csv)")
       do k = 1, size(outcome%pictures)
          call lines%line("           "//outcome%pictures(k)%s)
       end do
@@ -162,7 +163,7 @@ contains
       each = seconds_per_rhs(summary)
       if (ieee_is_finite(each)) call lines%add(", "//real_text(1.0e9_wp*each, 3)//" ns each")
       call lines%line(", "//to_text(summary%count%factorisations)//" factorisations")
-      if (summary%groups > 1) call lines%line("           "//to_text(summary%groups)//" groups of bodies integrated apart")
+      if (summary%groups > 1) call lines%line("           "//to_text(summary%groups)//" groups of bodies integrated separately")
    end subroutine cost_lines
 
    !> How right the run is.
@@ -175,13 +176,13 @@ contains
       if (summary%quality%has_ledger) then
          call lines%add("accuracy   energy residual "//real_text(summary%quality%energy_residual_max, 3)//" J")
          relative = relative_residual(summary)
-         if (ieee_is_finite(relative)) call lines%add(", "//real_text(relative, 3)//" of the largest energy ("// &
+         if (ieee_is_finite(relative)) call lines%add(", "//real_text(relative, 3)//" of the maximum energy ("// &
                                                       real_text(summary%quality%energy_max, 4)//" J)")
          call lines%line("")
       else
-         call lines%line("accuracy   no energy ledger was kept")
+         call lines%line("accuracy   energy balance is off")
       end if
-      call lines%line("           constraint violation "//real_text(summary%quality%violation_max, 3)//" m, its rate "// &
+      call lines%line("           constraint violation "//real_text(summary%quality%violation_max, 3)//" m, rate "// &
                       real_text(summary%quality%violation_rate_max, 3)//" m/s")
    end subroutine accuracy_lines
 
@@ -250,7 +251,7 @@ contains
       real(wp), intent(in) :: duration   !! of a contact; NaN: not ended [s]
       character(:), allocatable :: s     !! the number, or words
 
-      s = "not ended"
+      s = "in contact"
       if (ieee_is_finite(duration)) s = real_text(duration, 6)
    end function ended
 

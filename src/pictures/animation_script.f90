@@ -21,9 +21,9 @@ module animation_script
       "button,select{font:inherit;padding:3px 10px}input[type=range]{flex:1 1 200px}#time{min-width:9em}", &
       "p{margin:4px 16px;color:#555;font-size:13px}", &
       "</style></head><body>", &
-      "<nav><button id='play'>play</button><button id='back' title='one picture back'>&#9664;</button>", &
+      "<nav><button id='play'>play</button><button id='back' title='previous picture'>&#9664;</button>", &
       "", &
-      "<button id='step' title='one picture on'>&#9654;</button>", &
+      "<button id='step' title='next picture'>&#9654;</button>", &
       "<input id='slider' type='range' min='0' value='0' aria-label='time'>", &
       "", &
       "<span id='time'></span><select id='view' aria-label='view'></select><select id='joint' aria-label='joint'></select></nav>", &
@@ -37,7 +37,7 @@ module animation_script
       "const fixed={'x, y':[[1,0,0],[0,1,0]],'x, z':[[1,0,0],[0,0,1]],'y, z':[[0,1,0],[0,0,1]]};", &
       "const colours=['#1f6fb4','#2e8b57','#7b4fa3','#c98a00','#17a2b8','#8c564b','#5a6e1e','#3c3c78'];", &
       "const colour=b=>b?colours[(b-1)%8]:'#707070',dot=(a,b)=>a[0]*b[0]+a[1]*b[1]+a[2]*b[2];", &
-      "const names=D.spatial?['turned',...Object.keys(fixed)]:['x, y'];", &
+      "const names=D.spatial?['3D',...Object.keys(fixed)]:['x, y'];", &
       "names.forEach(n=>$('view').add(new Option('view: '+n,n)));", &
       "D.loose.forEach((j,k)=>$('joint').add(new Option('joint: '+j.name,k)));", &
       "if(!D.loose.length){$('joint').hidden=true;$('side').hidden=true}if(!D.spatial)$('view').hidden=true;", &
@@ -107,7 +107,7 @@ module animation_script
       " return side(138-g*m.g[0],-30)+side(278+g*m.g[1],30)+text(6,16,J.name)", &
       "  +box([[70,a],[330,b],[330,b+140],[70,a+140]])", &
       "  +text(394,16,'gaps '+unit(m.g[0],'m')+', '+unit(m.g[1],'m'),'end')", &
-      "  +text(200,412,'gaps and tilt are magnified, across the guide','middle')}", &
+      "  +text(200,412,'clearance and tilt magnified','middle')}", &
       "function zoom(){const J=D.loose[+$('joint').value];if(!J)return;const k=+$('joint').value,V=axes(),T=D.track;", &
       " const text=(x,y,w,a)=>`<text x='${x}' y='${y}' font-size='13' text-anchor='${a||'start'}' fill='#333'>${w}</text>`;", &
       " const m=D.marks.find(m=>m.k==2&&m.l==k+1&&m.n>0);", &
@@ -118,13 +118,13 @@ module animation_script
       "  $('zoom').innerHTML=c(200,208,R,'#fff4d6')+c(200+e[0],208+e[1],r,'#9fb4c7')+`<polyline points='${path(p.map(v=>{", &
       "   const q=flat(V,v);return[200+g*q[0],208+g*q[1]]}))}' fill='none' stroke='#d1495b'/>`+", &
       "   c(200+e[0],208+e[1],4,'#d1495b')+text(6,16,J.name)+text(394,16,'clearance '+J.cw,'end')+", &
-      "   text(200,412,'path of the journal, which is drawn smaller','middle')}", &
-      " else $('zoom').innerHTML=m?slide(V,D.frames[at],m,J,text):text(6,16,J.name+': drawn at the left only');", &
+      "   text(200,412,'journal path (journal drawn smaller)','middle')}", &
+      " else $('zoom').innerHTML=m?slide(V,D.frames[at],m,J,text):text(6,16,J.name+': see the view at the left');", &
       " const F=T.f[k],top=F.reduce((u,v)=>Math.max(u,v),0)||1,t0=T.t[0],t1=T.t[T.t.length-1];", &
       " const X=t=>45+345*(t-t0)/(t1-t0||1),Y=f=>200-170*f/top,now=D.frames[at].t;", &
       " $('force').innerHTML=`<polyline points='${path(F.map((v,i)=>[X(T.t[i]),Y(v)]))}' fill='none' stroke='#1f6fb4'/>`", &
       "  +`<path d='M45 200H390M45 200V25' stroke='#404040' fill='none'/><path d='M${X(now)} 25V200' stroke='#d1495b'/>`", &
-      "  +text(45,18,'force, greatest '+unit(top,'N'))+text(45,218,unit(t0,'s'))+text(390,218,unit(t1,'s'),'end')}", &
+      "  +text(45,18,'force, maximum '+unit(top,'N'))+text(45,218,unit(t0,'s'))+text(390,218,unit(t1,'s'),'end')}", &
       "function unit(x,u){const a=Math.abs(x);const[n,f]=a>=1e6?['M',1e-6]:a>=1e3?['k',1e-3]:a>=1||a==0?['',", &
       "1]:a>=1e-3?['m',1e3]:", &
       " ['\u00b5',1e6];return+(x*f).toPrecision(4)+' '+n+u}", &
@@ -134,13 +134,13 @@ module animation_script
       "$('step').onclick=()=>{stop();show(at+1)};$('back').onclick=()=>{stop();show(at-1)};", &
       "$('slider').oninput=e=>{stop();show(+e.target.value)};$('joint').onchange=()=>show(at);", &
       "$('view').onchange=()=>{box=null;show(at)};", &
-      "$('scene').onmousemove=e=>{if(!D.spatial||!(e.buttons&1))return;$('view').value='turned';az-=0.01*e.movementX;", &
+      "$('scene').onmousemove=e=>{if(!D.spatial||!(e.buttons&1))return;$('view').value='3D';az-=0.01*e.movementX;", &
       " el=Math.max(-1.5,Math.min(1.5,el+0.01*e.movementY));const c=measure(axes());box=c;show(at)};", &
       "$('scene').onwheel=e=>{e.preventDefault();const z=e.deltaY>0?1.15:1/1.15,b=box;", &
       " box=[b[0]+b[2]*(1-z)/2,b[1]+b[3]*(1-z)/2,b[2]*z,b[3]*z];scene()};", &
       "document.onkeydown=e=>{if(e.key=='ArrowRight')$('step').click();if(e.key=='ArrowLeft')$('back').click()};", &
-      "$('legend').textContent=D.legend+(D.spatial?'; drag to turn':'')+", &
-      " '; wheel: larger or smaller; arrow keys: steps';show(0);", &
+      "$('legend').textContent=D.legend+(D.spatial?'; drag: rotate':'')+", &
+      " '; wheel: zoom; arrow keys: step';show(0);", &
       "</script></body></html>"]
 
 end module animation_script

@@ -37,7 +37,8 @@ contains
       type(buffer_t) :: lines
       integer :: i, k, s
 
-      call lines%line("# asked [1 or s], 1: goes its own way, then value and half interval of each: contacts per time,")
+      call lines%line("# tolerance or step [1 or s], 1: diverged from the reference, then value and half-width of each: "// &
+         "contacts per time,")
       call lines%line("# impact speed, peak force, velocities, reactions; SI")
       do k = 1, size(study%ladders)
          call lines%line("# "//study%ladders(k)%name)
@@ -78,12 +79,12 @@ contains
       end do
       time = choose_unit("s", study%end)
       call preamble(lines, "precision_statistics", 1300, 60 + 360*rows)
-      call lines%line("set multiplot layout "//to_text(rows)//",2 title "//quoted(title//", beyond the horizon: "// &
+      call lines%line("set multiplot layout "//to_text(rows)//",2 title "//quoted(title//", beyond the comparison window: "// &
                       real_text(study%reference%statistics%from*time%factor, 4)//" to "// &
                       real_text(study%end*time%factor, 4)//" "//time%symbol)//" font ',17'")
       call lines%line("set logscale x; set format x '%.0e'; set xtics 100; set datafile missing 'NaN'")
       call lines%line("set xrange ["//number(0.5_wp*least)//":"//number(2.0_wp*most)//"]")
-      call lines%line("set xlabel 'tolerance asked [1], or step [s]'")
+      call lines%line("set xlabel 'tolerance [1], or step [s]'")
       call lines%line("set key noautotitle; unset key")
       do s = 1, n_statistic
          if (.not. ieee_is_finite(study%reference%statistics%list(s)%half)) cycle
@@ -133,7 +134,7 @@ contains
       call lines%line("unset border; unset tics; unset xlabel; unset ylabel; unset title; unset object; unset grid")
       call lines%line("set key inside center center vertical Left reverse samplen 2 spacing 1.3")
       call lines%line("unset logscale; set xrange [0:1]; set yrange [0:1]")
-      call lines%line("plot NaN with lines linewidth 1.5 linecolor rgb '#606060' title 'reference, its interval of 95 % grey', \")
+      call lines%line("plot NaN with lines linewidth 1.5 linecolor rgb '#606060' title 'reference, 95 % interval grey', \")
       do k = 1, size(study%ladders)
          call lines%line("     '+' using (0.5):(-1):(0.1) "//drawn(k)//" title "// &
                          quoted(study%ladders(k)%name//trim(merge(" (steps)", "        ", study%ladders(k)%is_fixed)))// &

@@ -194,7 +194,7 @@ contains
       all = range_of(panel, 1)
       if (stands_on_zero(all) .and. ideal(1) >= 0.0_wp) ends(1) = max(0.0_wp, ends(1))  ! beside high peaks what is below is nothing
       if (hangs_from_zero(all) .and. ideal(2) <= 0.0_wp) ends(2) = min(0.0_wp, ends(2))
-      call lines%line("set title 'the same on the scale of the ideal joints' font ',14'")
+      call lines%line("set title 'zoom: range of the ideal joints' font ',14'")
       zoom = panel
       axis = words%y(1)
       if (allocated(axis%unit%symbol)) axis%unit = fitted_unit(axis%unit, largest(ends))

@@ -76,8 +76,8 @@ contains
          call find_numbers(phrase%against%words(1)%s, catalogue, named, message, hint, bad)
          if (len(message) > 0) return
          if (size(named) /= 1) then
-            message = "'"//phrase%against%words(1)%s//"' is not one number"
-            hint = "an abscissa is a single component, as in "//phrase%against%words(1)%s//".x, or time"
+            message = "'"//phrase%against%words(1)%s//"' is not a single number"
+            hint = "an abscissa must be a single component, as in "//phrase%against%words(1)%s//".x, or time"
             bad = phrase%against%words(1)%s
             return
          end if
@@ -152,7 +152,7 @@ contains
          if (si == panel%y(1)%si) cycle
          if (size(words) == 1) then
             message = "'"//words(1)%s//"' names channels of different units"
-            hint = "one word of a figure names channels of one unit; A + B draws two units, panels(A, B, C) more"
+            hint = "one figure word names channels of one unit; A + B draws two units, panels(A, B, C) more"
             bad = words(1)%s
             return
          end if
@@ -161,7 +161,7 @@ contains
          bad = scalar_name(catalogue, scalars(k))
          message = "'"//bad//"' has another unit ("//si//") than the channels before it ("// &
                    panel%y(1)%si//", "//panel%y(2)%si//")"
-         hint = "one picture has axes for two units; panels(A, B, C) draws more, one above the other"
+         hint = "one plot has axes for two units; panels(A, B, C) draws more, stacked"
          return
       end do
    end subroutine find_axes
@@ -189,9 +189,9 @@ contains
       do i = 1, size(clause%limits)
          associate (limits => clause%limits(i))
             if (len(limits%low_unit//limits%high_unit) == 0 .and. len(usual) == 0 .and. axes(1)%si /= "1") then
-               message = "the ends of an axis have no unit"
+               message = "missing unit of the axis limits"
                bad = "from"
-               hint = "write them with a unit of what is given in "//axes(1)%si//", or write in UNIT before them"
+               hint = "write them with a unit for "//axes(1)%si//", or write in UNIT before them"
                return
             end if
             if (len(limits%low_unit//limits%high_unit) == 0 .and. len(usual) == 0) usual = "1"
@@ -202,10 +202,10 @@ contains
             if (len(message) > 0) return
             high = limits%high/shown%factor
             if (k /= at .or. .not. high > low) then
-               message = "the ends of an axis do not increase"
-               if (k /= at) message = "the ends of an axis are of different quantities"
+               message = "the axis limits do not increase"
+               if (k /= at) message = "the axis limits have different dimensions"
                bad = "from"
-               hint = "write the lesser end first, as in from 0 mm to 20 mm"
+               hint = "write the lower limit first, as in from 0 mm to 20 mm"
                return
             end if
             axes(at)%range = [low, high]
@@ -231,7 +231,7 @@ contains
             if (len(trouble) == 0) return
          end do
          bad = name
-         hint = "this axis shows what is given in "//axes(1)%si
+         hint = "the quantity of this axis has the unit "//axes(1)%si
          at = 1
       end subroutine fit
 

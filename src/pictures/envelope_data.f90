@@ -211,7 +211,7 @@ contains
       real(wp), intent(in) :: tables(:, :, :)     !! (4, columns, n) SI [any]
       character(:), allocatable :: text           !! whole lines
 
-      character(*), parameter :: of(4) = [character(8) :: "abscissa", "least", "greatest", "mean"]
+      character(*), parameter :: of(4) = [character(8) :: "abscissa", "minimum", "maximum", "mean"]
       type(buffer_t) :: lines
       character(24) :: number
       integer :: i, j, k
@@ -224,7 +224,7 @@ contains
       end do
       call lines%line("")
       call lines%add(heading)
-      call lines%line("# ranges in "//to_text(size(tables, 2))//" columns of the picture, SI")
+      call lines%line("# minimum and maximum in "//to_text(size(tables, 2))//" pixel columns of the picture, SI")
       do j = 1, size(tables, 2)
          do k = 1, size(names)
             do i = 1, 4

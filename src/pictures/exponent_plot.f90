@@ -34,7 +34,7 @@ contains
       real(wp) :: rate(size(horizon%t), 2)
       integer :: i
 
-      call lines%line("# time [s], ln of growth by the tangent, by a twin, mean rate so far [1/s] by the tangent, by a twin")
+      call lines%line("# time [s], ln of growth: tangent, neighbouring trajectory; running mean rate [1/s]: the same two")
       rate = mean_rates(horizon)
       do i = 1, size(horizon%t)
          call lines%line(number(horizon%t(i))//" "//number(horizon%tangent%growth(i))//" "//number(horizon%twin%growth(i))//" "// &
@@ -76,23 +76,24 @@ contains
       call lines%line("set xrange [0:"//number(end*time%factor)//"]; set datafile missing 'NaN'")
       call lines%line("set key noautotitle inside bottom right vertical Left reverse samplen 2 spacing 1.2 opaque")
       call lines%line("set xlabel "//quoted("time ["//time%symbol//"]"))
-      call lines%line("set ylabel 'growth of a small change of the start [1]'")
+      call lines%line("set ylabel 'growth of an initial perturbation [1]'")
       call lines%line("set format y '1e%+.0f'; e = log(10.)")
       call add_tics(lines, horizon)
       call add_digits(lines, horizon, time)
       call lines%line("set offsets 0, 0, graph 0.03, graph 0.03")
-      call lines%line("plot "//curve("($1*f)", "($2/e)", 1, "by the tangent, with jumps at "//to_text(horizon%n_crossed)// &
+      call lines%line("plot "//curve("($1*f)", "($2/e)", 1, "tangent equations, jumps at "//to_text(horizon%n_crossed)// &
                                      " events", "linewidth 2")//", \")
-      call lines%line("     "//curve("($1*f)", "($3/e)", 2, "by a twin, brought back "//to_text(horizon%n_renewed)//" times", &
+      call lines%line("     "//curve("($1*f)", "($3/e)", 2, "neighbouring trajectory, rescaled "//to_text(horizon%n_renewed)// &
+         " times", &
                                      "linewidth 1.5 dashtype 2"))
       call lines%line("unset offsets; unset arrow; unset label; unset x2tics")
       call lines%line("set format y '%g'; set ytics autofreq; set key top right")
-      call lines%line("set ylabel 'mean exponent so far, without the transient [1/s]'")
+      call lines%line("set ylabel 'running mean of the exponent, without the transient [1/s]'")
       call lines%line("set xrange ["//number(horizon%after*time%factor)//":"//number(end*time%factor)//"]")
       call add_interval(lines, horizon)
       call lines%line("plot 0 with lines linewidth 1 linecolor rgb '#404040', \")
       call lines%line("     "//curve("($1*f)", "4", 1, "tangent: "//words_of(horizon%tangent%rate), "linewidth 2")//", \")
-      call lines%line("     "//curve("($1*f)", "5", 2, "twin: "//words_of(horizon%twin%rate), "linewidth 1.5 dashtype 2"))
+      call lines%line("     "//curve("($1*f)", "5", 2, "neighbour: "//words_of(horizon%twin%rate), "linewidth 1.5 dashtype 2"))
       call lines%line("unset multiplot")
       call lines%line("unset output")
       script = lines%get()
@@ -207,7 +208,7 @@ contains
       type(estimate_t), intent(in) :: rate     !! the exponent [s^-1]
       character(:), allocatable :: words       !! one line
 
-      words = "not known"
+      words = "unknown"
       if (ieee_is_finite(rate%half)) words = real_text(rate%value, 4)//" +-"//real_text(rate%half, 2)//" 1/s"
    end function words_of
 

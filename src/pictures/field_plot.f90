@@ -55,7 +55,7 @@ contains
       character(100) :: row
       integer :: j, k
 
-      call lines%line("# angle[rad] place[m] pressure[Pa] gap[m]")
+      call lines%line("# angle[rad] axial_position[m] pressure[Pa] thickness[m]")
       call lines%add(heading)
       do k = 1, size(field%theta)
          if (k > 1) call lines%line("")
@@ -108,14 +108,14 @@ contains
       call lines%line("set xrange [0:360]; set xtics 45; set lmargin at screen 0.1; set rmargin at screen 0.84")
       call label(lines, field%request%joint//", film "//field%film//", t = "//real_text(field%t, 6)//" s")
       call map_lines(lines, name, field, p, y)
-      call label(lines, "greatest pressure "//shown(field%pressure(peak(1), peak(2)), p)//" at "// &
-                 real_text(field%theta(peak(2))/degree, 4)//"°, least gap "// &
+      call label(lines, "maximum pressure "//shown(field%pressure(peak(1), peak(2)), p)//" at "// &
+                 real_text(field%theta(peak(2))/degree, 4)//"°, minimum film thickness "// &
                  shown(field%gap(thin(1), thin(2)), choose_unit("m", field%gap(thin(1), thin(2))))//" at "// &
                  real_text(field%theta(thin(2))/degree, 4)//"°")
       call lines%line("set yrange [*:*]; set y2range [0:*]; set ytics auto nomirror; set y2tics; unset view")
       call lines%line("set xlabel 'angle in the frame of the bearing [°]'")
       call lines%line("set ylabel "//quoted("pressure at mid-length ["//p%symbol//"]")//" textcolor rgb '"//colours(1)//"'")
-      call lines%line("set y2label "//quoted("gap ["//h%symbol//"]")//" textcolor rgb '"//colours(2)//"'")
+      call lines%line("set y2label "//quoted("film thickness ["//h%symbol//"]")//" textcolor rgb '"//colours(2)//"'")
       call mark(lines, field%theta(peak(2)), colours(1))
       call mark(lines, field%theta(thin(2)), colours(2))
       call lines%line("plot '"//name//".dat' index 1 using "//column(1, degrees)//":"//column(3, p)// &
@@ -171,7 +171,7 @@ contains
       high_y = real_text(field%y(size(field%y))*y%factor, 6)
       call lines%line("set yrange ["//low_y//":"//high_y//"]")
       call lines%line("set ytics 0.25*("//high_y//"-("//low_y//"))")
-      call lines%line("set ylabel "//quoted("place along the axis ["//y%symbol//"]"))
+      call lines%line("set ylabel "//quoted("axial position ["//y%symbol//"]"))
       call lines%add("splot '"//name//".dat' index 0 using "//columns//" with pm3d")
       if (greatest > least) call lines%add(", '' index 0 using "//columns//" with lines linewidth 0.8 nosurface")
       call lines%line("")

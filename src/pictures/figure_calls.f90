@@ -89,7 +89,7 @@ contains
       if (size(scalars) == 1) then
          figure%scalars = [figure%scalars, scalars]
       else
-         message = "'"//word//"' is not one number"
+         message = "'"//word//"' is not a single number"
          hint = "this figure needs single components, as in "//word//".x"
       end if
    end subroutine take_scalar

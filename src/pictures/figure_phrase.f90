@@ -69,10 +69,10 @@ contains
          at = at + 1
       end do
       if (size(phrase%panels) > most_panels) then
-         message = "more panels than a figure has room for, which is six"
+         message = "more panels than the limit of six"
       else if (has_panels) then
          if (.not. is(cells, at, ")")) then
-            message = "panels(...) is not closed"
+            message = "missing end of panels(...)"
          else
             at = at + 1
          end if
@@ -89,7 +89,7 @@ contains
          end if
       end if
       if (at > size(cells)) return
-      message = "'"//cells(at)%s//"' has no place here in a figure"
+      message = "'"//cells(at)%s//"' is not allowed here in a figure"
       bad = cells(at)%s
    end subroutine read_phrase
 
@@ -184,11 +184,11 @@ contains
       call empty(clause)
       do
          if (at > size(cells)) then
-            message = "the figure ends where a channel is wanted"
+            message = "missing channel at the end of the figure"
             return
          end if
          if (index(" + , ) in from to against ", " "//cells(at)%s//" ") > 0) then
-            message = "a channel is wanted before '"//cells(at)%s//"' in a figure"
+            message = "missing channel before '"//cells(at)%s//"' in a figure"
             bad = cells(at)%s
             return
          end if
@@ -214,7 +214,7 @@ contains
       do
          if (is(cells, at, "in")) then
             at = at + 1
-            if (at > size(cells)) message = "the figure ends where a unit is wanted"
+            if (at > size(cells)) message = "missing unit at the end of the figure"
             if (len(message) > 0) return
             call append_text(clause%units, cells(at)%s)
             at = at + 1
@@ -223,7 +223,7 @@ contains
             call read_end(cells, at, limits%low, limits%low_unit, message, bad)
             if (len(message) > 0) return
             if (.not. is(cells, at, "to")) then
-               message = "'to' is missing after 'from' in a figure"
+               message = "missing 'to' after 'from' in a figure"
                return
             end if
             at = at + 1
@@ -257,7 +257,7 @@ contains
       if (n > 0) call read_number(cells(at)%s(:n), 0, x, is_finite)
       if (n > 0 .and. .not. is_finite) n = 0
       if (n == 0) then
-         message = "a number is wanted where an axis begins or ends"
+         message = "missing number for an axis limit"
          if (at <= size(cells)) bad = cells(at)%s
          return
       end if

@@ -125,7 +125,7 @@ contains
       blank = index(word, " ")
       if (blank > 0) then
          if (kind_of_call(called(word(:blank - 1))) > 0 .or. ends_with(word(:blank - 1), orbit_word)) then
-            message = "'"//first_word(word(blank + 1:))//"' belongs to figures of curves, not to '"//word(:blank - 1)//"'"
+            message = "'"//first_word(word(blank + 1:))//"' is valid for figures of curves, not for '"//word(:blank - 1)//"'"
             hint = phrase_hint
             if (present(bad_part)) bad_part = first_word(word(blank + 1:))
             return
@@ -287,8 +287,8 @@ contains
                if (is_round) is_round = clearance > 0.0_wp
             end associate
             if (.not. is_round) then
-               message = "no orbit of '"//joint//"': the joint is ideal, or has no round clearance"
-               hint = "with level = clearance a journal in a bearing has an orbit"
+               message = "no orbit of '"//joint//"': the joint is ideal, or its clearance is not round"
+               hint = "an orbit needs a journal in a bearing with level = clearance"
                return
             end if
          end if

@@ -82,7 +82,7 @@ contains
          if (is_written) then
             call append_text(names, file_of(list(k)))
          else if (list(k)%kind /= figure_film) then  ! of a film that is missing the recorder tells
-            call append_text(warnings, "figure "//list(k)%word//": no numbers to draw: "//why_nothing(list(k)))
+            call append_text(warnings, "figure "//list(k)%word//": no values to draw: "//why_nothing(list(k)))
          end if
       end do
       call draw_figures(directory//"/figures", names, pictures, warnings)
@@ -98,13 +98,13 @@ contains
 
       select case (figure%kind)
       case (figure_section)
-         reason = "no whole period of the drive passes after the transient (`after` and `period` in [statistics])"
+         reason = "the run has no complete drive period after the transient (`after` and `period` in [statistics])"
       case (figure_spectrum)
-         reason = "it needs two output instants after the transient (`after` in [statistics]), with a number at each"
+         reason = "it needs two output times after the transient (`after` in [statistics]), with a value at each"
       case (figure_histogram)
-         reason = "no contact begins after the transient (`after` in [statistics])"
+         reason = "the run has no impact after the transient (`after` in [statistics])"
       case default
-         reason = "no output instant that it shows has a number (`from` and `last` in [output], the end of the run)"
+         reason = "the output times shown have no values (`from` and `last` in [output], the end of the run)"
       end select
    end function why_nothing
 
@@ -147,7 +147,7 @@ contains
          script = curve_text(figure, catalogue, title, curves, ideal, window, envelope)
          call tell_missing(figure, catalogue, curves, warnings)
          if (shows_nothing(figure, catalogue, curves)) then
-            call append_text(warnings, "figure "//figure%word//": no numbers in the range that is asked for")
+            call append_text(warnings, "figure "//figure%word//": no values in the axis range")
          end if
       else
          n_turn = 0
@@ -191,7 +191,7 @@ contains
 
       do k = 1, size(figure%scalars)
          if (k == figure%curves%abscissa .or. any(curves%number == k)) cycle
-         call append_text(warnings, "figure "//figure%word//": no numbers of "//scalar_name(catalogue, figure%scalars(k)))
+         call append_text(warnings, "figure "//figure%word//": no values of "//scalar_name(catalogue, figure%scalars(k)))
       end do
    end subroutine tell_missing
 

@@ -69,7 +69,7 @@ contains
       if (word == "end" .or. word == "least") then
          request%moment = merge(moment_end, moment_least, word == "end")
       else if (n == 0 .or. n == len(word)) then
-         message = "'"//word//"' is no moment of a film"
+         message = "'"//word//"' is not a time of a film"
          if (n > 0) message = "the time '"//word//"' of a film has no unit"
          hint = film_hint
       else
@@ -80,7 +80,7 @@ contains
          if (is_good) call read_quantity(word(1:n), unit, request%t, is_good)
          if (is_good) is_good = request%t >= 0.0_wp
          if (.not. is_good) then
-            message = "'"//word//"' is no time of the run"
+            message = "'"//word//"' is not within the run"
             hint = film_hint
          end if
       end if
@@ -98,7 +98,7 @@ contains
       do k = 1, size(requests)
          if (any([(fields(i)%request%name == requests(k)%name, i=1, size(fields))])) cycle
          call append_text(warnings, "no film of joint '"//requests(k)%joint//"' for "//requests(k)%name// &
-                          ": none acts in it, or the run ended before that moment")
+                          ": it has no active film, or the run ended before that time")
       end do
    end function missing_films
 

@@ -101,7 +101,7 @@ contains
             call start_drawing(folder, names, which(k:k), process(k), code)
             if (code == 0) cycle
             if (is_missing(code)) then
-               call append_text(warnings, "gnuplot is not installed: the figures are left as scripts in "//folder)
+               call append_text(warnings, "gnuplot is not installed: see the scripts of the figures in "//folder)
                last = k - 1
                exit
             end if
@@ -115,8 +115,9 @@ contains
          end do
          if (last < min(first + most_at_once - 1, size(which))) return
          if (n_late == last - first + 1 .and. last < size(which)) then
-            call append_text(warnings, to_text(size(which) - last)//" further figures were left as scripts in "//folder// &
-                             ", because gnuplot does not end")
+            call append_text(warnings, to_text(size(which) - last)//" further figures were not drawn; their scripts are in "// &
+               folder// &
+                             ", because gnuplot does not stop")
             return
          end if
       end do
@@ -136,7 +137,7 @@ contains
       if (status == 0 .and. verify(trim(word), "0123456789") == 0) read (word, *, iostat=status) seconds
       if (status == 0 .and. verify(trim(word), "0123456789") == 0 .and. seconds >= 1) return
       seconds = patience
-      call append_text(warnings, patience_variable//" is not a number of seconds from 1 on; "//to_text(patience)//" s are taken")
+      call append_text(warnings, patience_variable//" is not a number of seconds from 1 on; "//to_text(patience)//" s are used")
    end subroutine read_patience
 
    !> Start gnuplot on scripts. Pictures that lie there are removed.
@@ -183,13 +184,13 @@ contains
       code = wait_group(process, until, is_late)
       if (is_late) then
          n_late = n_late + 1
-         call append_text(warnings, "figure "//name//": gnuplot was not ready after "//to_text(seconds)// &
-                          " s and was ended ("//patience_variable//"=SECONDS gives it more)")
+         call append_text(warnings, "figure "//name//": gnuplot exceeded "//to_text(seconds)// &
+                          " s and was killed (raise "//patience_variable//")")
       else if (code /= 0) then
-         call append_text(warnings, "figure "//name//": gnuplot ended with code "//to_text(code)// &
+         call append_text(warnings, "figure "//name//": gnuplot failed with exit code "//to_text(code)// &
                           ", its message is in "//path//".log")
       else if (.not. is_whole_picture(folder//"/"//picture_of(name))) then
-         call append_text(warnings, "figure "//name//": gnuplot left no whole picture, though it reported no failure; its "// &
+         call append_text(warnings, "figure "//name//": gnuplot wrote an incomplete picture without an error; its "// &
                           "message is in "//path//".log")
       else
          ignored = remove_file(path//".log")

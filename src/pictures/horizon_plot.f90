@@ -25,7 +25,7 @@ contains
       type(buffer_t) :: lines
       integer :: i, k
 
-      call lines%line("# time [s], distance over that of the starts, a column for each twin")
+      call lines%line("# time [s], distance relative to the initial distance, one column per neighbouring trajectory")
       do i = 1, size(study%growth%t)
          call lines%add(number(study%growth%t(i)))
          do k = 1, size(study%growth%ratio, 2)
@@ -53,7 +53,7 @@ contains
          call lines%line("set key noautotitle inside top left vertical Left reverse samplen 2 spacing 1.2 opaque")
          call lines%line("set title "//quoted(title)//" font ',17'")
          call lines%line("set xlabel "//quoted("time ["//time%symbol//"]"))
-         call lines%line("set ylabel 'distance of neighbouring motions over that of their starts'")
+         call lines%line("set ylabel 'relative distance of neighbouring trajectories'")
          call lines%line("set logscale y; set format y '%.0e'; f = "//real_text(time%factor, 9))
          do k = 1, min(n_digit, most_digits)
             if (.not. ieee_is_finite(growth%horizon(k))) cycle
@@ -74,7 +74,7 @@ contains
          call lines%line("set xrange [0:"//number(study%end*time%factor)//"]")
          do k = 1, size(growth%ratio, 2)
             call lines%line(merge("plot ", "     ", k == 1)//"'horizon.dat' using ($1*f):"//to_text(k + 1)// &
-                            " with lines linewidth 1.5 linecolor rgb '"//colours(k)//"' title 'twin "//to_text(k)//"', \")
+                            " with lines linewidth 1.5 linecolor rgb '"//colours(k)//"' title 'trajectory "//to_text(k)//"', \")
          end do
          call lines%line("     [x="//number(growth%fit_begin*time%factor)//":"//number(growth%fit_end*time%factor)//"] law(x) "// &
                          "with lines linewidth 3 dashtype 2 linecolor rgb '#000000' title "//quoted(law))

@@ -57,7 +57,7 @@ contains
          if (len(message) > 0) bad = arguments(k)%s
          if (len(message) > 0) return
       end do
-      if (size(request%times) > most_pictures) message = "more instants than a figure has room for"
+      if (size(request%times) > most_pictures) message = "too many times for one figure"
    end subroutine take_motion
 
    !> A number of pictures.
@@ -71,7 +71,7 @@ contains
       status = 1
       if (len(word) > 0 .and. len(word) < 5 .and. verify(word, "0123456789") == 0) read (word, *, iostat=status) request%n
       if (status == 0 .and. request%n >= 2 .and. request%n <= most_pictures) return
-      message = "'n="//word//"' is no number of pictures from 2 to 200"
+      message = "'n="//word//"' is not a number of pictures from 2 to 200"
    end subroutine take_count
 
    !> The length of a window: a time, or turns of a driver.
@@ -89,7 +89,7 @@ contains
       if (n > 0 .and. any(is_in)) then
          request%driver = piece(word, n + 1 + len_trim(turns(findloc(is_in, .true., dim=1))))
          read (word(:n), *, iostat=status) request%last
-         if (status /= 0 .or. len(request%driver) == 0) message = "'last="//word//"' names no turns of a driver"
+         if (status /= 0 .or. len(request%driver) == 0) message = "'last="//word//"' is not a number of turns of a driver"
       else
          call read_time(word, request%last, message)
       end if
@@ -107,7 +107,7 @@ contains
       call read_time(word, t, message)
       if (len(message) > 0) return
       if (size(request%times) > 0) then
-         if (t <= request%times(size(request%times))) message = "instants must increase: '"//word//"' does not"
+         if (t <= request%times(size(request%times))) message = "times must increase: '"//word//"' does not"
       end if
       request%times = [request%times, t]
    end subroutine take_time
@@ -133,7 +133,7 @@ contains
          if (is_good) call read_quantity(word(1:n), unit, t, is_good)
          if (is_good) is_good = t >= 0.0_wp
       end if
-      if (.not. is_good) message = "'"//word//"' is no time of a run, with its unit"
+      if (.not. is_good) message = "'"//word//"' is not a time of the run with its unit"
    end subroutine read_time
 
 end module motion_words

@@ -58,7 +58,7 @@ contains
       path%file = name//".path.dat"
       call lines%line("# "//labels(curve%x)%s//" "//labels(curve%y)%s)
       call lines%add(heading)
-      call lines%line("# the path without points nearer than half a pixel, SI")
+      call lines%line("# path, points closer than half a pixel omitted, SI")
       extent = [curve%x_range(2) - curve%x_range(1), curve%y_range(2) - curve%y_range(1)]
       if (.not. all(ieee_is_finite(extent))) extent = 0.0_wp  ! infinite numbers are left out, and no others
       crossings = 0.0_wp

@@ -105,7 +105,7 @@ contains
       integer :: k
 
       do k = 1, size(empty)
-         call append_text(warnings, "figure "//word//": no numbers of "//empty(k)%s)
+         call append_text(warnings, "figure "//word//": no values of "//empty(k)%s)
       end do
    end subroutine tell_empty
 

@@ -27,8 +27,8 @@ module precision_plots
    character(*), parameter :: data_name = "precision.dat"        !! file of the numbers
 
    ! entries of the legend
-   character(*), parameter :: other_title = "other contacts, or another end"
-   character(*), parameter :: front_title = "front of best settings"
+   character(*), parameter :: other_title = "different contact sequence or end time"
+   character(*), parameter :: front_title = "Pareto front"
    character(*), parameter :: tolerance_title = "error = tolerance"
 
    ! columns of the numbers
@@ -102,7 +102,7 @@ contains
       call begin_axes(lines)
       call lines%line("set title "//quoted(title)//" font ',17'")
       call lines%line("set xlabel "//quoted(error_label(study)))
-      call lines%line("set ylabel "//quoted("CPU time ["//cpu%symbol//"], median; bar to the least"))
+      call lines%line("set ylabel "//quoted("CPU time ["//cpu%symbol//"], median; bar to the minimum"))
       call add_limits(lines, study)
       call lines%line("f = "//real_text(cpu%factor, 9))
       call add_curves(lines, study, at_error, "($"//at_cpu//"*f)", "($"//at_least//"*f)", .true.)
@@ -131,7 +131,7 @@ contains
       type(precision_t), intent(in) :: study      !! results
       character(:), allocatable :: label          !! one line
 
-      label = "greatest error of "//trim(error_names(study%wanted))//" [1], of the range of motion or the greatest value"
+      label = "maximum error of "//trim(error_names(study%wanted))//" [1], relative to the range of motion or the maximum value"
       if (study%reference%is_cut .and. .not. study%reference%is_unsure) then
          label = label//", up to "//real_text(study%reference%window, 3)//" s"
       end if
@@ -157,11 +157,11 @@ contains
       end if
       call lines%line("set arrow 2 from first "//number(study%accuracy)//", graph 0 to first "//number(study%accuracy)// &
                       ", graph 1 nohead linewidth 1.5 dashtype 2 linecolor rgb '#404040'")
-      call lines%line("set label 2 "//quoted("error wanted")//" at first "//number(study%accuracy)// &
+      call lines%line("set label 2 "//quoted("target error")//" at first "//number(study%accuracy)// &
                       ", graph 0.02 left rotate by 90 offset -0.8,0 font ',12' textcolor rgb '#404040'")
       call lines%line("set xrange [1e"//to_text(ends(1))//":1e"//to_text(ends(2))//"]")
       call mark_zero(lines, "x", zero_of_errors(study))
-      if (ieee_is_finite(zero_of_errors(study))) call lines%line("set label 3 'errors of exactly 0' at first "// &
+      if (ieee_is_finite(zero_of_errors(study))) call lines%line("set label 3 'zero error' at first "// &
          number(zero_of_errors(study))//", graph 0.02 left rotate by 90 offset 0.8,0 font ',12' textcolor rgb '#606060'")
    end subroutine add_limits
 
@@ -292,7 +292,7 @@ contains
       type(precision_t), intent(in) :: study      !! results
       character(:), allocatable :: words          !! one line
 
-      words = "no setting reaches the error wanted"
+      words = "no setting reaches the target error"
       if (study%choice%ladder == 0) return
       associate (ladder => study%ladders(study%choice%ladder))
          words = "choice: "//ladder%name//" "//real_text(ladder%rungs(study%choice%rung)%asked, 3)
@@ -321,12 +321,12 @@ contains
       call panel(label, "right-hand sides", "$"//at_rhs, at_error)
       call mark_zero(lines, "x", zero_of_ledgers(study))
       call lines%line("unset arrow; unset label; unset object; set xrange [*:*]")
-      if (any_ledger(study)) call panel("residual of the energy ledger [1], of the largest energy", &
-                                        "CPU time of the solution ["//cpu%symbol//"]", "$"//at_cpu//"*f", at_ledger)
+      if (any_ledger(study)) call panel("energy error [1], relative to the maximum energy", &
+                                        "CPU time of the integration ["//cpu%symbol//"]", "$"//at_cpu//"*f", at_ledger)
       call legend%place(lines)
       call mark_zero(lines, "x", not_a_number())
       call mark_zero(lines, "y", zero_of_errors(study))
-      call panel("tolerance asked [1], or step [s]", label, "$"//at_error, at_asked, "x with lines linewidth 1 dashtype 2 "// &
+      call panel("tolerance [1], or step [s]", label, "$"//at_error, at_asked, "x with lines linewidth 1 dashtype 2 "// &
                  "linecolor rgb '#404040' title "//quoted(tolerance_title)//", ")
       call lines%line("unset key")
       call panel("accepted steps", label, "$"//at_error, at_steps)

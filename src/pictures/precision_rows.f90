@@ -25,9 +25,9 @@ contains
       type(rung_t), allocatable :: front(:)
       integer :: i, k
 
-      if (ieee_is_finite(zero_of_errors(study))) call lines%line("# errors of exactly 0 stand at "// &
+      if (ieee_is_finite(zero_of_errors(study))) call lines%line("# zero errors are drawn at "// &
                                                                 number(zero_of_errors(study)))
-      if (ieee_is_finite(zero_of_ledgers(study))) call lines%line("# ledgers of exactly 0 stand at "// &
+      if (ieee_is_finite(zero_of_ledgers(study))) call lines%line("# zero energy errors are drawn at "// &
                                                                  number(zero_of_ledgers(study)))
       call lines%line("# asked [1 or s], error, CPU median [s], CPU least [s], right-hand sides, steps, ledger, state, below")
       do k = 1, size(study%ladders)

@@ -19,7 +19,7 @@ contains
       if (symbols%magnified > 0.0_wp) words = "clearance × "//real_text(symbols%magnified, 2)
       if (.not. symbols%force > 0.0_wp) return
       if (len(words) > 0) words = words//",  "
-      words = words//"longest arrow "//quantity_text("N", symbols%force, 3)
+      words = words//"maximum arrow "//quantity_text("N", symbols%force, 3)
    end function short_legend
 
    !> The same in a sentence.
@@ -27,10 +27,10 @@ contains
       type(symbols_t), intent(in) :: symbols   !! scales
       character(:), allocatable :: words       !! a line
 
-      words = "bodies in their size"
-      if (symbols%magnified > 0.0_wp) words = words//"; clearance of loose joints magnified "//real_text(symbols%magnified, 2)// &
+      words = "bodies to scale"
+      if (symbols%magnified > 0.0_wp) words = words//"; clearance of joints magnified "//real_text(symbols%magnified, 2)// &
                                               " times"
-      if (symbols%force > 0.0_wp) words = words//"; arrows: loads and forces on journals, the longest "// &
+      if (symbols%force > 0.0_wp) words = words//"; arrows: loads and forces on journals, maximum "// &
                                           quantity_text("N", symbols%force, 3)
    end function long_legend
 

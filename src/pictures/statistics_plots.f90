@@ -60,7 +60,7 @@ contains
             table%values(k + 1, :) = statistics%strobes(i, 1:statistics%n_strobe)
          end do
       end do
-      table%x_name = scalar_name(catalogue, scalars(1))//" once per period"
+      table%x_name = scalar_name(catalogue, scalars(1))//", Poincare samples"
       table%x_unit = unit_of(catalogue, scalars(1))
       table%panels(1)%y_name = scalar_name(catalogue, scalars(2))
       table%panels(1)%y_unit = unit_of(catalogue, scalars(2))

@@ -144,7 +144,7 @@ contains
       call append_text(table%labels, name//"["//unit//"]")
       allocate (table%panels(1))
       allocate (table%panels(1)%curves(results%sweep%n_curves()))
-      table%panels(1)%y_name = name//" once per period"
+      table%panels(1)%y_name = name//", Poincare samples"
       table%panels(1)%y_unit = unit
       n = 0
       do run = 1, size(results%runs)
@@ -244,7 +244,7 @@ contains
          if (.not. results%is_ensemble) cycle
          curve%style = draw_marks
          curve%title = ""
-         if (k == n) curve%title = "least, greatest"
+         if (k == n) curve%title = "minimum, maximum"
          curve%y = before + 3
          panel%curves = [panel%curves, curve]
          curve%title = ""

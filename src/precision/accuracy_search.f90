@@ -48,10 +48,10 @@ module accuracy_search
    real(wp), parameter :: beside = 1.0e-9_wp         !! perturbation of the twins that tell why digits end [1]
 
    character(*), parameter :: others(3) = [character(6) :: "verner", "adams", "bdf"]       !! what confirms, in this order
-   character(*), parameter :: no_gain = "tighter tolerances gain nothing: round-off"      !! the same
-   character(*), parameter :: no_tighter = "the least tolerance is reached"               !! the same
+   character(*), parameter :: no_gain = "tighter tolerances do not reduce the error: round-off"      !! the same
+   character(*), parameter :: no_tighter = "the minimum tolerance is reached"               !! the same
    character(*), parameter :: ends_apart = &
-      "a condition ends this run elsewhere than another integrator's, at every tolerance"  !! the same
+      "this run and that of another integrator meet the stop condition at different times, at every tolerance"  !! the same
 
 contains
 
@@ -71,7 +71,7 @@ contains
 
       found%evidence%coarser = ""
       found%evidence%confirmation = ""
-      found%growth%reason = "not looked for"
+      found%growth%reason = "not determined"
       search%limit = found%asked/safety
       search%asked = asked
       search%stride = stride

@@ -13,7 +13,7 @@ module accuracy_trial
    public :: agreement, ends_falsely, is_better, make_trial, no_time, same, search_t, trial_t
 
    real(wp), parameter :: same = 3.0_wp              !! ratio below which the difference of two tolerances tells nothing [1]
-   character(*), parameter :: no_time = "the budget is used up"  !! why no more was reached
+   character(*), parameter :: no_time = "time budget exhausted"  !! why no more was reached
 
    !> A run of the search.
    type :: trial_t

@@ -69,7 +69,7 @@ contains
       exponent%rate = mean_of_series([real(wp) ::])
       if (exponent%reason /= "") return
       if (.not. all(ieee_is_finite(exponent%growth(first:)))) then
-         exponent%reason = "the growth is not known all the time"
+         exponent%reason = "the growth is unknown at some times"
          return
       end if
       associate (g => exponent%growth(first:), at => t(first:))
@@ -84,7 +84,7 @@ contains
          end if
       end associate
       if (ieee_is_finite(exponent%rate%half)) return
-      exponent%reason = "there are too few instants behind the transient"
+      exponent%reason = "too few times after the transient"
    end subroutine find_exponent
 
    !> What the exponent means; of the tangent if it is known, else of the twin, and nothing where they differ.

@@ -53,8 +53,8 @@ contains
       allocate (horizon%tangent%growth(instants + 1), horizon%twin%growth(instants + 1), source=not_a_number())
       horizon%tangent%rate = mean_of_series([real(wp) ::])
       horizon%twin%rate = horizon%tangent%rate
-      horizon%tangent%reason = "it was not asked for"
-      horizon%twin%reason = "it was not asked for"
+      horizon%tangent%reason = "not requested"
+      horizon%twin%reason = "not requested"
    end subroutine plan_horizon
 
    !> Exponent and digits by the tangent.
@@ -73,7 +73,7 @@ contains
       call mover%start(job, setting_t("verner", on_constraints, ""), horizon%tolerance, horizon%t(size(horizon%t)), error)
       if (.not. allocated(error)) then
          call tangent%begin(mover%system, mover%method, 1.0_wp/horizon%t(size(horizon%t)), status)
-         if (status /= 0) horizon%tangent%reason = "nothing is free to be moved"
+         if (status /= 0) horizon%tangent%reason = "no coordinate is free to be perturbed"
          if (status == 0) logs(:, 1) = tangent%lengths(mover%system)
       end if
       if (horizon%tangent%reason /= "") return
@@ -138,7 +138,7 @@ contains
          call first%begin(base%system, base%method, 1.0_wp/horizon%t(size(horizon%t)), status)
          is_near = status == 0
          if (is_near) call twin%put(base%method%step%y1 + distance*first%w, is_near)
-         if (.not. is_near) horizon%twin%reason = "no start beside this one was found in which the same contacts touch"
+         if (.not. is_near) horizon%twin%reason = "no perturbed initial state has the same contacts"
       end if
       if (horizon%twin%reason /= "") return
       allocate (logs(2, size(horizon%t)), source=0.0_wp)
@@ -150,8 +150,8 @@ contains
          apart = distances_of(base, twin, first%scale)
          logs(:, k) = level + log(max(tiny(1.0_wp), apart))
          d = max(apart(1), apart(2)/first%pace(base%system))
-         if (d > far) horizon%twin%reason = "the twin was far away before it could be brought back"
-         if (.not. d > 0.0_wp) horizon%twin%reason = "the twin fell onto the motion"
+         if (d > far) horizon%twin%reason = "the neighbouring trajectory diverged before rescaling"
+         if (.not. d > 0.0_wp) horizon%twin%reason = "the neighbouring trajectory merged with the reference"
          if (horizon%twin%reason /= "") return
          if (max(d/distance, distance/d) < out_of_reach) cycle
          call bring_back(base, twin, distance/d, is_near)

@@ -63,7 +63,7 @@ contains
       last = last - 1
       first = max(2, count(growth%t <= growth%t(1) + first_part*(growth%t(last) - growth%t(1))))
       if (last - first + 1 < fewest) then
-         growth%reason = "the twins part within a few of the instants compared; more of them tell how"
+         growth%reason = "the neighbouring trajectories separate within a few time points; use more time points"
          growth%horizon = not_a_number()
          return
       end if

@@ -75,14 +75,14 @@ contains
          if (allocated(error)) return
          self%is_late = self%budget%is_spent()
          if (self%is_late) then
-            call set_error(error, exit_integration, "its time was up at t = "//real_text(self%method%t, 4)// &
-                           " s: more of it (--budget) goes on")
+            call set_error(error, exit_integration, "time budget exhausted at t = "//real_text(self%method%t, 4)// &
+                           " s: raise it with --budget")
             return
          end if
          if (present(tangent)) then
             call tangent%follow(self%system, self%method, status)
             if (status /= 0) then
-               call set_error(error, exit_integration, "the equations cannot be solved beside the motion")
+               call set_error(error, exit_integration, "the equations have no solution for the perturbed state")
                return
             end if
          end if

@@ -18,8 +18,8 @@ module precision_ladders
    real(wp), parameter :: least_rise = 1.1_wp          !! of the time of a run over that of the rung before, for a forecast [1]
    real(wp), parameter :: most_rise = 3.0_wp           !! the same [1]
 
-   character(*), parameter :: no_time = "no time was left in the budget"  !! why a run was not made
-   character(*), parameter :: not_ready = "not ready when its time in the budget was up"  !! why a run failed that was ended
+   character(*), parameter :: no_time = "time budget exhausted"  !! why a run was not made
+   character(*), parameter :: not_ready = "stopped: time budget exhausted"  !! why a run failed that was ended
 
 contains
 

@@ -184,7 +184,7 @@ contains
                             rung%error(error_restitution), is_other)
       if (ends_elsewhere(run, reference%run, study%reference%window)) then
          is_other = .true.
-         rung%reason = "it ends at another time than the reference"
+         rung%reason = "its end time differs from that of the reference"
       end if
       if (is_other) rung%state = rung_other
       if (study%is_stopped .and. .not. (study%reference%is_cut .or. is_other)) then

@@ -33,16 +33,18 @@ module precision_results
       "onsets", "peaks", "restitution", "ledger", "violation"]              !! in files
    character(*), parameter :: error_units(n_error) = [character(1) :: "1", "1", "1", "1", "s", "1", "1", "1", "m"]  !! SI
    character(*), parameter :: error_words(n_error) = [character(64) :: &
-      "greater one of positions and velocities", "of positions, of the greatest range of one of them", &
-      "of velocities, of the greatest of them", "of reactions, of the greatest of them", &
-      "greatest of the onset times", "of peak forces, of the greatest of them", "greatest of release over impact speeds", &
-      "greatest residual of the ledger, of the largest energy", "greatest violation of a constraint"]  !! what they are
+      "maximum of position and velocity errors", "position error, relative to the largest range of a position", &
+      "velocity error, relative to the largest velocity", "reaction error, relative to the largest reaction", &
+      "maximum error of onset times", "peak force error, relative to the largest peak force", &
+      "maximum error of separation over impact speed", &
+      "maximum energy error, relative to the maximum energy", "maximum constraint violation"]  !! what they are
 
    integer, parameter :: rung_unrun = 0    !! no time was left for it
    integer, parameter :: rung_done = 1     !! ran to the end
    integer, parameter :: rung_failed = 2   !! failed
    integer, parameter :: rung_other = 3    !! ran to its end, with other contacts than the reference, or another end
-   character(*), parameter :: rung_states(0:3) = [character(14) :: "not run", "done", "failed", "other sequence"]  !! in words
+   character(*), parameter :: rung_states(0:3) = [character(26) :: "not run", "done", "failed", &
+      "different contact sequence"]  !! in words
 
    ! statistics of the time that is not compared
    integer, parameter :: statistic_rate = 1         !! contacts that begin
@@ -56,7 +58,7 @@ module precision_results
       "velocity_rms", "reaction_rms"]                                           !! in files
    character(*), parameter :: statistic_units(n_statistic) = [character(3) :: "1/s", "m/s", "N", "m/s", "N"]  !! SI
    character(*), parameter :: statistic_words(n_statistic) = [character(64) :: &
-      "contacts that begin per time", "mean impact speed", "mean peak force of contacts that ended", &
+      "impacts per time", "mean impact speed", "mean peak force of completed contacts", &
       "root mean square of velocities of bodies", "root mean square of reactions"]  !! what they are
 
    !> Statistics of the time that is not compared, of one run or of the runs of a setting.

@@ -146,8 +146,8 @@ contains
       call run_setting(job, setting_t("verner", "", ""), finest, nothing, outcome)
       if (outcome%reason /= "" .or. .not. outcome%summary%time_end < job%plan%end) return
       if (outcome%summary%time_end <= 0.0_wp) then
-         call set_error(error, exit_integration, "there is nothing to compare: the motion is "//outcome%summary%message// &
-                        new_line("a")//"  = the start meets this condition of 'stop' in [guards] already")
+         call set_error(error, exit_integration, "nothing to compare: the motion is "//outcome%summary%message// &
+                        new_line("a")//"  = the initial state already meets this condition of 'stop' in [guards]")
          return
       end if
       job%plan%every = job%plan%every*(1.0_wp - before)*outcome%summary%time_end/job%plan%end

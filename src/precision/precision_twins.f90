@@ -20,9 +20,9 @@ module precision_twins
    integer, parameter :: attempts = 6    !! perturbed starts that are tried
    real(wp), parameter :: left = 1.0e-5_wp !! least part of the perturbation that constraints leave where something is free [1]
 
-   character(*), parameter :: no_time = "no time was left in the budget"  !! why there are no twins
+   character(*), parameter :: no_time = "time budget exhausted"  !! why there are no twins
    character(*), parameter :: nothing_is_free = &
-      "no perturbed start gave another motion: nothing is free to be moved, or [initial.speed] holds it"  !! the same
+      "no perturbed initial state gives another motion: no coordinate is free, or [initial.speed] fixes it"  !! the same
 
 contains
 
@@ -46,8 +46,8 @@ contains
       study%growth%horizon = not_a_number()
       allocate (study%growth%t(0), study%growth%ratio(0, 0))
       study%growth%reason = ""
-      if (perturbation <= 0.0_wp) study%growth%reason = "no twins were asked for"
-      if (.not. reference%is_there) study%growth%reason = "there is no reference"
+      if (perturbation <= 0.0_wp) study%growth%reason = "no neighbouring trajectories requested"
+      if (.not. reference%is_there) study%growth%reason = "no reference solution"
       if (study%growth%reason /= "") return
       call choose_base(budget%left(until)/real(wanted + 1, wp), tight*perturbation, study, kept, reference, base, &
                        study%growth%reason)
@@ -66,10 +66,10 @@ contains
          twin = fresh
          twin%arm = base%run%arm
          call run_setting(job, base%setting, base%asked, twin, outcome)
-         study%growth%reason = "perturbed starts failed: "//outcome%reason
+         study%growth%reason = "perturbed initial states failed: "//outcome%reason
          if (outcome%is_late) study%growth%reason = no_time
          if (outcome%reason /= "") cycle
-         study%growth%reason = "a condition ends perturbed motions at other times"
+         study%growth%reason = "a stop condition ends perturbed motions at other times"
          if (abs(twin%n - base%run%n) > 1) cycle
          distance = motion_of(twin, base)
          study%growth%reason = nothing_is_free
@@ -123,7 +123,7 @@ contains
             end associate
          end do
       end do
-      reason = "a twin takes "//real_text(shortest, 2)//" s, and "//no_time//" for "//to_text(wanted)//" of them"
+      reason = "a neighbouring trajectory takes "//real_text(shortest, 2)//" s; "//no_time//" for "//to_text(wanted)//" of them"
       if (shortest >= huge(1.0_wp)) reason = why_not_tight(study, reference, loosest)
 
    contains
@@ -161,13 +161,14 @@ contains
             end do
          end associate
       end do
-      reason = "run of "//reference%setting%method//" as tight as twins must be, "//real_text(loosest, 2)//" or less"
+      reason = "run of "//reference%setting%method//" at the tolerance of neighbouring trajectories, "//real_text(loosest, 2)// &
+         " or less"
       if (is_late) then
          reason = no_time//" for a "//reason
       else if (is_asked) then
-         reason = "no "//reason//", came to its end on the reference's way"
+         reason = "no "//reason//" kept the contact sequence of the reference"
       else
-         reason = "no "//reason//", was asked for ('finest' of [precision])"
+         reason = "no "//reason//" was requested ('finest' of [precision])"
       end if
    end function why_not_tight
 

@@ -34,7 +34,7 @@ contains
 
       column_of = find_column(info, name)
       if (column_of > 0) return
-      write (error_unit, "(a)") "error: internal mistake: "//info%name//" has no column '"//name//"'"
+      write (error_unit, "(a)") "error: internal error: "//info%name//" has no column '"//name//"'"
       error stop exit_internal, quiet = .true.
    end function column_of
 

@@ -35,7 +35,7 @@ contains
       do while (k <= size(value%words))
          first = k
          if (is_joiner(value%words(k)%s)) then
-            call mistakes%add(place(k), "a figure is wanted before '"//value%words(k)%s//"'", "no figure stands before this", &
+            call mistakes%add(place(k), "missing figure before '"//value%words(k)%s//"'", "no figure before this", &
                               "write a channel first, as in slider.velocity.x against motor.coordinate")
             return
          end if
@@ -50,8 +50,8 @@ contains
             end if
             last = k + n_asked(value%words(k:))
             if (last == k) then
-               call mistakes%add(place(k), "nothing follows '"//value%words(k)%s//"' in a figure", &
-                                 "the list of figures ends here", asked_for(value%words(k)%s))
+               call mistakes%add(place(k), "missing argument after '"//value%words(k)%s//"' in a figure", &
+                                 "end of the list of figures", asked_for(value%words(k)%s))
                return
             end if
             do i = k, last
@@ -98,8 +98,8 @@ contains
          if (scan(value%words(number)%s, ".*(") > 0 .or. len(value%words(number)%s) < 2) return
          meant = nearest_word(value%words(number)%s, figure_joiners)
          if (len(meant) < 2 .or. index(" "//lone_words//" ", " "//value%words(number)%s//" ") > 0) return
-         call mistakes%add(place(number), "unknown figure '"//value%words(number)%s//"'", "no figure of this deck", &
-                           "did you mean '"//meant//"'? it would belong to the figure before")
+         call mistakes%add(place(number), "unknown figure '"//value%words(number)%s//"'", "not a figure of this deck", &
+                           "did you mean '"//meant//"'? It would belong to the preceding figure")
       end subroutine check_misspelt
 
    end subroutine join_figures
@@ -136,7 +136,7 @@ contains
       case ("in")
          help = "write a unit, as in slider.velocity.x in mm/s"
       case ("from", "to")
-         help = "write the ends of the axis, as in from 0 mm to 20 mm"
+         help = "write the limits of the axis, as in from 0 mm to 20 mm"
       case default
          help = "write a channel, as in slider.velocity.x "//word//" motor.coordinate"
       end select

@@ -39,8 +39,8 @@ contains
             if (other%number > 0.0_wp) then
                if (own%given .and. abs(own%number - other%number) > 0.0_wp) then
                   call diagnostics%add(other%location, "'"//trim(imsl(k))//"' and '"//trim(plain(k))// &
-                                       "' are two names of one control", "another value than '"//trim(plain(k))//"'", &
-                                       "give one of them")
+                                       "' are two names of the same setting", "differs from '"//trim(plain(k))//"'", &
+                                       "give only one of them")
                end if
                own%number = other%number
                own%given = .true.
@@ -51,17 +51,17 @@ contains
             other%number = 0.0_wp
             other%given = .false.
             if (k >= 5 .and. abs(own%number - anint(own%number)) > 0.0_wp) then
-               call diagnostics%add(own%location, "'"//trim(plain(k))//"' must be a whole number", "not a whole number")
+               call diagnostics%add(own%location, "'"//trim(plain(k))//"' must be an integer", "not an integer")
             end if
          end associate
       end do
       associate (norm => item%values(place_of(item, "norm")), inorm => item%values(place_of(item, "inorm")))
          if (inorm%number < 0.0_wp .or. inorm%number > real(ubound(norms, 1), wp)) return
          if (abs(inorm%number - anint(inorm%number)) > 0.0_wp) then
-            call diagnostics%add(inorm%location, "'inorm' must be 0, 1, 2 or 3", "not a whole number")
+            call diagnostics%add(inorm%location, "'inorm' must be 0, 1, 2 or 3", "not one of these")
          else if (norm%given .and. norm%text /= trim(norms(nint(inorm%number)))) then
-            call diagnostics%add(inorm%location, "'inorm' and 'norm' are two names of one control", "another norm than 'norm'", &
-                                 "give one of them")
+            call diagnostics%add(inorm%location, "'inorm' and 'norm' are two names of the same setting", "differs from 'norm'", &
+                                 "give only one of them")
          else
             norm%text = trim(norms(nint(inorm%number)))
             norm%given = .true.

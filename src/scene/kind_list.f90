@@ -118,7 +118,7 @@ contains
          info => known(k)
          if (info%name == name .and. is_of_space(info, is_spatial)) return
       end do
-      error stop "internal mistake: there is no such kind"
+      error stop "internal error: unknown type"
    end function kind_named
 
    !> All kinds.

@@ -49,12 +49,12 @@ contains
       if (k > size(taken%columns)) then
          help = word//" takes no options"
          if (size(taken%columns) > 0) help = "options of "//word//":"//names_of(taken)
-         call diagnostics%add(option%location, "option '"//option%name//"' does not belong to "//key//" = "//word, &
+         call diagnostics%add(option%location, "option '"//option%name//"' is not valid for "//key//" = "//word, &
                               "not an option of "//word, help)
          return
       end if
       if (.not. option%is_number) then
-         call diagnostics%add(option%location, "option '"//option%name//"'"//place//" is not a number", "a number is wanted")
+         call diagnostics%add(option%location, "option '"//option%name//"'"//place//" expected a number", "a number is wanted")
          return
       end if
       quantity = quantity_t(x=option%number, dimension=option%dimension, is_good=.true., &
@@ -65,7 +65,7 @@ contains
       if (option%number > taken%columns(k)%bounds%lower) return
       if (option%number >= taken%columns(k)%bounds%lower .and. .not. taken%columns(k)%bounds%open_lower) return
       call diagnostics%add(option%location, "option '"//option%name//"'"//place//" is "// &
-                           trim(merge("negative", "zero    ", option%number < 0.0_wp)), "out of bounds")
+                           trim(merge("negative", "zero    ", option%number < 0.0_wp)), "out of range")
    end subroutine check_one
 
    !> The options of a word, with the units of those that have one, each after a blank.

@@ -17,7 +17,7 @@ module precision_info
    public :: check_precision, check_setting_word, precision_section, setting_t, settings_of
 
    character(*), parameter :: keys(3) = [character(9) :: "method", "stabilise", "solver"]      !! of [analysis.dynamic]
-   character(*), parameter :: sorts(3) = [character(30) :: "method", "way of holding constraints", "solver"]  !! in words
+   character(*), parameter :: sorts(3) = [character(30) :: "method", "stabilisation method", "solver"]  !! in words
 
    !> How an integration is set. What is blank is as the deck has it.
    type :: setting_t
@@ -35,37 +35,39 @@ contains
       type(kind_info_t) :: info  !! keys
 
       info%name = "precision"
-      info%help = "what `gudgeon precision` compares: error against cost over ladders of tolerances or steps"
+      info%help = "settings of `gudgeon precision`: accuracy against cost for sequences of tolerances or steps"
       info%source = "E. Hairer, S. P. Noersett, G. Wanner (1993), Solving Ordinary Differential Equations I, section II.10"
       info%is_table = .false.
-      call add_words(info, "methods", "settings compared: METHOD, METHOD.WAY or METHOD.WAY.SOLVER with the words of `method`, " &
-                     //"`stabilise` and `solver` of [analysis.dynamic]; * for all but auto; what is left out is the deck's own", &
+      call add_words(info, "methods", "settings compared: METHOD, METHOD.WAY or METHOD.WAY.SOLVER with values of `method`, " &
+                     //"`stabilise` and `solver` of [analysis.dynamic]; * for all except auto; omitted parts as in the deck", &
                      default=choices_of("method"))
-      call add_number(info, "coarsest", dim_none, "tolerance that a ladder begins with", default="1e-3", lower=least_tolerance, &
+      call add_number(info, "coarsest", dim_none, "largest tolerance of a sequence", default="1e-3", lower=least_tolerance, &
                       upper=0.01_wp)
-      call add_number(info, "finest", dim_none, "tolerance that a ladder ends with", default="1e-12", lower=least_tolerance, &
+      call add_number(info, "finest", dim_none, "smallest tolerance of a sequence", default="1e-12", lower=least_tolerance, &
                       upper=0.01_wp)
-      call add_number(info, "per_decade", dim_none, "rungs of a ladder in a decade", default="4", lower=1.0_wp, upper=20.0_wp)
-      call add_number(info, "longest_step", dim_time, "step that the ladders of fixed steps begin with; 0: the mean step that a " &
-                      //"variable one takes at the coarsest tolerance", default="0 s", lower=0.0_wp)
-      call add_number(info, "step_decades", dim_none, "decades that these ladders go down", default="3", lower=0.0_wp, &
+      call add_number(info, "per_decade", dim_none, "runs per decade", default="4", lower=1.0_wp, upper=20.0_wp)
+      call add_number(info, "longest_step", dim_time, "largest step of the sequences with fixed steps; 0: the mean step of a " &
+                      //"variable-step method at the largest tolerance", default="0 s", lower=0.0_wp)
+      call add_number(info, "step_decades", dim_none, "number of decades of these sequences", default="3", lower=0.0_wp, &
                       upper=8.0_wp)
-      call add_number(info, "accuracy", dim_none, "error wanted: part of the range of motion, or of the greatest value", &
+      call add_number(info, "accuracy", dim_none, "target error, relative to the range of motion or the maximum value", &
                       default="1e-6", lower=least_tolerance, upper=1.0_wp)
-      call add_word(info, "error", "which error is wanted and drawn: motion (the greater of positions and velocities), " &
+      call add_word(info, "error", "error used for the target and the figure: motion (maximum of position and velocity errors), " &
                     //"positions, velocities, or reactions", default="motion", choices="motion positions velocities reactions")
-      call add_number(info, "rounds", dim_none, "times that every run is timed", default="5", lower=1.0_wp, upper=1000.0_wp)
-      call add_number(info, "instants", dim_none, "instants at which runs are compared, besides the start", default="200", &
+      call add_number(info, "rounds", dim_none, "number of timings of every run", default="5", lower=1.0_wp, upper=1000.0_wp)
+      call add_number(info, "instants", dim_none, "number of times compared, besides the initial time", default="200", &
                       lower=2.0_wp, upper=1.0e6_wp)
-      call add_number(info, "perturbation", dim_none, "greatest displacement of the start of a twin run, of the size of the " &
-                      //"mechanism; 0: no twins", default="1e-9", lower=0.0_wp, upper=1.0e-3_wp)
-      call add_number(info, "exponent_end", dim_time, "end of the motion whose Lyapunov exponent is found; 0: as the deck's", &
+      call add_number(info, "perturbation", dim_none, "maximum initial displacement of a neighbouring trajectory, relative to "// &
+         "the size of the " &
+                      //"mechanism; 0: no neighbouring trajectories", default="1e-9", lower=0.0_wp, upper=1.0e-3_wp)
+      call add_number(info, "exponent_end", dim_time, "end time for the Lyapunov exponent; 0: end of the run", &
                       default="0 s", lower=0.0_wp)
-      call add_number(info, "exponent_instants", dim_none, "equal parts of it, at which growth is noted and the twin brought " &
+      call add_number(info, "exponent_instants", dim_none, "number of equal intervals of this time, for the growth and the "// &
+         "rescaling of the neighbouring " &
                       //"back", default="640", lower=16.0_wp, upper=1.0e6_wp)
-      call add_number(info, "settle", dim_none, "part of it that the exponent leaves out as the transient", &
+      call add_number(info, "settle", dim_none, "fraction of this time to omit as the transient", &
                       default="0.25", lower=0.0_wp, upper=0.9_wp)
-      call add_number(info, "budget", dim_time, "time that all of it may take; 0: no limit", default="60 s", lower=0.0_wp)
+      call add_number(info, "budget", dim_time, "time budget of the comparison; 0: no limit", default="60 s", lower=0.0_wp)
    end function precision_section
 
    !> Words of a key of [analysis.dynamic].
@@ -111,15 +113,15 @@ contains
             call check_setting_word(value%words(k)%s, message, hint)
             if (message == "") cycle
             if (size(value%places) < k) then
-               call diagnostics%add(value%location, message, "no setting of an integration", hint)
+               call diagnostics%add(value%location, message, "not a setting of an integration", hint)
             else
-               call diagnostics%add(value%places(k), message, "no setting of an integration", hint)
+               call diagnostics%add(value%places(k), message, "not a setting of an integration", hint)
             end if
          end do
       end associate
       associate (finest => item%values(place_of(item, "finest")))
          if (finest%number <= item%number("coarsest")) return
-         call diagnostics%add(finest%location, "'finest' is greater than 'coarsest'", "a ladder goes down", &
+         call diagnostics%add(finest%location, "'finest' must be smaller than 'coarsest'", "larger than 'coarsest'", &
                               "the finest tolerance is the smallest one")
       end associate
    end subroutine check_precision
@@ -138,7 +140,7 @@ contains
       hint = ""
       parts = parts_of(word)
       if (size(parts) > size(keys)) then
-         message = "'"//word//"' has more than a method, a way of holding the constraints and a solver"
+         message = "'"//word//"' has more parts than a method, a stabilisation method and a solver"
          hint = "write METHOD.WAY.SOLVER, as verner.projection.schur"
          return
       end if

@@ -62,7 +62,7 @@ contains
       if (made%column > 0) then
          at = item%values(made%column)%location
          if (made%place > 0) at = item%values(made%column)%places(made%place)
-         call diagnostics%add(at, "function '"//item%name//"' cannot be made", made%message, made%help)
+         call diagnostics%add(at, "function '"//item%name//"' is invalid", made%message, made%help)
          return
       end if
       symbol%kind = symbol_function
@@ -82,11 +82,12 @@ contains
 
       if (len(item%name) == 0) return
       message = ""
-      if (is_reserved(item%name)) message = "it has a meaning in expressions"
-      if (name_length(item%name) /= len(item%name)) message = "a letter first, then letters, digits and _"
+      if (is_reserved(item%name)) message = "reserved in expressions"
+      if (name_length(item%name) /= len(item%name)) message = "use a letter, then letters, digits and _"
       k = deck%symbols%find(item%name)
-      if (k > 0) message = merge("a parameter has this name     ", "another function has this name", k <= deck%symbols%n_parameter)
-      if (len(message) > 0) call diagnostics%add(item%location, "'"//item%name//"' cannot be the name of a function", &
+      if (k > 0) message = merge("a parameter has this name already", "another function has this name   ", &
+         k <= deck%symbols%n_parameter)
+      if (len(message) > 0) call diagnostics%add(item%location, "'"//item%name//"' is not allowed as a function name", &
                                                    trim(message))
    end subroutine check_name
 

@@ -130,7 +130,7 @@ contains
       near = nearest_word(item%word("joint"), names)
       if (near /= "") near = "did you mean '"//near//"'?"
       call diagnostics%add(item%values(place_of(item, "joint"))%location, "unknown joint '"//item%word("joint")// &
-                           "' in column joint of request.reaction", "no joint, driver, joint with clearance or spring of "// &
+                           "' in column joint of request.reaction", "not a joint, driver, joint with clearance or spring of "// &
                            "this deck", near)
    end subroutine check_joint
 
@@ -221,7 +221,7 @@ contains
       help = ""
       call find_item(scene, item, body, motion, point, help)
       if (body + motion + point == 0) then
-         message = "nothing that a load can see has the name '"//item//"'"
+         message = "not available to loads: '"//item//"'"
          if (help /= "") then
             near = help//sight%word(len(item) + 1:)
             call find_item(scene, help, body, motion, point, ignored)
@@ -244,7 +244,7 @@ contains
       at = location
       at%first = location%first + sight%first
       at%last = at%first + len(sight%word) - 1
-      call diagnostics%add(at, "wrong channel '"//sight%word//"' in an expression", message, help)
+      call diagnostics%add(at, "invalid channel '"//sight%word//"' in an expression", message, help)
    end subroutine place_sight
 
    !> The body, the row of [request.motion] or the point of a name.
@@ -295,7 +295,7 @@ contains
       select case (sight%quantity)
       case (sees_angle)
          is_vector = .false.
-         if (.not. is_body .or. scene%settings%is_spatial) message = "only bodies of the plane have an angle"
+         if (.not. is_body .or. scene%settings%is_spatial) message = "only planar bodies have an angle"
       case (sees_angular_velocity)
          is_vector = scene%settings%is_spatial
          if (.not. is_body) message = "only bodies have an angular velocity"
@@ -306,7 +306,7 @@ contains
       if (message /= "") return
       if (is_vector) then
          if (sight%component >= 1 .and. sight%component <= merge(3, 2, scene%settings%is_spatial)) return
-         message = "'"//sight%word//"' is no single number"
+         message = "'"//sight%word//"' has several components"
          help = "write "//name//".x or .y"
          if (scene%settings%is_spatial) help = help//" or .z"
       else

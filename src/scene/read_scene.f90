@@ -61,7 +61,7 @@ contains
       call films_from_deck(deck, scene, directory, diagnostics)
       call requests_from_deck(deck, directory, scene, diagnostics)
       if (size(scene%tables%base(table_bodies)%items) == 0 .and. diagnostics%count() == 0) then
-         call diagnostics%add(location_of_end(deck), "no bodies", "a scene needs at least one", "add a table [bodies]")
+         call diagnostics%add(location_of_end(deck), "no bodies", "a model needs at least one", "add a table [bodies]")
       end if
       call resolve_tables(directory, scene, diagnostics)
       call check_names(scene, diagnostics)
@@ -227,8 +227,9 @@ contains
       associate (gravity => scene%settings%header%values(place_of(scene%settings%header, "gravity")))
          if (gravity%given .and. gravity%vector%n /= merge(3, 2, scene%settings%is_spatial)) then
             call diagnostics%add(gravity%location, "gravity has "//trim(merge("three", "two  ", gravity%vector%n == 3))// &
-                                 " components", "of a vector of another space", &
-                                 trim(merge("give three in a spatial scene", "give two in a planar scene   ", &
+                                 " components", "wrong number of components", &
+                                 trim(merge("give three components in a spatial model", "give two components in a planar model "// &
+                                    "  ", &
                                             scene%settings%is_spatial)))
          end if
       end associate

@@ -44,7 +44,7 @@ contains
       do k = 1, size(items)
          if (table%find(items(k)%name) == 0) cycle
          call diagnostics%add(items(k)%location, "name '"//items(k)%name//"' is used twice", &
-                              "the name of another item already", "names of one sort must differ")
+                              "already used", "names of the same type must differ")
       end do
    end subroutine report_doubled
 
@@ -155,9 +155,9 @@ contains
          if (tie%body(1) > 0) name = scene%bodies%names(tie%body(1))%s
          group = "joint"
          if (index(info%name, "force.") == 1) group = "force"
-         call diagnostics%add(item%values(tie%column(2))%location, group//" '"//item%name//"' ties '"//name//"' to itself", &
+         call diagnostics%add(item%values(tie%column(2))%location, group//" '"//item%name//"' connects '"//name//"' to itself", &
                               "the same body", "columns "//info%columns(tie%column(1))%name//" and "// &
-                              info%columns(tie%column(2))%name//" must name two bodies or points of them")
+                              info%columns(tie%column(2))%name//" must name two different bodies, or points of them")
       end subroutine check_pair
 
       !> The two axes of a torsional spring, which some joint holds parallel, must be so at the start, or nearly.
@@ -176,8 +176,8 @@ contains
          if (dot_product(start_direction(scene, tie%body(1), item%direction("axis_i")), &
                          start_direction(scene, tie%body(2), item%direction("axis_j"))) > least) return
          call diagnostics%add(item%values(c)%location, "the axes of '"//item%name//"' are not parallel", &
-                              "points elsewhere than axis_i does, where the deck puts the bodies", &
-                              "leave axis_j out, or turn one of the bodies")
+                              "differs in direction from axis_i at the given positions", &
+                              "omit axis_j, or rotate one of the bodies")
       end subroutine check_start_axes
 
       !> Reference directions of an angle may not lie along the axis.
@@ -201,8 +201,8 @@ contains
             if (item%is_given(axis(side))) z = start_direction(scene, tie%body(side), item%direction(axis(side)))
             x = start_direction(scene, tie%body(side), item%direction(reference(side)))
             if (1.0_wp - dot_product(x, z)**2 > least**2) cycle
-            call diagnostics%add(item%values(c)%location, "the reference direction of '"//item%name//"' lies along its axis", &
-                                 "nothing of it is across the axis", "give a direction across it, or leave the column out")
+            call diagnostics%add(item%values(c)%location, "the reference direction of '"//item%name//"' is parallel to its axis", &
+                                 "its component normal to the axis is zero", "give a direction across the axis, or omit the column")
          end do
       end subroutine check_references
 
@@ -225,11 +225,11 @@ contains
          end do
          length = norm2(p(:, 2) - p(:, 1))
          if (length > least*maxval(abs(p))) then
-            call add_default(deck, info%name//" "//item%name//" length = "//to_text(length)//" m, the distance at the start")
+            call add_default(deck, info%name//" "//item%name//" length = "//to_text(length)//" m, the initial distance")
             return
          end if
-         call diagnostics%add(item%values(tie%column(2))%location, "joint '"//item%name//"' has no length", &
-                              "the two points coincide at the start", "give the column length, or move the bodies")
+         call diagnostics%add(item%values(tie%column(2))%location, "joint '"//item%name//"' has zero length", &
+                              "the two points coincide initially", "set the column length, or move the bodies")
       end subroutine check_start_length
 
       !> Numbers of any dimension in a row that is tied by a joint are angles if the joint turns, lengths if it slides; either if it
@@ -255,7 +255,7 @@ contains
             if (.not. (info%columns(c)%is_any .and. item%values(c)%given)) cycle
             if (same_dimension(item%values(c)%dimensions(1), wanted)) cycle
             column = c
-            message = "'"//item%name//"' is tied by '"//scene%joints(kind)%items(row)%name//"', a "//scene%joints(kind)%info%name
+            message = "'"//item%name//"' acts on '"//scene%joints(kind)%items(row)%name//"', a "//scene%joints(kind)%info%name
             help = "column "//info%columns(c)%name//" is a length there"
             if (scene%joints(kind)%info%leaves == leaves_turn) help = "column "//info%columns(c)%name//" is an angle there"
             return
@@ -273,13 +273,14 @@ contains
          if (law == 0) return
          if (scene%frictions(law)%law%memory == memory_slip) then
             call diagnostics%add(item%values(column_of(info, "friction"))%location, "friction law '"//item%word("friction")// &
-                                 "' sticks at events, which ideal joints do not have", "not for an ideal joint", &
-                                 "name a smooth law, or friction.dahl or friction.lugre, which hold by bristles")
+                                 "' needs stick-slip events, which ideal joints do not support", "invalid for an ideal joint", &
+                                 "use a smooth law, or friction.dahl or friction.lugre, which stick by bristles")
          end if
          if (find_column(info, "radius") == 0) return
          if (item%number("radius") > 0.0_wp) return
-         call diagnostics%add(item%values(column_of(info, "friction"))%location, "joint '"//item%name//"' rubs at no radius", &
-                              "needs the column radius", "give the radius of the pin")
+         call diagnostics%add(item%values(column_of(info, "friction"))%location, "joint '"//item%name//"' has friction but no "// &
+            "radius", &
+                              "this law needs the column radius", "give the radius of the pin")
       end subroutine check_friction
 
    end subroutine check_meaning
@@ -316,7 +317,7 @@ contains
          law_info = law%info()
          call law%fit(pair, parameters, message, help)
          if (law_info%name /= "contact.plane_face") then
-            message = "'"//law%name//"' is no law of a plane face"
+            message = "'"//law%name//"' is not a law of a plane face"
             help = "name a row of contact.plane_face"
          end if
       end associate
@@ -342,10 +343,10 @@ contains
       associate (law => scene%lubrication%films(film)%law)
          call law%fit(bearing, parameters, message, help)
          if (law%is_of_sphere() .neqv. bearing%is_sphere) then
-            message = "film '"//law%name//"' is that of a ball in a socket"
-            help = "name a row of another film table, as film.finite"
-            if (bearing%is_sphere) message = "film '"//law%name//"' is that of a journal in a bearing"
-            if (bearing%is_sphere) help = "name a row of film.spherical"
+            message = "film '"//law%name//"' is for a ball in a socket"
+            help = "use a row of another film table, as film.finite"
+            if (bearing%is_sphere) message = "film '"//law%name//"' is for a journal in a bearing"
+            if (bearing%is_sphere) help = "use a row of film.spherical"
          end if
       end associate
       if (message /= "") column = column_of(info, "film")
@@ -354,8 +355,8 @@ contains
       if (item%reference("lubricant") == 0) return
       if (scene%lubrication%oils(item%reference("lubricant"))%grade /= "none") return
       column = column_of(info, "heat")
-      message = "joint '"//item%name//"' asks for a balance of heat, but its lubricant has the same viscosity at any temperature"
-      help = "give the lubricant a grade and the temperature at which it comes in"
+      message = "joint '"//item%name//"' has a heat balance, but the viscosity of its lubricant does not depend on temperature"
+      help = "give the lubricant a grade and its inlet temperature"
    end subroutine check_film
 
 end module scene_checks

@@ -15,7 +15,7 @@ contains
       type(scene_t), intent(in) :: scene   !! the scene
       character(:), allocatable :: text    !! a deck
 
-      text = "# the deck as understood: every default written out, units in SI"//new_line("a")//echo_start(deck)//new_line("a")// &
+      text = "# the deck with all defaults, in SI units"//new_line("a")//echo_start(deck)//new_line("a")// &
              echo_settings(scene%settings%header%info, scene%settings%header%item_t)
       call add(scene%tables%functions)
       call add(scene%tables%base)

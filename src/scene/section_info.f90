@@ -24,17 +24,19 @@ contains
       type(kind_info_t) :: info  !! keys
 
       info%name = "scene"
-      info%help = "what the deck is about"
+      info%help = "title, space and gravity"
       info%source = ""
       info%is_table = .false.
-      call add_word(info, "title", "one line for figures and files", default="")
-      call add_word(info, "space", "planar: all motion in the plane x, y; spatial: in x, y and z", default="planar", &
+      call add_word(info, "title", "one line for figures and output files", default="")
+      call add_word(info, "space", "planar: motion in the plane x, y; spatial: motion in x, y and z", default="planar", &
                     choices="planar spatial")
-      call add_vector(info, "gravity", dim_acceleration, 3, "acceleration of free fall, world frame: two numbers in the plane, "// &
+      call add_vector(info, "gravity", dim_acceleration, 3, "gravitational acceleration, world frame: two numbers in the "// &
+         "plane, "// &
                       "three in space", default="0 0 m/s^2")
-      call add_number(info, "closing_tolerance", dim_none, "misfit of redundant rows of closed loops that counts as rounding of " &
-                      //"the deck's numbers, of the size of the bodies or a radian: the loops are fitted in least squares, " &
-                      //"with a warning; 0: none", default="1e-3", lower=0.0_wp, upper=0.1_wp)
+      call add_number(info, "closing_tolerance", dim_none, "maximum misfit of redundant rows of closed loops that is treated "// &
+         "as rounding of " &
+                      //"the deck, relative to the size of the bodies or a radian: a least-squares fit closes the loops, " &
+                      //"with a warning; 0: never", default="1e-3", lower=0.0_wp, upper=0.1_wp)
    end function scene_info
 
    !> The section [analysis.dynamic].
@@ -42,32 +44,35 @@ contains
       type(kind_info_t) :: info  !! keys
 
       info%name = "analysis.dynamic"
-      info%help = "motion in time under forces"
+      info%help = "forward dynamics: motion under forces"
       info%source = "Flores et al. (2008), section 2.4"
       info%is_table = .false.
-      call add_word(info, "start", "ideal: positions and velocities of the mechanism with ideal joints; given: as the deck " &
-                    //"gives them, the ideal joints assembled; static: at rest in the static equilibrium at t = 0", &
+      call add_word(info, "start", "initial state. ideal: positions and velocities of the mechanism with ideal joints; given: "// &
+         "those of the deck, " &
+                    //"with ideal joints assembled; static: static equilibrium at t = 0, at rest", &
                     default="ideal", choices="ideal given static")
-      call add_word(info, "overlap", "surfaces of loose joints that overlap at the start: error, or preload: their contacts have " &
-                    //"begun, with the rate of the penetration as impact speed, or its floor", default="error", &
+      call add_word(info, "overlap", "initial overlap in joints with clearance: error, or preload: these contacts start in the " &
+                    //"contact state, with the penetration rate as impact speed, or its minimum", default="error", &
                     choices="error preload")
-      call add_duration(info, "end", "end of the motion, a time or `N turns of DRIVER`")
+      call add_duration(info, "end", "end time, or `N turns of DRIVER`")
       call add_methods(info)
       call add_solvers(info)
       call add_ways(info)
-      call add_word(info, "coordinates", "fewest: driven bodies are known functions of time, a body that one joint holds has one " &
-                    //"coordinate; full: three for every body", default="fewest", choices="fewest full")
-      call add_word(info, "groups", "bodies that nothing joins: apart, each group of them with its own steps; together, with the " &
-                    //"steps of the fastest", default="apart", choices="apart together")
-      call add_flag(info, "ledger", "whether the energy ledger is kept", default="on")
-      call add_number(info, "energy_limit", dim_none, "greatest ledger residual allowed, of the largest energy; 0: none", &
+      call add_word(info, "coordinates", "fewest: driven bodies have prescribed motion, a body guided by one joint has one " &
+                    //"coordinate; full: three coordinates per body", default="fewest", choices="fewest full")
+      call add_word(info, "groups", "independent groups of bodies: apart, each group with its own steps; together, with the " &
+                    //"steps of the fastest group", default="apart", choices="apart together")
+      call add_flag(info, "ledger", "monitor the energy balance", default="on")
+      call add_number(info, "energy_limit", dim_none, "maximum residual of the energy balance, relative to the maximum energy; "// &
+         "0: no limit", &
                       default="0", lower=0.0_wp)
-      call add_number(info, "violation_limit", dim_length, "greatest constraint violation allowed; 0: none", &
+      call add_number(info, "violation_limit", dim_length, "maximum constraint violation; 0: no limit", &
                       default="0 m", lower=0.0_wp)
       call add_limit_cpu(info)
-      call add_duration(info, "checkpoint", "the run is saved so often, a time or `N turns of DRIVER`; adams, bdf and ida begin " &
-                        //"anew there, groups of bodies wait for one another; 0: every ten minutes of the clock, of these " &
-                        //"methods and groups never", default="0 s")
+      call add_duration(info, "checkpoint", "interval between checkpoints, a time or `N turns of DRIVER`; adams, bdf and ida "// &
+         "restart " &
+                        //"there, and groups of bodies synchronise; 0: every ten minutes of wall-clock time, but never for these " &
+                        //"methods and groups", default="0 s")
       call add_control_columns(info)
    end function dynamic_info
 
@@ -124,7 +129,7 @@ contains
          words(k)%s = one%name
          says(k)%s = one%name//" ("//one%help//")"
       end do
-      call add_word(info, "solver", "of the augmented equations: "//join(says, ", ")//", or auto", default="auto", &
+      call add_word(info, "solver", "solver of the augmented equations: "//join(says, ", ")//", or auto", default="auto", &
                     choices="auto "//join(words, " "))
    end subroutine add_solvers
 
@@ -149,7 +154,7 @@ contains
             if (index(options//" ", " "//one%columns(i)%name//" ") == 0) options = options//" "//one%columns(i)%name
          end do
       end do
-      call add_word(info, "stabilise", "how the constraints are held: "//join(says, "; ")//"; or auto", default="auto", &
+      call add_word(info, "stabilise", "stabilisation method of the constraints: "//join(says, "; ")//"; or auto", default="auto", &
                     choices="auto "//join(words, " "), options=options(2:))
    end subroutine add_ways
 
@@ -158,14 +163,14 @@ contains
       type(kind_info_t) :: info  !! keys
 
       info%name = "analysis.kinematic"
-      info%help = "motion prescribed by drivers, one for each degree of freedom; forces by inverse dynamics"
+      info%help = "kinematics: drivers prescribe all degrees of freedom; forces by inverse dynamics"
       info%source = "Flores et al. (2008), section 2.4, figure 2.5"
       info%is_table = .false.
-      call add_duration(info, "end", "end of the motion, a time or `N turns of DRIVER`")
-      call add_number(info, "tolerance", dim_none, "greatest violation of a constraint at which Newton's iteration has " &
-                      //"converged, of the size of the bodies or a radian; it goes on to round-off", default="1e-10", &
+      call add_duration(info, "end", "end time, or `N turns of DRIVER`")
+      call add_number(info, "tolerance", dim_none, "constraint violation at which Newton's iteration is " &
+                      //"accepted, relative to the size of the bodies or a radian; it continues to round-off", default="1e-10", &
                       lower=least_tolerance, upper=1.0e-4_wp)
-      call add_number(info, "maximum_iterations", dim_none, "corrections of the positions allowed at an instant", default="25", &
+      call add_number(info, "maximum_iterations", dim_none, "maximum number of Newton iterations per time", default="25", &
                       lower=1.0_wp, upper=1.0e9_wp)
       call add_limit_cpu(info)
    end function kinematic_info
@@ -174,7 +179,7 @@ contains
    subroutine add_limit_cpu(info)
       type(kind_info_t), intent(inout) :: info  !! settings of an analysis
 
-      call add_number(info, "limit_cpu", dim_time, "processor time that the motion may take; 0: no limit", default="0 s", &
+      call add_number(info, "limit_cpu", dim_time, "CPU time limit of the run; 0: no limit", default="0 s", &
                       lower=0.0_wp)
    end subroutine add_limit_cpu
 
@@ -183,17 +188,18 @@ contains
       type(kind_info_t) :: info  !! keys
 
       info%name = "analysis.static"
-      info%help = "equilibrium at rest under the forces at t = 0, drivers held where they are at t = 0"
+      info%help = "static equilibrium under the forces at t = 0, drivers fixed at their initial values"
       info%source = "Flores et al. (2008), eq. (2.14) with velocities and accelerations zero; SUNDIALS KINSOL"
       info%is_table = .false.
-      call add_word(info, "start", "ideal: search from the mechanism with ideal joints; given: from where the deck puts the " &
-                    //"bodies, the ideal joints assembled", default="ideal", choices="ideal given")
-      call add_number(info, "tolerance", dim_none, "greatest load left unbalanced, of the largest load", default="1e-10", &
+      call add_word(info, "start", "start of the search. ideal: the mechanism with ideal joints; given: the given positions of "// &
+         "the " &
+                    //"bodies, with ideal joints assembled", default="ideal", choices="ideal given")
+      call add_number(info, "tolerance", dim_none, "maximum force residual, relative to the maximum load", default="1e-10", &
                       lower=least_tolerance, upper=1.0e-4_wp)
-      call add_number(info, "maximum_iterations", dim_none, "steps of the search allowed", default="500", lower=1.0_wp, &
+      call add_number(info, "maximum_iterations", dim_none, "maximum number of steps of the search", default="500", lower=1.0_wp, &
                       upper=1.0e9_wp)
-      call add_number(info, "whirl_search", dim_none, "with films: how many times faster, or slower, the drivers are made in " &
-                      //"search of the speed at which whirl sets in; 1: it is not looked for", default="30", lower=1.0_wp, &
+      call add_number(info, "whirl_search", dim_none, "with films: maximum factor on the driver speeds, up and down, in the " &
+                      //"search for the whirl onset speed; 1: no search", default="30", lower=1.0_wp, &
                       upper=1.0e4_wp)
    end function static_info
 
@@ -202,29 +208,30 @@ contains
       type(kind_info_t) :: info  !! keys
 
       info%name = "output"
-      info%help = "what is written, and when"
+      info%help = "what to write, and when"
       info%source = ""
       info%is_table = .false.
-      call add_number(info, "every", dim_time, "output interval; 0: a thousandth of what is written", default="0 s", lower=0.0_wp)
-      call add_duration(info, "from", "first output instant, a time or `N turns of DRIVER`", default="0 s")
-      call add_duration(info, "last", "only the last stretch, a time or `N turns of DRIVER`; 0: all", default="0 s")
-      call add_word(info, "contact_rows", "rows of the time histories at the onset, peak and end of every contact, besides the " &
-                    //"output instants: on, off (equally spaced rows only), or auto (on up to "//to_text(most_row_contacts)// &
+      call add_number(info, "every", dim_time, "output interval; 0: a thousandth of the output window", default="0 s", lower=0.0_wp)
+      call add_duration(info, "from", "first output time, or `N turns of DRIVER`", default="0 s")
+      call add_duration(info, "last", "length of the output window before the end, a time or `N turns of DRIVER`; 0: all", &
+         default="0 s")
+      call add_word(info, "contact_rows", "additional output rows at onset, peak and separation of every contact: " &
+                    //"on, off (equally spaced rows only), or auto (on up to "//to_text(most_row_contacts)// &
                     " contacts)", default="auto", choices="auto on off")
-      call add_number(info, "instants_limit", dim_none, "greatest number of output instants, and of periods of the statistics", &
+      call add_number(info, "instants_limit", dim_none, "maximum number of output times, and of periods of the statistics", &
                       default="1e7", lower=2.0_wp, upper=2.0e9_wp)
-      call add_number(info, "size_limit", dim_none, "greatest size of all that a run may write, in GB, as estimated before it", &
+      call add_number(info, "size_limit", dim_none, "maximum estimated size of the output, in GB", &
                       default="100", lower=1.0e-6_wp)
-      call add_words(info, "channels", "what is written: item.channel, item.*, *.channel or *", default="*")
-      call add_word(info, "motion", "the moving mechanism in a file for other programs: vtkhdf (motion.vtkhdf, which ParaView " &
-                    //"plays), one step for each output instant", default="off", choices="off vtkhdf")
-      call add_words(info, "figures", "figures: a channel, several of them (A + B), over another (A against C), with units and " &
-                     //"ends of axes (in mm, from 0 mm to 2 mm), one above the other (panels(A, B)); JOINT.orbit, " &
+      call add_words(info, "channels", "channels to write: item.channel, item.*, *.channel or *", default="*")
+      call add_word(info, "motion", "motion file for other programs: vtkhdf (motion.vtkhdf, for ParaView), " &
+                    //"one step per output time", default="off", choices="off vtkhdf")
+      call add_words(info, "figures", "figures: a channel, several of them (A + B), phase plots (A against C), with units and " &
+                     //"limits of axes (in mm, from 0 mm to 2 mm), stacked panels (panels(A, B)); JOINT.orbit, " &
                      //"portrait(x_channel,y_channel), film(JOINT), mechanism, strip(n=8), coupler(POINT), animation(last=...)", &
                      default="")
-      call add_flag(info, "csv", "time histories and events as comma-separated values too", default="off")
-      call add_flag(info, "report", "one page of everything, report.html: the deck as understood, figures, extremes, impacts, " &
-                    //"cost and error, warnings; it asks no network", default="off")
+      call add_flag(info, "csv", "write time histories and events as comma-separated values too", default="off")
+      call add_flag(info, "report", "write report.html, a single page: the deck with all defaults, figures, extremes, impacts, " &
+                    //"cost and error, warnings; it works offline", default="off")
    end function output_info
 
 end module section_info

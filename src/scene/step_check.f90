@@ -24,26 +24,26 @@ contains
                  step => scene%settings%dynamic%values(place_of(scene%settings%dynamic, "step")))
          call find_integrator(word%text, method)
          if (method%steps() == steps_fixed .and. step%number <= 0.0_wp) then
-            call diagnostics%add(word%location, "method '"//word%text//"' needs the length of its steps", &
-                                 "makes fixed steps only", "add 'step' to [analysis.dynamic], as in: step = 10 us")
+            call diagnostics%add(word%location, "method '"//word%text//"' needs a fixed step", &
+                                 "fixed steps only", "add 'step' to [analysis.dynamic], as in: step = 10 us")
          else if (method%steps() == steps_variable .and. step%number > 0.0_wp) then
-            call diagnostics%add(step%location, "method '"//word%text//"' cannot make steps of one length", &
-                                 "it chooses its steps", "leave 'step' out; 'maximum_step' bounds the steps")
+            call diagnostics%add(step%location, "method '"//word%text//"' does not support fixed steps", &
+                                 "variable steps only", "omit 'step'; 'maximum_step' limits the steps")
          end if
       end associate
       associate (onset => scene%settings%dynamic%values(place_of(scene%settings%dynamic, "contact_onset")))
          if (onset%text /= "located" .and. method%steps() == steps_variable) then
             call diagnostics%add(onset%location, "'contact_onset = "//onset%text//"' needs a one-step method", &
                                  "steps of '"//scene%settings%dynamic%word("method")// &
-                                 "' hang on those before", "take verner or rk4, or leave onsets located")
+                                 "' is a multistep method", "use verner or rk4, or contact_onset = located")
          end if
       end associate
       associate (hold => scene%settings%dynamic%values(place_of(scene%settings%dynamic, "stabilise")), &
                  step => scene%settings%dynamic%values(place_of(scene%settings%dynamic, "step")))
          if (hold%text == "baumgarte_step" .and. step%number <= 0.0_wp) then
-            call diagnostics%add(hold%location, "'baumgarte_step' needs steps of one length", &
-                                 "its gains would drive the control of the step to ever smaller steps", &
-                                 "add 'step' to [analysis.dynamic], or take baumgarte, baumgarte_adaptive or projection")
+            call diagnostics%add(hold%location, "'baumgarte_step' needs a fixed step", &
+                                 "its gains would force ever smaller steps", &
+                                 "add 'step' to [analysis.dynamic], or use baumgarte, baumgarte_adaptive or projection")
          end if
       end associate
    end subroutine check_steps

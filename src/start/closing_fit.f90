@@ -141,11 +141,13 @@ contains
       end if
       is_fitted = .true.
       report%set_aside = aside
-      report%misfit = "the loop of "//joint_names(linkage, any(abs(combination_or_all()) > 1.0e-3_wp, dim=2))//" does not fit "// &
-                      "to the deck's digits: in least squares "//misfit_words(linkage)
-      if (is_closed) report%misfit = "rows of "//joint_names(linkage, .not. is_kept)//" depend on others but for the deck's digits"
+      report%misfit = "the closed loop of "//joint_names(linkage, any(abs(combination_or_all()) > 1.0e-3_wp, dim=2))//" is "// &
+         "inconsistent "// &
+                      "within the digits of the deck: least-squares fit, "//misfit_words(linkage)
+      if (is_closed) report%misfit = "rows of "//joint_names(linkage, .not. is_kept)//" are dependent except for rounding in "// &
+         "the deck"
       report%misfit = report%misfit//"; "//to_text(size(aside))//" redundant rows of "//joint_names(linkage, .not. is_kept)// &
-                      " are left out of the motion, the other rows hold exactly, and reactions are those of these rows"
+                      " are removed; the other rows hold exactly, and reactions belong to these rows"
       linkage%solution%set_aside = aside
 
    contains

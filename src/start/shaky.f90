@@ -39,10 +39,10 @@ contains
       held = matmul(stress, combination)
       joints = joint_names(linkage, abs(held) > takes_part*maxval(abs(held)))
       moving = moving_bodies(linkage, moved_by(linkage, matmul(free, modes)))
-      call set_error(error, exit_assembly, "the assembly is infinitesimally mobile (shaky): "//moving//" can begin to move "// &
-                     "here, and no finite motion follows"//new_line("a")//"  = rows of "//joints//" depend on one another "// &
-                     "at this position and hold that motion to second order only: no finite reactions bear a load against it" &
-                     //new_line("a")//"  = move these joints off the line or plane in which they lie, leave one of them out, "// &
+      call set_error(error, exit_assembly, "the assembly is infinitesimally mobile (shaky): "//moving//" can start to move "// &
+                     "here, but no finite motion exists"//new_line("a")//"  = rows of "//joints//" are linearly dependent "// &
+                     "at this position and resist that motion only to second order: no finite reactions balance a load along it" &
+                     //new_line("a")//"  = move these joints off their common line or plane, remove one of them, "// &
                      "or replace one by a spring or a bushing")
    end subroutine find_shaky
 
@@ -124,10 +124,10 @@ contains
       real(wp), intent(in) :: part(:)                    !! (bodies) how much each can still move [1]
       type(error_t), allocatable, intent(out) :: error   !! the message
 
-      call set_error(error, exit_assembly, "the mechanism stands at a dead centre of driver "//joint_names(linkage, is_driver)// &
+      call set_error(error, exit_assembly, "the mechanism is at a dead centre of driver "//joint_names(linkage, is_driver)// &
                      " at t = 0 s"//new_line("a")//"  = rows of "//joint_names(linkage, is_in .and. .not. is_driver)// &
-                     " keep the driver from moving it here, and "//moving_bodies(linkage, part)//" can begin to move without it" &
-                     //new_line("a")//"  = begin beside the dead centre, or drive another joint")
+                     " block the driver here, but "//moving_bodies(linkage, part)//" can move without it" &
+                     //new_line("a")//"  = start away from the dead centre, or drive another joint")
    end subroutine refuse_dead_centre
 
 end module shaky

@@ -29,22 +29,22 @@ contains
 
       row = maxloc(abs(linkage%rows%phi)*linkage%solution%row_weight, dim=1)
       open = abs(linkage%rows%phi(row))
-      place = "stays open"
+      place = "has a residual of "
       call evaluate_rows(linkage, 0.0_wp, q, v)
       dead = dead_row(linkage)
       if (dead > 0) then
          row = dead
          open = abs(linkage%rows%phi(row))
-         place = "is open where the deck puts its bodies,"
-         hint = "its axes stand at right angles where they should be parallel, or the other way round, and nothing tells "// &
-                "which way to turn"//new_line("a")//"  = give other axes, or turn one of its bodies in the deck"
+         place = "has, at the given positions of the bodies, a residual of "
+         hint = "its axes are perpendicular but must be parallel, or vice versa, so the direction "// &
+                "of rotation is undetermined"//new_line("a")//"  = give other axes, or rotate one of its bodies in the deck"
       else
-         hint = "the bodies were moved as little as possible from where the deck puts them, without success"//new_line("a")// &
-                "  = check the points of this joint, the lengths of the loop, and the start positions"
+         hint = "assembly moved the bodies as little as possible from the given positions and did not converge"//new_line("a")// &
+                "  = check the points of this joint, the lengths of the loop, and the initial positions"
       end if
       if (misfit /= "") hint = misfit//new_line("a")//"  = "//hint
       call set_error(error, exit_assembly, "the mechanism cannot be assembled: joint '"//linkage%row_name(row)// &
-                     "' "//place//" by "//real_text(open, 4)// &
+                     "' "//place//real_text(open, 4)// &
                      trim(merge(" rad", " m  ", linkage%rows%is_angle(row)))//new_line("a")//"  = "//hint)
    end subroutine position_error
 
@@ -55,7 +55,7 @@ contains
       type(assembly_t), intent(inout) :: report          !! its misfit is set
 
       call evaluate_rows(linkage, 0.0_wp, q, spread(0.0_wp, 1, size(linkage%mass)))
-      report%misfit = "in least squares "//misfit_words(linkage)//"; allowed: closing_tolerance "// &
+      report%misfit = "in the least-squares fit "//misfit_words(linkage)//"; allowed: closing_tolerance "// &
                       real_text(linkage%scales%misfit, 3)//", here "//real_text(1.0e3_wp*linkage%scales%misfit &
                       *linkage%scales%length, 3)//" mm and "//real_text(linkage%scales%misfit*180.0_wp/pi, 3)//" deg"
    end subroutine name_misfit
@@ -91,9 +91,9 @@ contains
 
       row = findloc(ieee_is_finite(values), .false., dim=1)
       if (row == 0) return
-      call set_error(error, exit_assembly, "the start cannot be found: '"//linkage%row_name(row)// &
-                     "' or its rate is not a finite number at t = 0"//new_line("a")// &
-                     "  = look for a driver that begins with an infinite speed")
+      call set_error(error, exit_assembly, "no initial state exists: '"//linkage%row_name(row)// &
+                     "', or its rate, is not finite at t = 0"//new_line("a")// &
+                     "  = check for a driver with infinite initial speed")
    end subroutine check_finite
 
    !> The velocities contradict each other.
@@ -114,12 +114,11 @@ contains
          if (scaled(k) < guilty*scaled(row) .or. linkage%row_name(k) == linkage%row_name(row)) cycle
          if (index(others//",", " '"//linkage%row_name(k)//"',") == 0) others = others//", '"//linkage%row_name(k)//"'"
       end do
-      if (len(others) > 0) others = new_line("a")//"  = against it stand "//others(3:)
-      call set_error(error, exit_assembly, "no velocities fulfil the constraints: joint or driver '"// &
-                     linkage%row_name(row)//"' is left with "//to_text(abs(right(row)))// &
+      if (len(others) > 0) others = new_line("a")//"  = in conflict with "//others(3:)
+      call set_error(error, exit_assembly, "no velocities satisfy the constraints: joint or driver '"// &
+                     linkage%row_name(row)//"' has a residual of "//to_text(abs(right(row)))// &
                      trim(merge(" rad/s", " m/s  ", linkage%rows%is_angle(row)))//others//new_line("a")// &
-                     "  = two drivers or initial speeds may contradict each other, or the mechanism is in a dead centre that a "// &
-                     "driver wants to pass")
+                     "  = drivers or initial speeds contradict each other, or a driver acts at a dead centre of the mechanism")
    end subroutine velocity_error
 
 end module start_errors

@@ -32,16 +32,16 @@ contains
       do k = 1, size(extremes%channels)
          if (catalogue%groups(extremes%channels(k)%group)%channel%name /= "temperature_rise") cycle
          if (.not. extremes%has_values(k) .or. .not. extremes%of(k)%greatest > hottest) cycle
-         words = scalar_name(catalogue, extremes%channels(k))//" is up to "//real_text(extremes%of(k)%greatest, 4)//" K at t = "// &
+         words = scalar_name(catalogue, extremes%channels(k))//" reaches "//real_text(extremes%of(k)%greatest, 4)//" K at t = "// &
                  real_text(extremes%of(k)%greatest_time, 6)//" s (limit "//real_text(hottest, 3)//" K)"
          mean = extremes%mean(k)
          if (.not. ieee_is_finite(mean)) mean = extremes%of(k)%greatest
          if (mean > hottest) then
-            words = words//", "//real_text(mean, 4)//" K in the mean: the side flow does not carry the heat away, and the "// &
-                    "viscosity does not hold; give a larger clearance, less length, a supply or a lubricant of less viscosity"
+            words = words//", "//real_text(mean, 4)//" K on average: the side flow is too small to carry off the heat, and the "// &
+                    "viscosity is wrong; use a larger clearance, a shorter bearing, a supply or a lubricant of lower viscosity"
          else
-            words = words//", "//real_text(mean, 4)//" K in the mean: hardly any lubricant leaves at such instants, and the "// &
-                    "balance of heat does not hold there; take the mean of film_power over that of side_flow"
+            words = words//", "//real_text(mean, 4)//" K on average: the side flow is almost zero at such times, and the "// &
+                    "heat balance is not valid there; use the mean of film_power over that of side_flow"
          end if
          call append_text(warnings, words)
       end do

@@ -28,7 +28,7 @@ contains
       allocate (warnings(0))
       if (.not. statistics%plan%is_wanted) return
       if (t_end <= statistics%plan%after) then
-         call append_text(warnings, "no statistics: the run ended before they begin, at "// &
+         call append_text(warnings, "no statistics: the run ended before their start, at "// &
                           real_text(statistics%plan%after, 6)//" s")
          return
       end if
@@ -37,7 +37,7 @@ contains
          call statistics%spectrum_of(k, frequency, amplitude)
          if (all(ieee_is_finite(amplitude))) cycle
          call append_text(warnings, "no spectrum of '"//scalar_name(catalogue, statistics%spectra(k))// &
-                          "': it is not a number at every output instant of the statistics")
+                          "': it is NaN at some output times of the statistics")
       end do
    end function statistics_without_numbers
 
@@ -52,8 +52,8 @@ contains
 
       if (size(statistics%channels) == 0) return
       if (.not. statistics%has_time()) then
-         call append_text(warnings, "statistics have no mean and no RMS: less than two output instants lie in their window; "// &
-                          "a shorter `every` in [output] gives more")
+         call append_text(warnings, "statistics have no mean and no RMS: their window holds fewer than two output times; "// &
+                          "reduce `every` in [output]")
          return
       end if
       names = ""
@@ -65,8 +65,9 @@ contains
       end do
       if (n == 0) return
       if (n > most_named) names = names//" and "//to_text(n - most_named)//" more"
-      call append_text(warnings, "no mean and no RMS of "//names(3:)//": no two output instants of the statistics, "// &
-                       "one after the other, have a number of it")
+      call append_text(warnings, ": no two consecutive output times of the statistics "//names(3:)//": no two output instants "// &
+         "of the statistics, "// &
+                       "have a value")
    end subroutine add_missing
 
 end module missing_statistics

@@ -56,17 +56,21 @@ contains
       call add_channel(info, "potential", "J", "none", 1, "potential energy of gravity, zero at the origin", of_potential)
       call add_channel(info, "elastic", "J", "none", 1, "elastic energy stored in contacts and springs", of_elastic)
       if (.not. with_works) return
-      call add_channel(info, "drive_work", "J", "none", 1, "work done by drivers since the start", of_drive_work)
-      call add_channel(info, "load_work", "J", "none", 1, "work done by applied loads since the start", of_load_work)
-      call add_channel(info, "stabilisation_work", "J", "none", 1, "work of constraint forces on the drift since the start", &
+      call add_channel(info, "drive_work", "J", "none", 1, "work of drivers since t = 0", of_drive_work)
+      call add_channel(info, "load_work", "J", "none", 1, "work of applied loads since t = 0", of_load_work)
+      call add_channel(info, "stabilisation_work", "J", "none", 1, "work of constraint forces due to constraint drift since t "// &
+         "= 0", &
                        of_stabilisation_work)
-      call add_channel(info, "dissipated_contact", "J", "none", 1, "lost by damping in contacts since the start", &
+      call add_channel(info, "dissipated_contact", "J", "none", 1, "energy dissipated by damping in contacts since t = 0", &
                        of_dissipated_contact)
-      call add_channel(info, "dissipated_friction", "J", "none", 1, "lost by friction since the start", of_dissipated_friction)
-      call add_channel(info, "dissipated_damper", "J", "none", 1, "lost in dampers since the start", of_dissipated_damper)
-      if (with_films) call add_channel(info, "dissipated_film", "J", "none", 1, "taken by lubricant films since the start", &
+      call add_channel(info, "dissipated_friction", "J", "none", 1, "energy dissipated by friction since t = 0", &
+         of_dissipated_friction)
+      call add_channel(info, "dissipated_damper", "J", "none", 1, "energy dissipated in dampers since t = 0", of_dissipated_damper)
+      if (with_films) call add_channel(info, "dissipated_film", "J", "none", 1, "energy dissipated by lubricant films since t "// &
+         "= 0", &
                        of_dissipated_film)
-      call add_channel(info, "residual", "J", "none", 1, "what does not add up, at the end of the step that holds the sample", &
+      call add_channel(info, "residual", "J", "none", 1, "residual of the energy balance, at the end of the step that contains "// &
+         "the sample", &
                        of_residual)
    end function energy_info
 
@@ -314,7 +318,8 @@ contains
    subroutine ideal_info(info)
       type(kind_info_t), intent(out) :: info  !! channels
 
-      call add_channel(info, "eccentricity", "m", "world", 2, "centre of the journal from that of the bearing", of_eccentricity)
+      call add_channel(info, "eccentricity", "m", "world", 2, "centre of the journal relative to that of the bearing", &
+         of_eccentricity)
       call add_channel(info, "force", "N", "world", 2, "force on the journal", of_force)
    end subroutine ideal_info
 

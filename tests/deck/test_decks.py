@@ -85,7 +85,7 @@ def test_shown_mistakes_are_limited(gudgeon):
 def test_missing_deck(gudgeon, tmp_path):
     """A deck that is not there is named."""
     done = check(gudgeon, "nowhere.deck", cwd=tmp_path)
-    assert_in_order(["cannot read the deck 'nowhere.deck'", "there is no such file"], done.stderr)
+    assert_in_order(["cannot read the deck 'nowhere.deck'", "no such file"], done.stderr)
     assert done.returncode == EXIT_DECK
 
 

@@ -161,7 +161,7 @@ def test_mistakes_have_a_place(gudgeon):
         ("slider.velocity.x in mm/s from 1 mm to 2 mm", "mm", "does not measure"),
         ("against motor.coordinate", "against", "a figure is wanted before"),
         ("gudgeon.orbit in mm", "in", "belongs to figures of curves"),
-        ("panels(slider.velocity.x, crank.angle", "panels(slider.velocity.x, crank.angle", "a parenthesis is not closed"),
+        ("panels(slider.velocity.x, crank.angle", "panels(slider.velocity.x, crank.angle", "missing closing parenthesis"),
     ):
         directory = scratch()
         done = call(gudgeon, "check", written(directory, changed(text, "output", figures=figures)), expect=3)

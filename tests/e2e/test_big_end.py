@@ -141,6 +141,6 @@ def test_finite_film_against_the_grid(gudgeon):
     pressure = grid.item("clearances/film_pressure", "big_end").ravel()
     with h5py.File(grid.directory / "run.h5") as file:
         top = file["film_fields/film.big_end.21ms/pressure"][:].max()
-    assert_close(pressure[210], top, relative=1e-3, what="greatest pressure")
+    assert_close(pressure[210], top, relative=1e-3, what="maximum pressure")
     mean = np.hypot(*load(SPEED * 21e-3)[0]) / (2 * RADIUS * LENGTH)  # load over projected area
     assert 2 < top / mean < 8

@@ -116,7 +116,7 @@ def test_deck(deck, everything, record_property):
         if verb == "check":
             assert "no mistakes" in done.stdout, where
         elif verb == "explain":
-            for word in ("model", "dropped", "method", "defaults taken"):
+            for word in ("model", "not used", "method", "defaults used"):
                 assert f"\n{word}\n" in done.stdout, where
         else:
             summary = done.run.summary

@@ -96,13 +96,13 @@ def test_explain_names_ideal_joints_that_rub(gudgeon):
     """explain names an ideal joint that rubs with its law, and radius and preload as --set gives them; without friction it does not."""
     hatch = DECK.parent / "hatch.deck"
     text = call(gudgeon, "explain", hatch, "--set", "fit=450N", "--set", "radius=12mm", "--set", "friction=stribeck").stdout
-    rubs = text.split("ideal joints that rub\n")[1].split("\n\n")[0].splitlines()
+    rubs = text.split("ideal joints with friction\n")[1].split("\n\n")[0].splitlines()
     assert [line.strip().split(":")[0] for line in rubs[::2]] == ["hinge"]
     assert "friction stribeck (friction.stribeck): coefficient 0.3, static_coefficient 0.4" in rubs[0]
     assert rubs[1].strip() == "radius 0.012 m, preload 450 N"
     smooth = written(scratch(), hatch.read_text().replace("hinge.friction_moment", ""))
-    assert "ideal joints that rub" not in call(gudgeon, "explain", smooth, "--set", "friction=none").stdout
-    assert "ideal joints that rub" not in call(gudgeon, "explain", DECK).stdout
+    assert "ideal joints with friction" not in call(gudgeon, "explain", smooth, "--set", "friction=none").stdout
+    assert "ideal joints with friction" not in call(gudgeon, "explain", DECK).stdout
 
 
 @pytest.mark.parametrize("name", ["", " ", ".deck", "..", "../mine", "/tmp/mine", "a/../../mine", "a/", "a/.."])
@@ -141,8 +141,8 @@ def test_list_of_a_group(gudgeon):
     lines = call(gudgeon, "list", "friction", "joint.rigid").stdout.splitlines()
     assert len(lines) > 3 and all(line.startswith(("friction.", "joint.rigid ")) for line in lines)
     done = call(gudgeon, "list", "frictoin", expect=USAGE)
-    assert "unknown kind 'frictoin'" in done.stderr and "did you mean 'friction'" in done.stderr and done.stdout == ""
-    assert "unknown kind 'foo'" in call(gudgeon, "list", "foo", expect=USAGE).stderr
+    assert "unknown type 'frictoin'" in done.stderr and "did you mean 'friction'" in done.stderr and done.stdout == ""
+    assert "unknown type 'foo'" in call(gudgeon, "list", "foo", expect=USAGE).stderr
 
 
 def test_values_behind_an_equals_sign(gudgeon, short):
@@ -165,7 +165,7 @@ def test_deck_in_force(gudgeon, short):
         out, again = scratch() / "out", scratch() / "out"
         call(gudgeon, "run", deck, "--out", out, "--set", "c=0.2 mm", "--set", "law=hertz", "--quiet")
         group = Run(out).read("deck") if deck is short else Run(out).read(f"deck_includes{short}")
-        assert re.search(r"(?m)^c +=\s*0.2 mm +# --set; the file has 0.5 mm", group)
+        assert re.search(r"(?m)^c +=\s*0.2 mm +# --set; in the file: 0.5 mm", group)
         call(gudgeon, "run", written(scratch(), group), "--out", again, "--quiet")
         assert (Run(out).contacts["time"] == Run(again).contacts["time"]).all() and len(Run(out).contacts) > 0
 
@@ -364,7 +364,7 @@ end = 1 s
 """
     assert "bodies moved by up to 0 m" in call(gudgeon, "check", written(tmp_path, text.replace("OFF", "0 0"))).stdout
     assert "bodies moved by up to 0.05 m" in call(gudgeon, "check", written(tmp_path, text.replace("OFF", "0 -0.05"))).stdout
-    for place, told in (("0 0", ""), ("0 -0.05", "start      bodies were moved by up to 0.05 m from where the deck puts them")):
+    for place, told in (("0 0", ""), ("0 -0.05", "start      initial assembly correction: up to 0.05 m")):
         call(gudgeon, "run", written(tmp_path, text.replace("OFF", place)), "--out", tmp_path / "out", "--quiet")
         lines = (tmp_path / "out" / "summary.txt").read_text().splitlines()
         assert [line[:len(told)] for line in lines if line.startswith("start")] == [told] * bool(told)

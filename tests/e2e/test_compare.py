@@ -185,7 +185,7 @@ def test_decimal_commas_gaps_and_further_tables(gudgeon):
     assert found["rod.position.y"]["instants"] == len(t) - 1 and found["rod.position.y"]["only_a"] == 1
     (folder / "torn.csv").write_text("".join((",".join(row) + ("" if k != 9 else ",8,8")) + "\n" for k, row in enumerate(rows)))
     done = call(gudgeon, "compare", "outputs/pend", "torn.csv", "--channel", "rod.position.y=3", "--absolute", "1e-8", cwd=folder)
-    assert "'torn.csv' has 3 tables; the first is compared, 9 rows from line 1 on; the second, torn.csv:2, begins in line 10" in done.stdout
+    assert "'torn.csv' has 3 tables; this comparison uses the first, 9 rows from line 1 on; the second is torn.csv:2, from line 10" in done.stdout
 
 
 def test_columns_never_touch(gudgeon):
@@ -212,7 +212,7 @@ def test_mistakes_have_messages(gudgeon):
     for options, words in (
         (("rod.angel=2",), "did you mean 'rod.angle'"),
         (("rod.angle=w",), "no column 'w'"),
-        (("rod.angle=2 unit=kg",), "does not fit"),
+        (("rod.angle=2 unit=kg",), "does not match"),
         (("rod.angle=2 unite=deg",), "unknown key"),
     ):
         done = call(gudgeon, "compare", "outputs/pend", "two.csv", "--channel", *options, cwd=folder, expect=2)

@@ -47,8 +47,8 @@ def test_numbers_of_one_alone_are_a_difference(gudgeon):
     assert found["instants"] == 201 and found["different"] == 2 and half["differs"] and none["differs"]
     assert half["only_a"] > 100 and half["only_a"] + half["instants"] == 201
     assert half["only_b"] == half["neither"] == half["unsettled"] == 0
-    assert f"differs  ({half['instants']} instants compared, a number in A only at {half['only_a']})" in said
-    assert "differs  (0 instants compared, a number in A only at 201)" in said
+    assert f"differs  ({half['instants']} times compared, value only in A at {half['only_a']})" in said
+    assert "differs  (0 times compared, value only in A at 201)" in said
     assert abs(none["peak_a"] - 30) < 1e-9 and none["peak_b"] is None and abs(none["allowed"] - 300) < 1e-8
     assert none["rms"] is None and none["mean_b"] is None and none["mean_a"] > 29
     assert {"figures/request.half.png", "figures/request.none.png"} <= set(found["figures"]) and not found["warnings"]
@@ -67,8 +67,8 @@ def test_where_none_has_a_number_they_are_equal(gudgeon):
     half, none = channels["request.half"], channels["request.none"]
     assert half["neither"] == 201 - half["instants"] > 100 and not half["differs"]
     assert none["neither"] == 201 and none["instants"] == 0 and not none["differs"]
-    assert f"({half['instants']} instants compared, in neither at {half['neither']})" in said
-    assert found["warnings"] == ["no figure of request.none: neither A nor B has a number there"]
+    assert f"({half['instants']} times compared, in neither at {half['neither']})" in said
+    assert found["warnings"] == ["no figure of request.none: no values in A or B"]
     assert "figures/request.half.png" in found["figures"]
 
 
@@ -92,7 +92,7 @@ def test_most_of_a_column_is_missing(gudgeon):
     asked = ("--channel", "rod.position.x=x", "--absolute", "1")
     channels, found, said, out = compared(gudgeon, folder, "all", "few.csv", *asked, expect=1)
     x = channels["rod.position.x"]
-    assert x["instants"] == 2 and x["only_a"] == 6 and "(2 instants compared, a number in A only at 6)" in said
+    assert x["instants"] == 2 and x["only_a"] == 6 and "(2 times compared, value only in A at 6)" in said
     assert found["figures"] == ["figures/rod.position.x.png"]
     assert " with linespoints " in (out / "figures" / "rod.position.x.gp").read_text(encoding="utf-8")
     channels, _, _, _ = compared(gudgeon, folder, "all", "few.csv", *asked, "--statistics", expect=0)

@@ -274,7 +274,7 @@ def test_only_what_is_written_has_rows(gudgeon):
 
 
 def test_explain_and_a_wrong_word(gudgeon):
-    assert "rows at the onset, peak and end of every contact (contact_rows = auto: up to 64" in call(gudgeon, "explain", DECK).stdout
+    assert "output rows at onset, peak and separation of every contact (contact_rows = auto: up to 64" in call(gudgeon, "explain", DECK).stdout
     text = changed(shortened(DECK, "verner"), "output", contact_rows="no")
     done = call(gudgeon, "check", written(scratch(), text), expect=3)
     assert "auto on off" in done.stderr or "auto, on, off" in done.stderr
@@ -316,7 +316,7 @@ def test_scenes_of_many_contacts(gudgeon):
     """Beyond 64 contacts there are no rows unless they are asked for, and the summary says so."""
     quiet = run_of(gudgeon, many_balls(65))
     assert len(quiet.contacts) == 65 and np.all(quiet.rows("row_kind") == 0)
-    assert "no rows at the onset, peak and end of every contact (contact_rows = auto: up to 64 contacts, here 65)" in (
+    assert "no output rows at onset, peak and separation of every contact (contact_rows = auto: up to 64 contacts, here 65)" in (
         quiet.directory / "summary.txt"
     ).read_text()
     asked = run_of(gudgeon, changed(many_balls(65), "output", contact_rows="on"))

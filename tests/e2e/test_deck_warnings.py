@@ -28,7 +28,7 @@ def test_warnings(gudgeon, deck):
     out = scratch() / "out"
     options = ("sweep",) if "studies/" in deck else ("run", "--write", "channels")
     call(gudgeon, options[0], ROOT / deck, "--out", out, *options[1:], "--quiet", expect=5 if "dead_point" in deck else 0)
-    told = [words for words in json.loads((out / "summary.json").read_text())["warnings"] if "left out: --write" not in words]
+    told = [words for words in json.loads((out / "summary.json").read_text())["warnings"] if "omitted: --write" not in words]
     rows = [pattern(warning) for name, warning, _ in ROWS if name.strip("`") == deck]
     for words in told:
         assert any(row.match(words) for row in rows), words

@@ -40,11 +40,11 @@ def run(program, tables, columns="", cells="", expect=0):
     ('[joint.revolute]\nname i j axis_i axis_j\npin wall near "0 0 1" "1 0 0"\n', "at right angles where they should be parallel, or the other"),
     ('[joint.perpendicular]\nname i j axis_i axis_j\npin wall near "0 0 1" "0 0 1"\n', "at right angles where they should be parallel, or the other"),
     ('[joint.revolute_spherical]\nname i j axis_i\npin wall far "1 0 0"\n', "stays open by 0.5 m"),
-    ("[joint.distance]\nname i j\npin wall near\n", "the two points coincide at the start"),
+    ("[joint.distance]\nname i j\npin wall near\n", "the two points coincide initially"),
     (PIN + '[force.torsion_spring]\nname i j axis_i axis_j stiffness[N.m/rad]\ncoil ground bar "0 1 0" "1 0 0" 5\n', "the axes of 'coil' are not parallel"),
     (PIN + '[force.torsion_spring]\nname i j axis_i axis_j stiffness[N.m/rad]\ncoil ground bar "0 1 0" "0 -1 0" 5\n', "the axes of 'coil' are not parallel"),
     ('[joint.revolute]\nname i j axis_i\npin wall near "0 0 0"\n', "all numbers are zero"),
-    ('[joint.revolute]\nname i j axis_i x_i\npin wall near "0 1 0" "0 -2 0"\n', "the reference direction of 'pin' lies along its axis"),
+    ('[joint.revolute]\nname i j axis_i x_i\npin wall near "0 1 0" "0 -2 0"\n', "the reference direction of 'pin' is parallel to its axis"),
     (PIN + '[force.torsion_spring]\nname i j axis_i x_j stiffness[N.m/rad]\ncoil ground bar "0 1 0" "0 1 0" 5\n', "the reference direction of 'coil' lies"),
 ])
 def test_told(gudgeon_debug, tables, words):
@@ -114,5 +114,5 @@ def test_parallel_arms_are_told_of_the_joint_that_has_them(gudgeon, arm_i, arm_j
     """The search for a position tears the bearing, or the outlet, far off; to blame is the universal joint between them."""
     deck = written(scratch(), SHAFTS.format(arm_i=arm_i, arm_j=arm_j, end=end, outlet=outlet))
     said = call(gudgeon, "check", deck, expect=4).stderr
-    assert "joint 'hook' is open where the deck puts its bodies, by 1 rad" in said
+    assert "joint 'hook' has, at the given positions of the bodies, a residual of 1 rad" in said
     assert "at right angles where they should be parallel, or the other way round" in said

@@ -242,7 +242,7 @@ def test_a_run_that_ends_early_draws_what_it_reached(gudgeon, tmp_path):
     assert len(strokes(folder / "animation.n.10.last.1s.dat")) == 5
     listed = json.loads((tmp_path / "run" / "summary.json").read_text(encoding="utf-8"))
     assert listed["warnings"] == [
-        "figure mechanism(t=0.9s): no numbers to draw: no output instant that it shows has a number (`from` and `last` in [output], the end of the run)"
+        "figure mechanism(t=0.9s): no values to draw: the output times shown have no values (`from` and `last` in [output], the end of the run)"
     ]
 
 

@@ -31,7 +31,7 @@ def echoed(program, text):
 def defaults(program, text):
     """The defaults that `explain` lists."""
     said = call(program, "explain", written(scratch(), text)).stdout
-    return said, said.split("defaults taken")[1]
+    return said, said.split("defaults used")[1]
 
 
 def test_imsl_tolerance(gudgeon):
@@ -97,11 +97,11 @@ def test_explain_without_assembly(gudgeon):
     deck = written(scratch(), text.replace("guide    main     pin", "guide    high     pin"))
     done = call(gudgeon, "explain", deck, expect=ASSEMBLY)
     assert "NOT assembled" in done.stdout and "cannot be assembled" in done.stderr
-    for word in ("gap at the start", "assembled in", "no redundant rows"):
+    for word in ("initial clearance", "assembled in", "no redundant rows"):
         assert word not in done.stdout, word
-    assert "radial clearance 0.5 mm" in done.stdout and "defaults taken" in done.stdout
+    assert "radial clearance 0.5 mm" in done.stdout and "defaults used" in done.stdout
     said = call(gudgeon, "explain", written(scratch(), plain_deck())).stdout
-    assert "NOT assembled" not in said and "gap at the start 0.5 mm" in said and "assembled in" in said
+    assert "NOT assembled" not in said and "initial clearance 0.5 mm" in said and "assembled in" in said
 
 
 def test_echo_of_guards(gudgeon):

@@ -50,7 +50,7 @@ def deck():
 def test_every_reference_counts(build, options, deck, request):
     """A material that only a ball names and a law of faces are used; what nothing names is not."""
     text = call(request.getfixturevalue(build), "explain", deck, *options).stdout
-    assert set(re.findall(r"'(\w+)': used by no joint", text)) == {"spare", "lead"}
+    assert set(re.findall(r"'(\w+)': no joint refers to it", text)) == {"spare", "lead"}
 
 
 def test_nothing_is_dropped(gudgeon):

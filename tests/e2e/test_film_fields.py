@@ -90,7 +90,7 @@ def test_missing_film_is_warned_of(gudgeon):
     text = changed(BEARING.read_text(), "output", figures="film(bearing)")
     out = scratch() / "out"
     run = Run(out, call(gudgeon, "run", written(scratch(), text), "--ideal", "--set", "duration=0.01s", "--set", "film=grid", "--out", out))
-    assert any("'film(bearing)' left out: the joint is ideal" in warning for warning in run.summary["warnings"])
+    assert any("'film(bearing)' omitted: the joint is ideal" in warning for warning in run.summary["warnings"])
 
 
 def test_static_film(gudgeon):

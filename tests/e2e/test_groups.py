@@ -69,16 +69,16 @@ def test_explained(gudgeon):
     """`explain` tells the groups, and why they stay together where they must."""
     directory = scratch()
     path = written(directory, DECK)
-    assert "6 groups of bodies that nothing joins, integrated apart" in call(gudgeon, "explain", path).stdout
+    assert "6 independent groups of bodies, integrated separately" in call(gudgeon, "explain", path).stdout
     assert "integrated together (groups = together)" in call(gudgeon, "explain", path, "--set", "groups=together").stdout
     path = written(directory, DECK + "\n[guards]\nstop = ring.position.y < 0.38m\n", "stopped.deck")
-    assert "integrated together (a condition that ends the run looks at all of them)" in call(gudgeon, "explain", path).stdout
+    assert "integrated together (a stop condition applies to all of them)" in call(gudgeon, "explain", path).stdout
     run = run_of(gudgeon, path.read_text())
     assert run.summary["groups"] == 1
     ring = [plain(name).strip() for name in run.read("bodies/names")].index("ring")
     assert_close(run.rows("bodies/position")[-1, ring, 1], 0.38, absolute=1e-9, what="where the run stops")
     path = written(directory, changed(DECK, "analysis.dynamic", maximum_steps="100000"), "counted.deck")
-    assert "integrated together (their steps or evaluations are counted together)" in call(gudgeon, "explain", path).stdout
+    assert "integrated together (a limit applies to the sum of their steps or evaluations)" in call(gudgeon, "explain", path).stdout
 
 
 def balls(n, groups="apart"):

@@ -138,7 +138,7 @@ def test_film_ends(gudgeon):
     """A load that reverses the squeeze film's journal into the wall: a clear end that names joint, time and eccentricity."""
     done = call(gudgeon, "run", BEARING, "--out", scratch() / "out", "--set", "film=squeeze", "--set", "viscosity=0.01cP",
                 "--set", "load=3e4 N", expect=5)
-    assert re.search(r"film of joint 'bearing' \(squeeze\) ends: an eccentricity of 0\.99999 of the clearance", done.stderr)
+    assert re.search(r"film of joint 'bearing' \(squeeze\) reached its limit: the eccentricity is 0\.99999 times the clearance", done.stderr)
     assert re.search(r"at t = \S+ s", done.stderr)
     assert "level = hybrid" in done.stderr
     assert "NaN" not in done.stderr

@@ -118,7 +118,7 @@ def test_an_accuracy_without_time_for_a_run(gudgeon_debug):
     directory = scratch()
     options = ("--accuracy", "1e-9", "--budget", "1ms", "--quiet")
     done = call(gudgeon_debug, "run", written(directory, short()), "--out", directory / "out", *options, expect=5)
-    assert "no run came to its end: the budget is used up" in done.stderr
+    assert "no run was completed: time budget exhausted" in done.stderr
 
 
 def test_friction_that_diverges(gudgeon_debug):

@@ -30,8 +30,8 @@ def test_passed_over(gudgeon, tmp_path, onset, step):
     assert summary["contacts"] == 0
     (warning,) = [one for one in summary["warnings"] if "passed over" in one]
     assert warning == (
-        HIT + f"1 contact was passed over, begun and ended within a step (contact_onset = {onset}): the deepest by 28.6 mm at "
-        "t = 0.075 s, the first at 0.075 s; take shorter steps (step, maximum_step) or contact_onset = located"
+        HIT + f"1 contact was missed, with onset and separation within one step (contact_onset = {onset}): maximum penetration 28.6 mm at "
+        "t = 0.075 s, the first at 0.075 s; use shorter steps (step, maximum_step) or contact_onset = located"
     )
     assert "warning: " + warning in said
     assert warning in text

@@ -329,7 +329,7 @@ def test_another_sequence_of_contacts_is_a_flag(gudgeon):
     """A coarse run of a chaotic motion meets other contacts: no error of so many per cent, but a state of its own."""
     text = plain_deck([("analysis.dynamic", "end", "12 ms")])
     study = compared(gudgeon, text + ladders(coarsest="1e-2", finest="1e-10"), "--methods", "verner adams")
-    other = [row for row in study.rows if row["state"] == "other sequence"]
+    other = [row for row in study.rows if row["state"] == "different contact sequence"]
     assert other
     for row in other:
         assert row["onsets [s]"] == row["peaks"] == row["restitution"] == ""
@@ -361,7 +361,7 @@ def test_nothing_is_chosen_without_a_confirmed_reference(gudgeon):
     study = compared(gudgeon, text, "--methods", "verner")
     assert study.summary["confirmed_by"] == "" and study.summary["reference_error"] is None
     assert "choice" not in study.summary
-    assert "none: there is no reference that is confirmed" in (study.directory / "summary.txt").read_text()
+    assert "none: no confirmed reference" in (study.directory / "summary.txt").read_text()
 
 
 @pytest.mark.parametrize("seconds", [4 * SLOWNESS, 8 * SLOWNESS])
@@ -374,7 +374,7 @@ def test_the_budget_is_kept(gudgeon, seconds):
     assert study.summary["budget"] == seconds
     assert study.summary["spent"] < seconds
     assert study.summary["not_run"] > 0
-    assert all(row["reason"] == "no time was left in the budget" for row in study.rows if row["state"] == "not run")
+    assert all(row["reason"] == "time budget exhausted" for row in study.rows if row["state"] == "not run")
 
 
 def test_slow_ladders_leave_time_for_others(gudgeon):

@@ -65,8 +65,8 @@ def test_errors_fall_or_the_report_says_why(gudgeon, deck):
 @pytest.mark.parametrize(
     "name, words",
     [
-        ("hard/grazed_plane", "errors fall by less than 3 over two decades; its steps hardly change (7 to 8)"),
-        ("four_bar", "they are as large as the motion itself"),
+        ("hard/grazed_plane", "errors fall by less than a factor of 3 over two decades; its number of steps hardly changes (7 to 8)"),
+        ("four_bar", "the errors are as large as the motion itself"),
         ("hard/a02_four_bars_1", "held: verner, 11 runs: 'maximum_step' of the deck"),
     ],
 )
@@ -83,7 +83,7 @@ def test_causes_are_named(gudgeon, name, words):
     "name, method, words",
     [
         ("hard/grazed_plane", "rk4", "they do not change at all: what makes them is shorter than any of these steps"),
-        ("bouncing_ball", "ida", "those of neighbouring runs scatter: in some of them errors of both signs cancel"),
+        ("bouncing_ball", "ida", "the errors of neighbouring runs scatter: in some runs errors of opposite sign cancel"),
     ],
 )
 def test_causes_of_other_methods_are_named(gudgeon, name, method, words):

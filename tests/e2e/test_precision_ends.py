@@ -38,7 +38,7 @@ def test_a_condition_that_the_start_meets(gudgeon):
     text = MOVING + "[guards]\nstop = mass.position.x > 1.2 m\n" + ladders()
     directory = scratch()
     done = call(gudgeon, "precision", written(directory, text), "--out", directory / "out", expect=5)
-    assert "nothing to compare: the motion is stopped by intent at t = 0 s: mass.position.x > 1.2 m" in done.stderr
+    assert "nothing to compare: the motion is stopped as requested at t = 0 s: mass.position.x > 1.2 m" in done.stderr
     assert "the start meets this condition of 'stop'" in done.stderr
 
 
@@ -55,7 +55,7 @@ def test_the_time_of_an_end_is_an_onset(gudgeon):
     for row in study.rows:
         assert row["onsets [s]"] == abs(ends[row["asked"]] - ends[float(reference[1])])
     assert study.rows[0]["onsets [s]"] > 1e-9
-    assert "and of the end" in (study.directory / "summary.txt").read_text()
+    assert "and end time" in (study.directory / "summary.txt").read_text()
 
 
 def test_the_reference_is_the_tightest_run_there_is_time_for(gudgeon):
@@ -72,20 +72,20 @@ def test_the_reference_is_the_tightest_run_there_is_time_for(gudgeon):
 
 def reason(study):
     """Why there are no twins."""
-    return re.search(r"horizon    not known: (.*)", (study.directory / "summary.txt").read_text())[1]
+    return re.search(r"horizon    unknown: (.*)", (study.directory / "summary.txt").read_text())[1]
 
 
 def test_why_there_are_no_twins(gudgeon):
     """Not the time, where there was enough: a ladder that ends too early, a condition that ends twins elsewhere."""
     loose = compared(gudgeon, MOVING + ladders(finest="1e-6", budget="0 s"), "--methods", "verner")
-    assert reason(loose) == "no run of verner as tight as twins must be, 1e-10 or less, was asked for ('finest' of [precision])"
+    assert reason(loose) == "no run of verner at the tolerance of neighbouring trajectories, 1e-10 or less was requested ('finest' of [precision])"
     text = MOVING + "[guards]\nstop = mass.position.y > 1e-12 m or mass.position.y < -1e-12 m\n"
     text += ladders(budget="0 s")  # it stays at 0, unlike that of every twin
-    assert reason(compared(gudgeon, text, "--methods", "verner")) == "a condition ends perturbed motions at other times"
+    assert reason(compared(gudgeon, text, "--methods", "verner")) == "a stop condition ends perturbed motions at other times"
 
 
 def test_no_time_for_twins_is_told(gudgeon):
     """What one takes, and that it was not there."""
     text = changed(text_of(ROOT / "inputs" / "slider_crank_dry.deck"), "output", figures=None)
     study = compared(gudgeon, changed(text, "analysis.dynamic", end="400 ms"), "--methods", "verner", "--budget", f"{3 * SLOWNESS}s")
-    assert "no time was left in the budget for " in reason(study)
+    assert "time budget exhausted for " in reason(study)

@@ -59,6 +59,6 @@ def test_errors_of_nothing_have_a_mark_of_their_own(gudgeon):
     assert place < 0.2 * min(row["asked"] for row in study.rows)
     data = (study.directory / "figures" / "precision.dat").read_text(encoding="utf-8")
     assert {float(line.split()[1]) for line in data.splitlines() if line and line[0] != "#"} == {place}
-    assert "# errors of exactly 0 stand at" in data
+    assert "# zero errors are drawn at" in data
     views = (study.directory / "figures" / "precision_views.gp").read_text(encoding="utf-8")
     assert views.count("set ytics add ('0' ") == 1

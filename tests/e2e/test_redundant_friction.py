@@ -93,7 +93,7 @@ def test_two_hinges(gudgeon, verb):
     """How two hinges share the weight is not determined, and one rubs: both are named, and the one that rubs by itself."""
     words = words_of(gudgeon, flap(TWO.replace("{second}", "-")), verb)
     assert "the reactions of 'h1' 'h2' are not unique: those of least norm are taken" in words
-    assert "the motion depends on them by friction in 'h1';" in words
+    assert "the motion depends on them through friction in 'h1';" in words
     assert "compliance" in words and "fewer rows" in words
     assert "accelerations are exact" not in words
     assert "friction in 'h1' 'h2';" in words_of(gudgeon, flap(TWO.replace("{second}", "mu")), verb)

@@ -246,7 +246,7 @@ def test_points_speak_only_when_asked(gudgeon):
 
 WRONG = [
     ("{pin.forze.x}", "did you mean 'pin.force.x'", 1),
-    ("{pin.force}", "no single number", 1),
+    ("{pin.force}", "several components", 1),
     ("{request.work}", "there is no request 'work' before this one", 1),
     ("{pin.force.x + pin.moment}", "cannot", 0),
     ("{pin.moment}", "its SI unit is N.m", 0),

@@ -163,10 +163,10 @@ def test_in_space(gudgeon):
     [
         ("sled.acceleration.x", "a load cannot see"),
         ("slid.velocity.x", "did you mean 'sled.velocity.x'"),
-        ("sled.velocity", "no single number"),
-        ("sled.velocity.z", "no single number"),
+        ("sled.velocity", "several components"),
+        ("sled.velocity.z", "several components"),
         ("sled.velocity.w", "no such component"),
-        ("c.angle", "only bodies of the plane have an angle"),
+        ("c.angle", "only planar bodies have an angle"),
     ],
 )
 def test_mistakes(gudgeon, channel, words):

@@ -228,11 +228,11 @@ def test_films_beyond_their_validity_say_so(gudgeon):
     pin that fills a part of its film is told with the part."""
     tilt = 0.5 * CLEARANCE * 0.5 / 0.01  # adds half of the gap left in the middle at the ends
     (words,) = told(gudgeon, "finite", "axis angle[rad]", f'"0 1 0" {tilt}')
-    assert "'joint', film 'wet': a tilt that adds 0.5 of the gap" in words and "film.grid for any" in words
+    assert "'joint', film 'wet': the tilt changes the film thickness at an end by 0.5 of that in the middle" in words and "film.grid has no such limit" in words
     assert told(gudgeon, "finite", "axis angle[rad]", f'"0 1 0" {0.2 * tilt}') == []
     assert told(gudgeon, "grid", "axis angle[rad]", f'"0 1 0" {tilt}') == []
     (words,) = told(gudgeon, "finite", "z[m]", "0.015")
-    assert "'joint': the pin fills only 0.75 of the length of its film" in words
+    assert "'joint': the pin covers only 0.75 of the film length" in words
 
 
 def test_a_supply_is_where_the_deck_puts_it(gudgeon):

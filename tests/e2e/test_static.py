@@ -93,7 +93,7 @@ def test_indifferent(gudgeon):
     text = PENDULUM.replace("MORE", "hub hub mid").replace("[points]\n", "wheel 1 0.1 3 0 0.3rad\n[points]\n")
     text = text.replace("tip   rod ", "hub ground 3 0\nmid wheel 0 0\ntip   rod ")
     result = run(gudgeon, text)
-    assert result.summary["equilibrium"].startswith("indifferent in 1 of 2")
+    assert result.summary["equilibrium"].startswith("neutrally stable in 1 of 2")
     (warning,) = result.summary["warnings"]
     assert re.findall(r"'(\w+)'", warning) == ["wheel"]
     assert_close(angle_of(result, "wheel"), 0.3, absolute=1e-12, what="angle of the wheel")
@@ -277,5 +277,5 @@ def test_load_that_is_no_number(gudgeon, gudgeon_debug, build):
     text = (ROOT / "inputs/hanging_chain.deck").read_text().replace("(t - 0.5s)/1s", "(t - 0.5s)/0.0s")
     program = gudgeon if build == "release" else gudgeon_debug
     done = call(program, "check", written(scratch(), text), expect=4)
-    assert "the load on 'l4' is not a finite number at t = 0" in done.stderr
+    assert "the load on 'l4' is not finite at t = 0" in done.stderr
     assert "DLASCL" not in done.stdout + done.stderr

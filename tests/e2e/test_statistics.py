@@ -253,9 +253,9 @@ def test_mistakes_within_figures_are_marked(gudgeon):
         line, marks = call(gudgeon, "check", deck, expect=3).stderr.splitlines()[3:5]
         first = marks.index("^")
         assert line[first:].startswith(part), marks
-        assert marks.split("^ ")[1] == "not right in this figure" and marks.count("^") == len(part.rstrip(")"))
+        assert marks.split("^ ")[1] == "invalid in this figure" and marks.count("^") == len(part.rstrip(")"))
     deck = written(directory, changed(DECK.read_text(), "output", figures="slider.speed"))
-    assert "^ no figure of this deck" in call(gudgeon, "check", deck, expect=3).stderr
+    assert "^ not a figure of this deck" in call(gudgeon, "check", deck, expect=3).stderr
 
 
 def test_a_run_that_ends_before_its_statistics(gudgeon):
@@ -266,4 +266,4 @@ def test_a_run_that_ends_before_its_statistics(gudgeon):
     call(gudgeon, "run", written(directory, text), "--out", directory / "out", "--quiet")
     run = Run(directory / "out")
     assert set(run.summary["statistics"].values()) == {None}
-    assert [w for w in run.summary["warnings"] if w == "no statistics: the run ended before they begin, at 0.002 s"]
+    assert [w for w in run.summary["warnings"] if w == "no statistics: the run ended before their start, at 0.002 s"]

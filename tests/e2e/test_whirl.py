@@ -268,7 +268,7 @@ def test_explain(gudgeon):
     said = call(gudgeon, "explain", written(scratch(), DECK)).stdout
     assert "films at their steady state" in said
     assert "whirls from" in said
-    assert "times this speed, where a whirl of" in said
+    assert "times this speed; whirl onset at" in said
     said = call(gudgeon, "explain", written(scratch(), DECK), "--set", "film=squeeze", expect=4).stdout
     assert "do not determine one" in said
 

@@ -177,8 +177,8 @@ contains
       do k = 1, size(saved%pieces)
          other = saved
          other%pieces(k)%version = saved%pieces(k)%version + 1
-         call check_refused(fresh, other, other%pieces(k)%name//" is of version "//to_text(other%pieces(k)%version)// &
-                            ", and version "//to_text(saved%pieces(k)%version)//" is read", "another version", error)
+         call check_refused(fresh, other, other%pieces(k)%name//" has version "//to_text(other%pieces(k)%version)// &
+                            ", supported is version "//to_text(saved%pieces(k)%version), "another version", error)
       end do
    end subroutine test_versions
 
@@ -197,7 +197,7 @@ contains
          other = saved
          other%pieces(k)%size = saved%pieces(k)%size + 1
          other%row = [saved%row, 0.0_wp]
-         call check_refused(fresh, other, "the memory of "//other%pieces(k)%name//" has "//to_text(other%pieces(k)%size)// &
+         call check_refused(fresh, other, "the state of "//other%pieces(k)%name//" has "//to_text(other%pieces(k)%size)// &
                             " number", "another size", error)
       end do
    end subroutine test_other_size
@@ -224,7 +224,7 @@ contains
       call check_equal(error, saved%pieces(k + 1)%size, 0, "there is no such part yet")
       saved%pieces(k)%size = saved%pieces(k)%size + 1
       saved%row = [saved%row, 0.0_wp]
-      call check_refused(fresh, saved, "the memory of method = auto has ", "another size", error)
+      call check_refused(fresh, saved, "the state of method = auto has ", "another size", error)
    end subroutine test_size_of_auto
 
    !> The last piece is missing, or there is one that nothing has.
@@ -240,16 +240,17 @@ contains
          other = saved
          other%pieces = saved%pieces(:n - 1)
          other%row = saved%row(:size(saved%row) - saved%pieces(n)%size)
-         call check_refused(fresh, other, "the memory of "//saved%pieces(n)%name//" is missing", "a piece less", error)
+         call check_refused(fresh, other, "the state of "//saved%pieces(n)%name//" is missing", "a piece less", error)
          other%pieces = saved%pieces(:3)
-         call check_refused(fresh, other, "the memory of "//saved%pieces(4)%name//" is missing", "three pieces", error)
+         call check_refused(fresh, other, "the state of "//saved%pieces(4)%name//" is missing", "three pieces", error)
          other = saved
          call add_piece(other%pieces, "clearance.revolute 'third'", 1, 0)
-         call check_refused(fresh, other, "the memory of clearance.revolute 'third', which nothing here has", "a piece more", error)
+         call check_refused(fresh, other, "the state of clearance.revolute 'third', which is not part of this run", &
+                         "a piece more", error)
          other = saved
          other%pieces(n)%name = "clearance.revolute 'third'"
-         call check_refused(fresh, other, "the memory of clearance.revolute 'third' where that of "//saved%pieces(n)%name// &
-                            " is wanted", "another name", error)
+         call check_refused(fresh, other, "the state of clearance.revolute 'third' instead of that of "//saved%pieces(n)%name, &
+                         "another name", error)
       end associate
    end subroutine test_other_list
 
@@ -266,8 +267,8 @@ contains
       if (allocated(error)) return
       call check_close(error, fresh%loaded%method%t, run%loaded%method%t, 0.0_wp, "taken with another clearance")
       if (.not. allocated(error)) call begin(fresh, error, "law=kelvin_voigt")
-      call check_refused(fresh, saved, "the memory of the state has "//to_text(saved%pieces(1)%size)//" numbers, and "// &
-                         to_text(saved%pieces(1)%size + 10)//" are wanted", "another law", error)
+      call check_refused(fresh, saved, "the state of the state has "//to_text(saved%pieces(1)%size)//" numbers, expected "// &
+                         to_text(saved%pieces(1)%size + 10), "another law", error)
    end subroutine test_other_law
 
    !> Memory of Verner's method is none of Adams's.
@@ -280,7 +281,7 @@ contains
       call begin(run, error)
       call save_after(5, run, saved, error)
       if (.not. allocated(error)) call begin(fresh, error, method="adams")
-      call check_refused(fresh, saved, "it holds the memory of method = auto where that of method = adams is wanted", &
+      call check_refused(fresh, saved, "it contains the state of method = auto instead of that of method = adams", &
                          "another method", error)
    end subroutine test_other_method
 

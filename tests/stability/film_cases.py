@@ -59,7 +59,7 @@ def rests_on_contact(run):
 
 def end_of_film(message):
     """Eccentricity in the message of a film that ends, against eps_max; joint and time must be there too."""
-    found = re.search(rf"film of joint '{JOINT}' .* ends: an eccentricity of (\S+) of the clearance", message)
+    found = re.search(rf"film of joint '{JOINT}' .* reached its limit: the eccentricity is (\S+) times the clearance", message)
     time = re.search(r"at t = (\S+) s", message)
     return abs(float(found.group(1)) - EPS_MAX) if found and time else np.inf
 

@@ -213,7 +213,7 @@ def mistakes_of(program, kind, seed, directory):
     if done.returncode != 0:
         return [done.stderr.strip().splitlines()[0]]
     return [
-        f"b{k}: residual {rest:.1e} N, {rest / max(acting, 1e-300):.1e} of the forces that act, {rest / rounding:.1f} roundings"
+        f"b{k}: residual {rest:.1e} N, {rest / max(acting, 1e-300):.1e} relative to the acting forces, {rest / rounding:.1f} roundings"
         for k, (rest, acting, rounding) in enumerate(scene.residuals(Run(directory / "out", done)))
         if not (rest <= ENOUGH * acting or rest <= ROUNDINGS * rounding)
     ]

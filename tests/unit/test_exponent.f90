@@ -28,8 +28,8 @@ contains
 
       horizon%t = [(real(i, wp), i=0, 100)]
       horizon%after = 25.0_wp
-      horizon%tangent%reason = "not looked for"
-      horizon%twin%reason = "not looked for"
+      horizon%tangent%reason = "not determined"
+      horizon%twin%reason = "not determined"
    end subroutine new_horizon
 
    !> The method that is known tells.

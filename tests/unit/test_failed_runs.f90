@@ -159,7 +159,7 @@ contains
       deallocate (loaded%method)
       allocate (loaded%method, source=stuck)
       call run_to_end(loaded, keeper, summary, mistake)
-      call check_failure(error, mistake, keeper, summary, exit_integration, "one event follows another at 'ring'")
+      call check_failure(error, mistake, keeper, summary, exit_integration, "events accumulate at 'ring'")
       call check_true(error, keeper%n_event > 100, "events were told before")
    end subroutine test_events_without_end
 

@@ -292,7 +292,7 @@ contains
          call start_text(deck, system, y, error, report)
          if (allocated(error)) return
          call check_equal(error, size(report%set_aside), 1, "one row is not needed")
-         call check_parts(error, report%misfit, "in least squares|'pin' is off by 4e-"//merge("5", "8", k == 1)// &
+         call check_parts(error, report%misfit, "in the least-squares fit|'pin' is off by 4e-"//merge("5", "8", k == 1)// &
                           " mm|'tack' is off by 4e-"//merge("5", "8", k == 1)//" mm|")
          call check_no_start(error, "[scene]"//nl//"closing_tolerance = 1e-8"//nl//deck, "cannot be assembled|")
          deck = replace(deck, "[m]", "[mm]")

@@ -117,7 +117,7 @@ contains
       call check_last("{7 rad/s*t - 1 rad}", "10 turns of swing", 20.0_wp*pi/7.0_wp, 0.0_wp)
       call check_last("{25 rad*pi*(1 - exp(-t/(1 s)))}", "2 turns of swing", log(5.0_wp), log(25.0_wp/9.0_wp))
       call check_mistake(error, rotors("{2 rad/s^2*t^2}", "end = 10 turns of swing", "last = 10.001 turns of swing"), &
-                         "driver 'swing' never makes so many turns")
+                         "driver 'swing' never completes so many turns")
       call check_mistake(error, rotors("0rad", "end = 12 ms", "last = 2 turns of motor"), "turns")
 
    contains
@@ -145,10 +145,10 @@ contains
       type(error_t), allocatable, intent(out) :: error  !! what failed
 
       call check_mistake(error, rotors("{3 rad*sin(2 rad/s*t)}", "end = 1 turns of swing", ""), &
-                         "driver 'swing' never makes so many turns")
-      call check_mistake(error, rotors("2rad", "end = 1 turns of swing", ""), "driver 'swing' never makes so many turns")
+                         "driver 'swing' never completes so many turns")
+      call check_mistake(error, rotors("2rad", "end = 1 turns of swing", ""), "driver 'swing' never completes so many turns")
       call check_mistake(error, rotors("{9 rad*sqrt(1 - t/(3 s))}", "end = 2 turns of swing", ""), &
-                         "driver 'swing' never makes so many turns")
+                         "driver 'swing' never completes so many turns")
    end subroutine test_turns_never_made
 
    !> A driver that is not there, with the one that was meant.
@@ -183,12 +183,12 @@ contains
    subroutine test_mistakes(error)
       type(error_t), allocatable, intent(out) :: error  !! what failed
 
-      call check_mistake(error, rotors("0rad", "end = 0 s", ""), "the end must be after the start")
-      call check_mistake(error, rotors("0rad", "end = 0 turns of motor", ""), "the end must be after the start")
-      call check_mistake(error, rotors("{1 rad/s*t}", "end = 0 turns of swing", ""), "the end must be after the start")
+      call check_mistake(error, rotors("0rad", "end = 0 s", ""), "the end time must be positive")
+      call check_mistake(error, rotors("0rad", "end = 0 turns of motor", ""), "the end time must be positive")
+      call check_mistake(error, rotors("{1 rad/s*t}", "end = 0 turns of swing", ""), "the end time must be positive")
       call check_mistake(error, rotors("0rad", "end = 1 s", "from = 1 ms"//nl//"last = 1 ms"), "exclude each other")
       call check_mistake(error, rotors("0rad", "end = 1 s", "last = 1.1 s"), "'last' is longer than the motion")
-      call check_mistake(error, rotors("0rad", "end = 1 s", "from = 1 s"), "'from' is not before the end")
+      call check_mistake(error, rotors("0rad", "end = 1 s", "from = 1 s"), "'from' must be before the end")
       call check_mistake(error, rotors("0rad", "end = 1 s", "from = -1 ms"), "'from' must not be negative")
       call check_mistake(error, rotors("0rad", "end = 1 s", "last = -1 ms"), "'last' must not be negative")
       call check_mistake(error, rotors("0rad", "end = 1 s", "every = 1.1 s"), "'every' is longer than what is written")

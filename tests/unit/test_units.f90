@@ -153,13 +153,13 @@ contains
       type(error_t), allocatable, intent(out) :: error  !! first failure
 
       call refuse("", "the unit is missing", 1, 0)
-      call refuse("kg.", "the unit ends too early", 4, 4)
-      call refuse("kg..m", "'.' has no place here in a unit", 4, 4)
+      call refuse("kg.", "the unit is incomplete", 4, 4)
+      call refuse("kg..m", "'.' is not allowed here in a unit", 4, 4)
       call refuse("N/m.s", "a product after a division is ambiguous; use parentheses", 4, 5)
-      call refuse("m^", "the exponent of a unit is a number up to 9, as in s^-1 or m^1.5", 2, 3)
-      call refuse("m^99", "the exponent of a unit is a number up to 9, as in s^-1 or m^1.5", 2, 4)
-      call refuse("W/(m.K", "a parenthesis is not closed", 6, 6)
-      call refuse("m)", "')' has no place in a unit", 2, 2)
+      call refuse("m^", "the exponent of a unit must be a number up to 9, as in s^-1 or m^1.5", 2, 3)
+      call refuse("m^99", "the exponent of a unit must be a number up to 9, as in s^-1 or m^1.5", 2, 4)
+      call refuse("W/(m.K", "missing closing parenthesis", 6, 6)
+      call refuse("m)", "')' is not allowed in a unit", 2, 2)
       call refuse("kg.furlong", "unknown unit 'furlong'", 4, 10)
       call refuse("Kkg", "unknown unit 'Kkg': did you mean 'kg'?", 1, 3)
 
