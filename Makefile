@@ -158,8 +158,8 @@ studies:
 # The tables of `finite` and of the side flow from films on a grid, some minutes; and the errors of all films against the grid
 film-table:
 	$(inner)release film_programs
-	@$(BUILD)/films/film_table > $(BUILD)/films/finite_table.inc && mv $(BUILD)/films/finite_table.inc src/lubrication/
-	@$(BUILD)/films/flow_table > $(BUILD)/films/finite_flow.inc && mv $(BUILD)/films/finite_flow.inc src/lubrication/
+	@$(BUILD)/films/film_table > $(BUILD)/films/finite_table.inc && mv $(BUILD)/films/finite_table.inc src/mechanics/lubrication/
+	@$(BUILD)/films/flow_table > $(BUILD)/films/finite_flow.inc && mv $(BUILD)/films/finite_flow.inc src/mechanics/lubrication/
 
 film-errors:
 	$(inner)release film_programs
@@ -234,12 +234,10 @@ ifeq ($(SUNDIALS_VERSION),)
 $(error no Fortran modules of SUNDIALS 6 or 7 in $(SUNDIALS_PREFIX): scripts/setup installs what is needed, SUNDIALS_DIR= names a prefix)
 endif
 
-# The rooms, in the order of docs/architecture.md.
-ROOMS := core math deck functions model coordinates contact lubrication joints forces clearance solve reduce linkage hold start \
-         integrators system scene build analysis files precision channels statistics numbers pictures output adams compare cli
-SOURCES := $(sort $(wildcard $(ROOMS:%=src/%/*.f90) $(ROOMS:%=src/%/*.F90)))
-C_SOURCES := $(sort $(wildcard $(ROOMS:%=src/%/*.c)))
-MAIN := $(wildcard src/main.f90)
+# The source tree: two levels of folders, docs/architecture.md.
+MAIN := src/app/main.f90
+SOURCES := $(filter-out $(MAIN),$(sort $(wildcard src/*/*.f90 src/*/*/*.f90 src/*/*/*.F90)))
+C_SOURCES := $(sort $(wildcard src/*/*/*.c))
 TEST_SOURCES := $(sort $(wildcard tests/unit/test_*.f90 tests/identity/test_*.f90 tests/order/test_*.f90 \
                 tests/invariance/test_*.f90))
 TEST_HELPERS := $(sort $(filter-out $(TEST_SOURCES),$(wildcard tests/*.f90 tests/unit/*.f90 tests/identity/*.f90 \
@@ -254,7 +252,7 @@ GENERATED := $(B)/build_info.f90 $(B)/tests/run_tests.f90
 
 object = $(patsubst %,$(B)/obj/%.o,$(basename $(1)))
 OBJECTS := $(call object,$(SOURCES) $(C_SOURCES)) $(B)/obj/gen/build_info.o
-MAIN_OBJECT := $(call object,src/main)
+MAIN_OBJECT := $(call object,$(MAIN))
 TEST_OBJECTS := $(call object,$(TEST_SOURCES) $(TEST_HELPERS)) $(B)/obj/gen/run_tests.o
 BENCH_PROGRAMS := $(BENCH_MAINS:tests/bench/%.f90=$(B)/bench/%)
 FILM_PROGRAMS := $(FILM_MAINS:tests/films/%.f90=$(B)/films/%)
@@ -357,7 +355,7 @@ LINK_PROGRAM = $(FC) $(FFLAGS) $(FIXED_PLACE) -o $@ $(sort $(filter %.o,$^)) $(L
 # Files that change only when their content does: flags, what is linked, build_info, the test program.
 keep_if_equal = cmp -s $(1).new $(1) && rm -f $(1).new || mv $(1).new $(1)
 $(shell mkdir -p $(sort $(B)/mod $(B)/obj/gen $(B)/tests $(B)/bench $(B)/films \
-  $(dir $(call object,$(SOURCES) $(C_SOURCES) src/main $(TEST_SOURCES) $(TEST_HELPERS) $(BENCH_MAINS) $(BENCH_HELPERS) \
+  $(dir $(call object,$(SOURCES) $(C_SOURCES) $(MAIN) $(TEST_SOURCES) $(TEST_HELPERS) $(BENCH_MAINS) $(BENCH_HELPERS) \
   $(FILM_MAINS) $(FILM_HELPERS) $(FUZZ_MAIN) $(COVERAGE)))))
 $(shell { $(FC) --version | head -n 1; echo '$(COMPILE) $(DEFINES) $(CC) $(CFLAGS)'; } > $(B)/flags.new; \
   $(call keep_if_equal,$(B)/flags); \
@@ -382,7 +380,7 @@ ifneq ($(stale),)
 $(shell rm -f $(stale))
 endif
 
-objects: $(OBJECTS) $(TEST_OBJECTS) $(if $(MAIN),$(MAIN_OBJECT)) $(call object,$(BENCH_MAINS) $(FILM_MAINS) $(FUZZ_MAIN))
+objects: $(OBJECTS) $(TEST_OBJECTS) $(MAIN_OBJECT) $(call object,$(BENCH_MAINS) $(FILM_MAINS) $(FUZZ_MAIN))
 binary: $(B)/gudgeon
 test_program: $(B)/tests/run_tests
 bench_programs: $(BENCH_PROGRAMS)
@@ -409,10 +407,10 @@ $(B)/tests/many_decks: $(call object,$(FUZZ_MAIN) $(COVERAGE)) $(OBJECTS) $(B)/o
 	@echo "  LD $@"
 	@$(LINK_PROGRAM)
 
-# What runs once takes longer to optimise than it can gain: tests, the reading of decks, the verbs and the studies that they make.
+# What runs once takes longer to optimise than it can gain: tests, the reading of decks, the verbs, the studies and the figures.
 ifeq ($(MODE),release)
-$(TEST_OBJECTS) $(call object,$(filter src/scene/% src/cli/% src/precision/% src/compare/% src/adams/% src/pictures/%,$(SOURCES)) \
-  src/analysis/driver_conflict): private FFLAGS += -O1
+RUNS_ONCE := input/scene input/adams studies results/figures results/comparison app
+$(TEST_OBJECTS) $(call object,$(filter $(RUNS_ONCE:%=src/%/%),$(SOURCES)) src/analysis/assembly/driver_conflict): private FFLAGS += -O1
 endif
 
 # Kernels that are text of a procedure so that they are part of it: the compiler finds sine and cosine too large for that. Their loops
@@ -420,19 +418,20 @@ endif
 # registers.
 ifeq ($(MODE),release)
 SHORT_LOOPS := -fno-tree-ch -fira-region=one -fno-move-loop-invariants -fno-tree-slsr
-$(call object,src/system/mechanism_direct.f90): private FFLAGS += -O2 -fno-gcse -fno-code-hoisting -fno-tree-pre $(SHORT_LOOPS) \
+$(call object,src/mechanics/system/mechanism_direct.f90): private FFLAGS += -O2 -fno-gcse -fno-code-hoisting -fno-tree-pre $(SHORT_LOOPS) \
   --param=max-inline-insns-auto=200
-$(call object,src/clearance/round_contacts.f90): private FFLAGS += $(SHORT_LOOPS) --param=max-inline-insns-auto=200
+$(call object,src/mechanics/clearance/round_contacts.f90): private FFLAGS += $(SHORT_LOOPS) --param=max-inline-insns-auto=200
 # what is looked at after each step
-$(call object,$(patsubst %,src/analysis/%.f90,dynamic guards instants contact_watch_steps) src/system/mechanism_scales.f90 \
-  src/integrators/integrator.f90 src/reduce/planar_guided.f90): \
-  private FFLAGS += $(SHORT_LOOPS)
-$(call object,src/system/balanced_report.f90 src/clearance/round_reports.f90): private FFLAGS += -O2 -fno-gcse --param=max-inline-insns-auto=200
+$(call object,$(patsubst %,src/%.f90,analysis/dynamic/dynamic analysis/times/instants analysis/monitors/guards \
+  analysis/monitors/contact_watch_steps integrators/contract/integrator mechanics/reduction/planar_guided \
+  mechanics/system/mechanism_scales)): private FFLAGS += $(SHORT_LOOPS)
+$(call object,$(patsubst %,src/mechanics/%.f90,system/balanced_report clearance/round_reports)): private FFLAGS += -O2 -fno-gcse --param=max-inline-insns-auto=200
 endif
 
 # What reads decks and makes kinds of their rows notes where it goes, for `make fuzz SECONDS=`.
 ifeq ($(MODE),sanitize)
-COVERED := core math deck functions contact lubrication joints forces clearance scene build
+COVERED := $(addprefix foundation/,core text units numerics curves expressions contracts) input/functions input/deck input/scene \
+  input/builder $(addprefix mechanics/,contact lubrication joints forces clearance)
 $(call object,$(filter $(COVERED:%=src/%/%),$(SOURCES))): private FFLAGS += -fsanitize-coverage=trace-pc
 $(B)/gudgeon $(B)/tests/run_tests: $(call object,$(COVERAGE))
 endif

@@ -20,8 +20,8 @@ PARTS = (
     ("small_run.csv", None, "A small run from start to exit",
      "The same mechanism, figures off: processor time of the whole process, median and least, and its greatest memory. The first run has "
      "two output instants of one channel, the second those of the deck (2401 instants, and rows at contacts)."),
-    ("rooms.csv", None, "Where the instructions of that run go",
-     "With the output of the deck, by room of src/ and by library (callgrind)."),
+    ("folders.csv", None, "Where the instructions of that run go",
+     "With the output of the deck, by folder of src/ and by library (callgrind)."),
     ("sample_cost.csv", None, "What a sample costs",
      "The same mechanism with twelve channels every 2 us, in instructions (callgrind). `evaluation`: of the right-hand side. `sample`: state, "
      "evaluation, reactions and channels at an output instant. `row`: what is then written to run.h5."),

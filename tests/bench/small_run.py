@@ -1,8 +1,8 @@
-"""What a small run costs from start to exit, what sampling adds, and which room of the sources the instructions are spent in.
+"""What a small run costs from start to exit, what sampling adds, and which folder of the sources the instructions are spent in.
 
 The dry slider-crank of two turns, figures off: processor time and greatest memory of the whole process, median and least of several
 rounds; with two output instants and one channel, and with those of the deck. With valgrind there, the share of instructions of
-each room of src/ and of each library, of the run with the deck's output.
+each folder of src/ and of each library, of the run with the deck's output.
 """
 
 import argparse
@@ -40,11 +40,11 @@ def cost(command):
     return float(told[1]), float(told[2])/1024
 
 
-def room_of(name):
-    """The room of a source file, or the library of a function without one."""
-    room = re.match(r"(?:\./)*src/([^/]+)/", name)
-    if room:
-        return room[1]
+def folder_of(name):
+    """The folder of a source file, as 'mechanics/joints', or the library of a function without one."""
+    folder = re.match(r"(?:\./)*src/(.+)/", name)
+    if folder:
+        return folder[1]
     if re.search(r"\.inc:", name):
         return "kernels (included text)"
     library = re.search(r"\[.*/([^/\]]+)\]", name)
@@ -55,7 +55,7 @@ def room_of(name):
 
 
 def shares(command, directory):
-    """Instructions of each room, in percent, the greatest first; None without valgrind."""
+    """Instructions of each folder, in percent, the greatest first; None without valgrind."""
     if not shutil.which("valgrind") or not shutil.which("callgrind_annotate"):
         return None
     out = directory / "callgrind.out"
@@ -67,10 +67,10 @@ def shares(command, directory):
     for line in text.splitlines():
         part = re.match(r"\s*([\d,]+) \([\s\d.]+%\)\s+(\S.*)", line)
         if part and part[2] != "PROGRAM TOTALS":
-            room = room_of(part[2])
-            found[room] = found.get(room, 0) + int(part[1].replace(",", ""))
+            folder = folder_of(part[2])
+            found[folder] = found.get(folder, 0) + int(part[1].replace(",", ""))
     total = sum(found.values())
-    return [{"room": room, "percent": 100*n/total, "millions": n/1e6} for room, n in sorted(found.items(), key=lambda item: -item[1])]
+    return [{"folder": folder, "percent": 100*n/total, "millions": n/1e6} for folder, n in sorted(found.items(), key=lambda item: -item[1])]
 
 
 def main():
@@ -78,7 +78,7 @@ def main():
     options = argparse.ArgumentParser(description=__doc__)
     options.add_argument("--build", type=pathlib.Path, default=ROOT / "build", help="where the program is")
     options.add_argument("--repeat", type=int, default=9, help="rounds of which the median is taken")
-    options.add_argument("--quick", action="store_true", help="no shares of rooms")
+    options.add_argument("--quick", action="store_true", help="no shares of folders")
     given, _ = options.parse_known_args()
     program, results = str(given.build / "gudgeon"), given.build / "bench"
     rows = []
@@ -96,15 +96,15 @@ def main():
         for name, costs in used.items():
             rows.append({"process": name, "cpu_ms": 1e3*statistics.median(c for c, _ in costs), "least_ms": 1e3*min(c for c, _ in costs),
                          "memory_mb": max(m for _, m in costs)})
-        rooms = None if given.quick else shares(list(commands.values())[-1], directory)
+        folders = None if given.quick else shares(list(commands.values())[-1], directory)
     print("\nA small run from start to exit: the dry slider-crank of two turns, figures off.\n")
     show(COLUMNS, rows)
     keep(COLUMNS, rows, results / "small_run.csv")
     print(LIMITS)
-    if rooms:
-        print("\nShare of the instructions of that run, by room of src/ and by library:\n")
-        show(("room", "percent", "millions"), rooms)
-        keep(("room", "percent", "millions"), rooms, results / "rooms.csv")
+    if folders:
+        print("\nShare of the instructions of that run, by folder of src/ and by library:\n")
+        show(("folder", "percent", "millions"), folders)
+        keep(("folder", "percent", "millions"), folders, results / "folders.csv")
 
 
 if __name__ == "__main__":

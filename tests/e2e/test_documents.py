@@ -19,11 +19,41 @@ def test_manual_has_the_equations(root):
         assert after.lstrip().startswith("```\n") and "Source: " in after.split("```")[1], kind
 
 
+def pages_of(root):
+    """The documents, and what each says."""
+    pages = [root / "README.md", root / "CONTRIBUTING.md", *sorted((root / "docs").glob("*.md"))]
+    return [(page, page.read_text(encoding="utf-8")) for page in pages]
+
+
 def test_links(root):
-    """Every file that README.md and docs/gallery.md link to is there."""
-    for page in (root / "README.md", root / "docs" / "gallery.md"):
-        for target in re.findall(r"\]\(([^)#]+)\)", page.read_text()):
-            assert (page.parent / target).exists(), f"{page.name}: {target}"
+    """Every file that a document links to is there."""
+    for page, text in pages_of(root):
+        for target in re.findall(r"\]\(([^)#\s]+)[^)]*\)", text):
+            if "://" not in target:
+                assert (page.parent / target).exists(), f"{page.name}: {target}"
+
+
+def test_paths(root):
+    """Every path of the sources, scripts, tests, decks and documents that a document names is there; capitals stand for any name."""
+    for page, text in pages_of(root):
+        for path in re.findall(r"(?<![\w/.-])(?:src|scripts|tests|inputs|docs)/[\w./*-]+", text):
+            if not re.search(r"[A-Z]{3}", path):
+                pattern = path.split("...")[0].rstrip("./*")
+                assert any(root.glob(f"{pattern}*")), f"{page.name}: {path}"
+
+
+def test_source_tree(root):
+    """docs/architecture.md names every folder of src/; its picture and the paths of its tables are those of the sources."""
+    text = (root / "docs/architecture.md").read_text(encoding="utf-8")
+    subprocess.run([root / "scripts/architecture_figure", "--check"], check=True)
+    folders = [folder for top in (root / "src").iterdir() for folder in (top, *top.iterdir()) if folder.is_dir()]
+    for folder in folders:
+        assert re.search(rf"^\| [^|]*\b{folder.name}\b", text, re.M), f"no line for {folder.relative_to(root)}"
+    tops = "|".join(top.name for top in (root / "src").iterdir())
+    for path in re.findall(rf"(?<![\w/])(?:{tops})/\w[\w/]*", text):
+        assert any((root / "src").glob(path)) or any((root / "src").glob(f"{path}.*")), path
+    for name in re.findall(r"`(\w+_registry)`|(\w+_registry) \|", text):
+        assert any((root / "src").glob(f"*/*/{name[0] or name[1]}.f90")), name
 
 
 def test_example_of_the_deck_page(gudgeon, root, tmp_path):

@@ -184,6 +184,6 @@ def test_citation_is_sound(root):
     text = (root / "CITATION.cff").read_text(encoding="utf-8")
     for key in ("cff-version: 1.2.0", "message:", "title:", "authors:", "doi: 10.1007/978-3-540-74361-3"):
         assert re.search(rf"^\s*{re.escape(key)}", text, re.M), key
-    version = re.search(r'program_version = "([^"]+)"', (root / "src/core/version.f90").read_text(encoding="utf-8")).group(1)
-    date = re.search(r'program_date = "([^"]+)"', (root / "src/core/version.f90").read_text(encoding="utf-8")).group(1)
+    version = re.search(r'program_version = "([^"]+)"', (root / "src/foundation/core/version.f90").read_text(encoding="utf-8")).group(1)
+    date = re.search(r'program_date = "([^"]+)"', (root / "src/foundation/core/version.f90").read_text(encoding="utf-8")).group(1)
     assert f"version: {version}\n" in text and f'date-released: "{date}"\n' in text

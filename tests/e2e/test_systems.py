@@ -36,6 +36,25 @@ def test_onsets_are_compared(root, tmp_path):
     assert call(compare, none, none).returncode == 1
 
 
+@pytest.mark.parametrize("path,line,message", [
+    ("foundation/core/errors.f90", "use mechanism, only: mechanism_t", "foundation/core must not use mechanics/system (module mechanism)"),
+    ("mechanics/bodies/motion.f90", "use joint_set, only: joint_set_t", "mechanics/bodies must not use mechanics/joints (module joint_set)"),
+    ("results/figures/figures.f90", "use dynamic, only: run_dynamic", "results/figures must not use analysis/dynamic (module dynamic)"),
+    ("mechanics/bodies/motion.f90", "use hdf5", "mechanics/bodies must not use the library module hdf5"),
+    ("mechanics/bodies/motion.f90", 'include "../clearance/push.inc"', "an include names a file beside this one or in a folder that mechanics/bodies may use")])
+def test_upward_uses_are_found(root, tmp_path, path, line, message):
+    """`scripts/check_layers` accepts the sources, and refuses a use of a folder that its table does not allow."""
+    (tmp_path / "scripts").mkdir()
+    shutil.copy(root / "scripts/check_layers", tmp_path / "scripts")
+    shutil.copytree(root / "src", tmp_path / "src")
+    done = call(tmp_path / "scripts/check_layers")
+    assert done.returncode == 0, done.stdout
+    source = tmp_path / "src" / path
+    source.write_text(source.read_text(encoding="utf-8") + line + "\n", encoding="utf-8")
+    done = call(tmp_path / "scripts/check_layers")
+    assert done.returncode == 1 and message in done.stdout, done.stdout
+
+
 def test_functions_in_selectors_are_found(root, tmp_path):
     """gfortran 14 takes a function that stands below the selector for an external one."""
     for folder in ("scripts", "src", "tests"):

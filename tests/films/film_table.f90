@@ -1,4 +1,4 @@
-!> Writes src/lubrication/finite_table.inc: film_table > FILE. The errors of the fit go to standard error. Some minutes.
+!> Writes src/mechanics/lubrication/finite_table.inc: film_table > FILE. The errors of the fit go to standard error. Some minutes.
 program film_table
    use, intrinsic :: iso_fortran_env, only: error_unit, output_unit
    use finite_bearing, only: n_mu, n_nu, n_ratio

@@ -1,4 +1,4 @@
-!> Writes src/lubrication/finite_flow.inc: flow_table > FILE. The error of the fit goes to standard error. Some seconds.
+!> Writes src/mechanics/lubrication/finite_flow.inc: flow_table > FILE. The error of the fit goes to standard error. Some seconds.
 program flow_table
    use finite_fit, only: node_ratio
    use finite_flow, only: flow_terms, n_flow_terms

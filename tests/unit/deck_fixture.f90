@@ -1,4 +1,4 @@
-!> Small kinds and decks for the tests of the room `deck`.
+!> Small kinds and decks for the tests of `input/deck`.
 module deck_fixture
    use deck_file, only: read_deck
    use deck_types, only: deck_t

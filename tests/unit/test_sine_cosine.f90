@@ -9,7 +9,7 @@ module test_sine_cosine
 
 contains
 
-   include "../../src/math/sine_cosine.inc"
+   include "../../src/foundation/numerics/sine_cosine.inc"
 
    !> Register the tests.
    subroutine run_test_sine_cosine(suite)
