@@ -174,7 +174,7 @@ contains
       end if
       n = nint(loaded%scene%settings%ensemble%number("runs"))
       if (options%change%member > n) then
-         call set_error(error, exit_usage, "the ensemble has "//to_text(n)//" runs; there is no run "// &
+         call set_error(error, exit_usage, "the ensemble has "//to_text(n)//" runs, but not run "// &
             to_text(options%change%member))
       end if
    end subroutine check_member

@@ -134,7 +134,7 @@ contains
                if (column == 0) call check_limits(scene%clearances(k)%info, item, column, message, help)
                if (column == 0) call check_law(scene, scene%clearances(k)%info, item, set, column, message, help)
                if (column == 0) cycle
-               call diagnostics%add(item%values(column)%location, message, "does not fit", help)
+               call diagnostics%add(item%values(column)%location, message, "does not match", help)
             end associate
          end do
       end do

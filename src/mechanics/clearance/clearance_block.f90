@@ -55,7 +55,7 @@ contains
       call add_direction(info, "axis_j", "axis of the block, in the frame of its body; default: consistent with the given "// &
          "positions", &
                          default="")
-      call add_direction(info, "width_axis", "direction of the width, in the frame of the guide's body; left out: x of &
+      call add_direction(info, "width_axis", "direction of the width, in the frame of the guide's body; default: x of &
                          &the joint", default="")
       call add_number(info, "width", dim_length, "width of the block, across", lower=0.0_wp, open_lower=.true.)
       call add_number(info, "height", dim_length, "height of the block, across axis and width", lower=0.0_wp, open_lower=.true.)

@@ -57,7 +57,7 @@ contains
       call add_direction(info, "axis_j", "axis of the pin, in the frame of its body; default: consistent with the given "// &
          "positions", &
                          default="")
-      call add_direction(info, "x_i", "where the angle of a film's supply is zero, in the frame of the bushing's body; left out: &
+      call add_direction(info, "x_i", "direction of the zero angle of a film supply, in the frame of the bushing body; default: &
                          &the body axis after the one nearest to the axis", default="")
       call add_socket_columns(info, "bushing", "pin")
       call add_number(info, "length", dim_length, "length of the bushing along its axis", lower=0.0_wp, open_lower=.true.)

@@ -30,7 +30,7 @@ contains
       type(kind_info_t) :: info  !! name and columns
 
       info%name = "contact.flores"
-      info%help = "Hertz contact with hysteresis damping, for any restitution; least accurate for low values"
+      info%help = "Hertz contact with hysteresis damping, for any restitution; error grows at low values"
       info%source = "Flores et al. (2011)"
       call add_elastic_columns(info)
       call add_restitution(info)

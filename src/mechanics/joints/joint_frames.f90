@@ -22,11 +22,11 @@ contains
    subroutine add_zero_columns(info)
       type(kind_info_t), intent(inout) :: info  !! the kind
 
-      call add_direction(info, "x_i", "reference direction across the axis, in the frame of the body of i; left out: the body axis &
+      call add_direction(info, "x_i", "reference direction across the axis, in the frame of the body of i; default: the body axis &
                          &after the one nearest to the axis", default="")
       call add_direction(info, "x_j", "the same of j, in the frame of its body", default="")
-      call add_word(info, "zero", "where the angle is zero: axes, with the reference directions of both bodies together; start, as &
-                    &the deck puts the bodies", default="axes", choices="axes "//from_start)
+      call add_word(info, "zero", "zero of the angle: axes, where the reference directions coincide; start, at the given &
+                    &positions of the bodies", default="axes", choices="axes "//from_start)
    end subroutine add_zero_columns
 
    !> The frames of an item, where the deck puts the bodies.

@@ -61,7 +61,7 @@ contains
       call add_direction(info, "axis_i", "direction of the pitch line, in the frame of the body of i", default='"1 0 0"')
       call add_direction(info, "axis_j", "axis of the pinion, in the frame of the body of j", default='"0 0 1"')
       call add_number(info, "radius", dim_length, "pitch radius of the pinion; negative: the pinion is on the right of the " &
-                      //"line, seen from the tip of its axis", not_zero=.true.)
+                      //"line, viewed against its axis", not_zero=.true.)
       call add_reaction_channels(info)
    end function rack_info
 

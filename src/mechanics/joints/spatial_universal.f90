@@ -51,10 +51,10 @@ contains
       call add_direction(info, "axis_i", "arm of the cross, in the frame of the body of i")
       call add_direction(info, "axis_j", "arm of the cross, in the frame of the body of j")
       call add_spatial_channels(info)
-      call add_channel(info, "angle_i", "rad", "joint", 1, "angle of the cross against i about its arm in i, zero as the deck &
-                       &puts the bodies, between -pi and pi", of_angle)
-      call add_channel(info, "angle_j", "rad", "joint", 1, "angle of j against the cross about its arm in j, zero as the deck &
-                       &puts the bodies, between -pi and pi", of_angle + 1)
+      call add_channel(info, "angle_i", "rad", "joint", 1, "angle of the cross relative to i about its arm in i, zero at the given &
+                       &positions, between -pi and pi", of_angle)
+      call add_channel(info, "angle_j", "rad", "joint", 1, "angle of j relative to the cross about its arm in j, zero at the given &
+                       &positions, between -pi and pi", of_angle + 1)
       call add_channel(info, "angular_rate_i", "rad/s", "joint", 1, "rate of angle_i", of_angular_rate)
       call add_channel(info, "angular_rate_j", "rad/s", "joint", 1, "rate of angle_j", of_angular_rate + 1)
    end function universal_info

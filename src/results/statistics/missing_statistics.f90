@@ -65,8 +65,7 @@ contains
       end do
       if (n == 0) return
       if (n > most_named) names = names//" and "//to_text(n - most_named)//" more"
-      call append_text(warnings, ": no two consecutive output times of the statistics "//names(3:)//": no two output instants "// &
-         "of the statistics, "// &
+      call append_text(warnings, "no mean and no RMS of "//names(3:)//": no two consecutive output times of the statistics "// &
                        "have a value")
    end subroutine add_missing
 
