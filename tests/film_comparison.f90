@@ -18,7 +18,7 @@ module film_comparison
       !! (2, 4) eps' and w_J + w_B - 2 gamma' of the motions [1/s, rad/s]
    integer, parameter :: n_column = 240  !! columns of the grid
    integer, parameter :: n_row = 24      !! rows of the half length
-   real(wp), parameter :: least_angle = 5.0e-4_wp  !! what is less is none in three digits [deg]
+   real(wp), parameter :: min_angle = 5.0e-4_wp  !! what is less is none in three digits [deg]
 
    !> A film beside the grid.
    type :: error_row_t
@@ -77,7 +77,7 @@ contains
       name = case%name
       row%force = norm2(own)/norm2(f)
       row%angle = atan2(f(1)*own(2) - f(2)*own(1), dot_product(f, own))*180.0_wp/pi
-      if (abs(row%angle) < least_angle) row%angle = 0.0_wp
+      if (abs(row%angle) < min_angle) row%angle = 0.0_wp
       row%error = 100.0_wp*norm2(own - f)/norm2(f)
    end subroutine row_of
 

@@ -223,10 +223,10 @@ contains
    end subroutine compare_often
 
    !> Works and energies after a run agree, and the ledger closes, with all coordinates and without.
-   subroutine compare_works(deck, end, least_work, error)
+   subroutine compare_works(deck, end, min_work, error)
       character(*), intent(in) :: deck                        !! the deck, without its analysis
       real(wp), intent(in) :: end                             !! of the run [s]
-      real(wp), intent(in) :: least_work                      !! that the drivers do [J]
+      real(wp), intent(in) :: min_work                      !! that the drivers do [J]
       type(error_t), allocatable, intent(inout) :: error      !! first failure
 
       type(energy_t) :: energy(2)
@@ -251,7 +251,7 @@ contains
          call check_close(error, [b%kinetic, b%potential, b%elastic, b%drive_work, b%load_work, b%dissipated_damper], &
                           [a%kinetic, a%potential, a%elastic, a%drive_work, a%load_work, a%dissipated_damper], 1.0e-7_wp, &
                           "energies and works", relative=.true.)
-         call check_true(error, abs(a%drive_work) > least_work, "the drivers work")
+         call check_true(error, abs(a%drive_work) > min_work, "the drivers work")
          call check_true(error, abs(b%stabilisation_work) < 1.0e-9_wp*abs(b%drive_work), "nothing is left to the stabilisation")
       end associate
    end subroutine compare_works

@@ -16,7 +16,7 @@ program film_cost
    integer, parameter :: n_state = 1000           ! bearings in one call, of fast films
    integer, parameter :: n_few = 10               ! bearings in one call, of slow ones
    real(wp), parameter :: slow = 1.0e-3_wp        ! time of a few bearings from which a film is slow [s]
-   real(wp), parameter :: least_time = 0.1_wp     ! of a measurement [s]
+   real(wp), parameter :: min_time = 0.1_wp     ! of a measurement [s]
    integer, parameter :: n_repeat = 3             ! measurements, of which the shortest counts
    type(film_bearing_t), parameter :: bearing = film_bearing_t(10.0e-3_wp, 0.1e-3_wp, 20.0e-3_wp, 0.1_wp, 0.999_wp)
 
@@ -96,7 +96,7 @@ contains
             end do
             call system_clock(end)
             one = real(end - begin, wp)/real(rate, wp)
-            if (one > least_time) exit
+            if (one > min_time) exit
          end do
          time = min(time, one/real(n, wp))
       end do

@@ -41,7 +41,7 @@ module minimal_solution
    real(dp), parameter :: hysteresis = 0.75_dp*(1.0_dp - restitution**2)  !! factor of d'/v [1]
 
    real(dp), parameter :: per_j = 1.0_dp/(j3 + m3*(0.5_dp*l3)**2)  !! about the pin [1/(kg.m^2)]
-   real(dp), parameter :: swing = per_j*m3*0.5_dp*l3*l2*omega**2   !! of the driven pin [rad/s^2]
+   real(dp), parameter :: contact_rate = per_j*m3*0.5_dp*l3*l2*omega**2   !! of the driven pin [rad/s^2]
    real(dp), parameter :: m_contact = 1.0_dp/(1.0_dp/m4 + l3**2*per_j)  !! rough, of an impact [kg]
    real(dp), parameter :: h_max = 2.0e-4_dp  !! longest step: six degrees of the crank [s]
 
@@ -73,7 +73,7 @@ contains
       if (closed) then
          call observe(t, y, closed, chi, f, g)
       else
-         f = [y(2), swing*sin(omega*t - y(1)), y(4), 0.0_dp]
+         f = [y(2), contact_rate*sin(omega*t - y(1)), y(4), 0.0_dp]
       end if
    end subroutine evaluate
 
@@ -97,7 +97,7 @@ contains
       half_rate = ey*(l2*omega*crank_x + l3*rod_x*y(2)) &
          - ex*(l2*omega*crank_y + l3*rod_y*y(2) + y(4))
       g = [ex*ex + ey*ey - c*c, 2.0_dp*half_rate]
-      f = [y(2), swing*(crank_y*rod_x - crank_x*rod_y), y(4), 0.0_dp]
+      f = [y(2), contact_rate*(crank_y*rod_x - crank_x*rod_y), y(4), 0.0_dp]
       if (closed .and. g(1) > 0.0_dp) then
          e = sqrt(g(1) + c*c)
          depth = e - c

@@ -8,13 +8,13 @@ program film_table
 
    integer, parameter :: per_line = 14         !! numbers
    real(wp), parameter :: unit = 1.0e-5_wp     !! of a number [1]
-   real(wp) :: fit(0:n_nu, -n_mu:n_mu, n_ratio), greatest_error
+   real(wp) :: fit(0:n_nu, -n_mu:n_mu, n_ratio), max_error
    integer :: i, j, k, n
    integer :: numbers(n_ratio, -2:n_nu, -n_mu:n_mu)
 
    do k = 1, n_ratio
-      call fit_ratio(node_ratio(k), fit(:, :, k), greatest_error)
-      write (error_unit, "(a, f7.4, a, es9.2)") "L/D ", node_ratio(k), "  greatest error of force over force ", greatest_error
+      call fit_ratio(node_ratio(k), fit(:, :, k), max_error)
+      write (error_unit, "(a, f7.4, a, es9.2)") "L/D ", node_ratio(k), "  greatest error of force over force ", max_error
    end do
    do i = -n_mu, n_mu
       do j = -2, n_nu

@@ -4,7 +4,7 @@
 !> along the direction of v from the forces of the grid, least squares with weights that make residuals errors of force over
 !> force. A little of the second differences holds coefficients outside the disc.
 module finite_fit
-   use finite_bearing, only: basis, finite_place, finite_place_t, greatest_lambda, greatest_ratio, knot_distance, least_ratio, &
+   use finite_bearing, only: basis, finite_place, finite_place_t, max_lambda, max_ratio, knot_distance, min_ratio, &
       n_local, n_mu, n_nu, n_ratio
    use kinds, only: pi, wp
    use lapack, only: dgels
@@ -18,7 +18,7 @@ module finite_fit
    integer, parameter :: n_column = 240                    !! columns of the grid
    integer, parameter :: n_row = 24                        !! rows of the half length
    real(wp), parameter :: lattice = 0.17_wp                !! distance of states in the disc [1]
-   integer, parameter :: n_side = ceiling(greatest_lambda/lattice)  !! states on a side of the disc
+   integer, parameter :: n_side = ceiling(max_lambda/lattice)  !! states on a side of the disc
    integer, parameter :: n_edge = 60                       !! states on the rim, and on the axis
    integer, parameter :: n_unknown = (n_nu + 1)*(2*n_mu + 1)  !! splines
    real(wp), parameter :: roughness = 1.0e-3_wp            !! weight of second differences [1]
@@ -29,14 +29,14 @@ contains
    pure real(wp) function node_ratio(k)
       integer, intent(in) :: k  !! which, 1 to n_ratio
 
-      node_ratio = sqrt(least_ratio*greatest_ratio)*sqrt(greatest_ratio/least_ratio)**cos(pi*(k - 0.5_wp)/n_ratio)
+      node_ratio = sqrt(min_ratio*max_ratio)*sqrt(max_ratio/min_ratio)**cos(pi*(k - 0.5_wp)/n_ratio)
    end function node_ratio
 
    !> Splines of one L/D, and the greatest error of force over force at the states.
-   subroutine fit_ratio(ratio, coefficient, greatest_error)
+   subroutine fit_ratio(ratio, coefficient, max_error)
       real(wp), intent(in) :: ratio                                   !! L/D [1]
       real(wp), intent(out) :: coefficient(0:n_nu, -n_mu:n_mu)        !! (0:n_nu, -n_mu:n_mu) splines of S [1]
-      real(wp), intent(out) :: greatest_error                         !! greatest residual [1]
+      real(wp), intent(out) :: max_error                         !! greatest residual [1]
 
       real(wp), allocatable :: a(:, :), b(:), kept(:, :), work(:)
       integer :: info, n_data, n_row_used
@@ -54,7 +54,7 @@ contains
       call dgels("N", n_row_used, n_unknown, 1, a, size(a, 1), b, size(b), work, size(work), info)
       if (info /= 0) error stop "the fit has no solution"
       coefficient = reshape(b(:n_unknown), [n_nu + 1, 2*n_mu + 1])
-      greatest_error = maxval(abs(matmul(kept(:, :n_unknown), b(:n_unknown)) - kept(:, n_unknown + 1)))
+      max_error = maxval(abs(matmul(kept(:, :n_unknown), b(:n_unknown)) - kept(:, n_unknown + 1)))
    end subroutine fit_ratio
 
    !> States over the disc, each near to the one before, on its axis and on its rim.
@@ -74,15 +74,15 @@ contains
          nu = (k - 0.5_wp)*lattice
          do i = 1, 2*n_side
             mu = (-1)**k*(i - n_side - 0.5_wp)*lattice
-            if (hypot(mu, nu) < greatest_lambda) call add_state(grid, mu, nu, a, b, n)
+            if (hypot(mu, nu) < max_lambda) call add_state(grid, mu, nu, a, b, n)
          end do
       end do
       do k = 0, n_edge
          angle = pi*k/n_edge
-         call add_state(grid, greatest_lambda*cos(angle), greatest_lambda*sin(angle), a, b, n)
+         call add_state(grid, max_lambda*cos(angle), max_lambda*sin(angle), a, b, n)
       end do
       do k = 0, n_edge
-         call add_state(grid, greatest_lambda*(2.0_wp*k/n_edge - 1.0_wp), 0.0_wp, a, b, n)
+         call add_state(grid, max_lambda*(2.0_wp*k/n_edge - 1.0_wp), 0.0_wp, a, b, n)
       end do
    end subroutine add_states
 

@@ -226,12 +226,12 @@ contains
       type(bench_t), intent(inout) :: bench   !! the set
       integer, intent(in) :: contact          !! its contact
 
-      if (bench%set%grip%memory == memory_none) return
-      call bench%set%lie(contact, bench%motion, bench%set%grip%tangent(contact))
-      associate (grip => bench%set%grip)
-         if (grip%memory == memory_slip) call bench%set%slip_toward(contact, grip%tangent(contact)%v)
-         if (grip%memory == memory_bristle) then
-            grip%z(1, contact) = sign(0.5_wp*bench%set%laws%friction%bristle_scale(), grip%tangent(contact)%v(1))
+      if (bench%set%stick_slip%memory == memory_none) return
+      call bench%set%lie(contact, bench%motion, bench%set%stick_slip%tangent(contact))
+      associate (stick_slip => bench%set%stick_slip)
+         if (stick_slip%memory == memory_slip) call bench%set%slip_toward(contact, stick_slip%tangent(contact)%v)
+         if (stick_slip%memory == memory_bristle) then
+            stick_slip%z(1, contact) = sign(0.5_wp*bench%set%laws%friction%bristle_scale(), stick_slip%tangent(contact)%v(1))
          end if
       end associate
    end subroutine let_slip

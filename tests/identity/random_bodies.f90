@@ -13,7 +13,7 @@ module random_bodies
    use rows, only: list_sides, new_rows, rows_t
    implicit none (type, external)
    private
-   public :: all_unknown, least_solution, new_problem, problem_t, solve_fully, some_known, tree
+   public :: all_unknown, min_solution, new_problem, problem_t, solve_fully, some_known, tree
 
    logical, parameter :: all_unknown(8) = .false.  !! (bodies) whether the motion of a body is known: of none
    logical, parameter :: some_known(9) = [.false., .true., .false., .false., .true., .false., .false., .false., .true.]  !! of three
@@ -134,7 +134,7 @@ contains
          matrix(:n, n + 1:) = transpose(matrix(n + 1:, :n))
          x = [reshape(problem%g(:, rows%unknown), [n])*root, problem%b(:m)/scale]
          if (is_singular) then
-            call least_solution(matrix, x, rank)
+            call min_solution(matrix, x, rank)
          else
             allocate (pivots(n + m), source=0)
             call dgetrf(n + m, n + m, matrix, n + m, pivots, info)
@@ -147,7 +147,7 @@ contains
    end subroutine solve_fully
 
    !> The least x, by singular values, that fulfils as much of A x = b as there can be.
-   subroutine least_solution(matrix, x, rank)
+   subroutine min_solution(matrix, x, rank)
       real(wp), intent(in) :: matrix(:, :)             !! (m, n) A [any]
       real(wp), allocatable, intent(inout) :: x(:)     !! (m) b, then (n) the solution [any]
       integer, intent(out) :: rank                     !! rank of A
@@ -166,6 +166,6 @@ contains
       work = spread(0.0_wp, 1, int(work(1)))
       call dgelsd(m, n, 1, a, m, b, max(m, n), s, 1.0e-11_wp, rank, work, size(work), iwork, info)
       x = b(:n, 1)
-   end subroutine least_solution
+   end subroutine min_solution
 
 end module random_bodies

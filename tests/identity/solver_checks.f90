@@ -81,7 +81,7 @@ contains
       character(*), intent(in) :: what                    !! scene and solver
       type(error_t), allocatable, intent(inout) :: error  !! first failure
 
-      real(wp) :: bodies(3, 0:system%linkage%bodies%n), greatest(2), row_left
+      real(wp) :: bodies(3, 0:system%linkage%bodies%n), maximum(2), row_left
       integer :: body, row, side
 
       if (allocated(error)) return
@@ -89,7 +89,7 @@ contains
       do body = 1, system%linkage%bodies%n
          bodies(:, body) = system%linkage%mass(:, body)*system%linkage%solution%a(:, body) - system%loading%g(:, body)
       end do
-      greatest = [maxval(abs(system%loading%g)), max(maxval(abs(system%linkage%solution%b)), &
+      maximum = [maxval(abs(system%loading%g)), max(maxval(abs(system%linkage%solution%b)), &
                                                      maxval(abs(system%loading%g*system%linkage%inverse_mass)))]
       do row = 1, system%linkage%rows%n_solve
          row_left = -system%linkage%solution%b(row)
@@ -98,17 +98,17 @@ contains
             if (body == 0) cycle
             associate (jac => system%linkage%rows%jac(3*side - 2:3*side, row))
                bodies(:, body) = bodies(:, body) + jac*system%linkage%solution%lambda(row)
-               greatest(1) = max(greatest(1), maxval(abs(jac*system%linkage%solution%lambda(row))))
+               maximum(1) = max(maximum(1), maxval(abs(jac*system%linkage%solution%lambda(row))))
                if (.not. any(system%linkage%rows%unknown == body)) cycle
                row_left = row_left + dot_product(jac, system%linkage%solution%a(:, body))
-               greatest(2) = max(greatest(2), maxval(abs(jac*system%linkage%solution%a(:, body))))
+               maximum(2) = max(maximum(2), maxval(abs(jac*system%linkage%solution%a(:, body))))
             end associate
          end do
-         call check_close(error, row_left, 0.0_wp, 1.0e-10_wp*greatest(2), what//": row of "//system%linkage%row_name(row))
+         call check_close(error, row_left, 0.0_wp, 1.0e-10_wp*maximum(2), what//": row of "//system%linkage%row_name(row))
       end do
       do body = 1, system%linkage%bodies%n
          if (.not. any(system%linkage%rows%unknown == body)) cycle
-         call check_close(error, bodies(:, body), spread(0.0_wp, 1, 3), 1.0e-10_wp*greatest(1), what//": motion of "// &
+         call check_close(error, bodies(:, body), spread(0.0_wp, 1, 3), 1.0e-10_wp*maximum(1), what//": motion of "// &
                           system%linkage%bodies%names(body)%s)
       end do
    end subroutine check_equations

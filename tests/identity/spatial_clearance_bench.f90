@@ -295,12 +295,12 @@ contains
       type(bench_t), intent(inout) :: bench   !! the set
       integer, intent(in) :: k                !! its contact
 
-      if (bench%set%grip%memory == memory_none) return
+      if (bench%set%stick_slip%memory == memory_none) return
       call bench%set%lay(k, bench%motion)
-      associate (grip => bench%set%grip, tangent => bench%set%grip%tangent(k))
-         if (grip%memory == memory_slip) call bench%set%slip_toward(k, tangent%v)
-         if (grip%memory == memory_bristle) then
-            grip%z(:, k) = 0.5_wp*bench%set%laws%friction%bristle_scale()*matmul(tangent%t, tangent%v/norm2(tangent%v))
+      associate (stick_slip => bench%set%stick_slip, tangent => bench%set%stick_slip%tangent(k))
+         if (stick_slip%memory == memory_slip) call bench%set%slip_toward(k, tangent%v)
+         if (stick_slip%memory == memory_bristle) then
+            stick_slip%z(:, k) = 0.5_wp*bench%set%laws%friction%bristle_scale()*matmul(tangent%t, tangent%v/norm2(tangent%v))
          end if
       end associate
    end subroutine let_slip

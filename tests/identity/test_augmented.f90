@@ -7,8 +7,8 @@ module test_augmented
    use columns, only: column_of
    use errors, only: error_t
    use fixed_random, only: random_t
-   use hold, only: hold_t
-   use hold_registry, only: n_hold_kinds, new_hold
+   use stabilisation, only: stabilisation_t
+   use stabilisation_registry, only: n_stabilisation_kinds, new_stabilisation
    use item, only: option_t
    use kind_info, only: kind_info_t
    use kinds, only: i8, wp
@@ -55,7 +55,7 @@ contains
       type(error_t), allocatable, intent(out) :: error  !! what failed
 
       character(*), parameter :: names(6) = [character(7) :: "alpha", "beta", "target", "penalty", "omega", "mu"]
-      class(hold_t), allocatable :: set, unset
+      class(stabilisation_t), allocatable :: set, unset
       type(kind_info_t) :: info
       type(option_t) :: option
       character(:), allocatable :: all_names
@@ -68,11 +68,11 @@ contains
       info = dynamic_info()
       call check_equal(error, " "//info%columns(column_of(info, "stabilise"))%options, all_names, "options of the key")
       option%number = 0.1234_wp
-      do k = 1, n_hold_kinds
+      do k = 1, n_stabilisation_kinds
          do i = 1, size(names)
             option%name = trim(names(i))
-            call new_hold(k, set)
-            call new_hold(k, unset)
+            call new_stabilisation(k, set)
+            call new_stabilisation(k, unset)
             call unset%configure([option_t ::], 1.0e-8_wp)
             call set%configure([option], 1.0e-8_wp)
             info = word_options("stabilise", set%name())

@@ -25,7 +25,7 @@ contains
       call suite%test("free_items", test_free_items)
       call suite%test("centred_journal", test_centred_journal)
       call suite%test("channels_of_an_evaluation", test_channels_of_an_evaluation)
-      call suite%test("watch_of_an_evaluation", test_watch_of_an_evaluation)
+      call suite%test("watch_of_an_evaluation", test_monitor_of_an_evaluation)
       call suite%test("memory", test_memory)
    end subroutine run_test_clearance_states
 
@@ -155,15 +155,15 @@ contains
       end do
    end subroutine channels_of_an_evaluation
 
-   subroutine test_watch_of_an_evaluation(error)
+   subroutine test_monitor_of_an_evaluation(error)
       type(error_t), allocatable, intent(out) :: error  !! what failed
 
-      call claim_all(error, watch_of_an_evaluation)
-   end subroutine test_watch_of_an_evaluation
+      call claim_all(error, monitor_of_an_evaluation)
+   end subroutine test_monitor_of_an_evaluation
 
    !> Gaps, forces and energy that are those of the evaluation are those that are found anew; once a contact has changed, what the
    !> evaluation found does not count.
-   subroutine watch_of_an_evaluation(error, bench)
+   subroutine monitor_of_an_evaluation(error, bench)
       type(error_t), allocatable, intent(inout) :: error  !! what failed
       type(bench_t), intent(inout) :: bench               !! the combination
 
@@ -179,12 +179,12 @@ contains
       call check_close(error, taken, anew, 1.0e-14_wp*maxval(abs(anew)), bench%name//": gaps, rates, energy")
       do k = 1, bench%set%n_contact
          if (.not. bench%set%contact(k)%is_touching) cycle
-         call watch(2, watched(:, 2))
-         call watch(1, watched(:, 1))
+         call monitor(2, watched(:, 2))
+         call monitor(1, watched(:, 1))
          call check_close(error, watched(:, 1)/watched(:, 2), [1.0_wp, 1.0_wp, 1.0_wp, 1.0_wp], 1.0e-10_wp, bench%name//": watch")
          call bench%set%set_impact_speed(k, 3.0_wp*bench%set%contact(k)%impact_speed)
-         call watch(2, watched(:, 2))
-         call watch(1, watched(:, 1))
+         call monitor(2, watched(:, 2))
+         call monitor(1, watched(:, 1))
          call check_true(error, all(abs(watched(:, 1) - watched(:, 2)) <= 0.0_wp), bench%name//": after a change")
          call evaluate_loads(bench, loads, integrands)
       end do
@@ -204,16 +204,16 @@ contains
       end subroutine look
 
       !> What is watched of the contact at the motion.
-      subroutine watch(number, found)
+      subroutine monitor(number, found)
          integer, intent(in) :: number       !! of the motion
          real(wp), intent(out) :: found(4)   !! (4) penetration, its rate, force, its rate [m, m/s, N, N/s]
 
          bench%motion%number = number
-         call bench%set%watch(k, bench%motion, found(1), found(2), found(3), found(4))
+         call bench%set%monitor(k, bench%motion, found(1), found(2), found(3), found(4))
          bench%motion%number = 1
-      end subroutine watch
+      end subroutine monitor
 
-   end subroutine watch_of_an_evaluation
+   end subroutine monitor_of_an_evaluation
 
    !> Speed of the journal's centre against the bearing's when they coincide.
    function speed_of_journal(bench, item) result(speed)

@@ -259,10 +259,10 @@ contains
          item = bench%touching(m)
          do k = 1, size(six_places)
             call move_to(bench, six_places(k)*h)
-            call bench%set%watch(item, bench%motion, unused(1), unused(2), force(k), unused(3))
+            call bench%set%monitor(item, bench%motion, unused(1), unused(2), force(k), unused(3))
          end do
          call get_gaps(bench, 0.0_wp, delta_all, rate_all)
-         call bench%set%watch(item, bench%motion, delta, rate, f, slope)
+         call bench%set%monitor(item, bench%motion, delta, rate, f, slope)
          call check_true(error, minval(force) > 100.0_wp, bench%name//": the force is not cut off")
          call check_close(error, slope, six_point(force, h), 1.0e-7_wp*max(abs(slope), f*maxval(abs(rate_all))/abs(delta)), &
                           bench%name//": rate of the force")

@@ -3,7 +3,7 @@
 module test_direct_reports
    use, intrinsic :: ieee_arithmetic, only: ieee_is_nan
    use catalogue, only: catalogue_t
-   use catalogue_rooms, only: room_clearances, room_contacts, room_drivers
+   use groups_of_catalogue, only: group_clearances, group_contacts, group_drivers
    use check, only: check_close, check_equal, check_true, suite_t
    use errors, only: error_t
    use kinds, only: wp
@@ -62,8 +62,8 @@ contains
       call start_text(with_word(slider_crank("", "damped", friction, "clearance"), "fewest"), system, start, error)
       if (allocated(error)) return
       call check_true(error, system%is_direct, "nothing is solved")
-      if (touches) call system%loose%sets(1)%set%begin_contact(1, 0.0_wp, 2.0_wp, 0.0_wp)
-      if (present(speed)) system%loose%sets(1)%set%contact(1)%impact_speed = speed
+      if (touches) call system%clearance_joints%sets(1)%set%begin_contact(1, 0.0_wp, 2.0_wp, 0.0_wp)
+      if (present(speed)) system%clearance_joints%sets(1)%set%contact(1)%impact_speed = speed
       start(1:2) = start(1:2) + [0.0_wp, aside]
       start(3:4) = start(3:4) + [20.0_wp, 0.4_wp]
       ydot = start
@@ -74,7 +74,7 @@ contains
       do k = 1, size(all_of%groups)
          associate (group => all_of%groups(k))
             allowed = 0.0_wp
-            if (group%room == room_clearances .or. group%room == room_contacts) allowed = 4.0e-15_wp
+            if (group%room == group_clearances .or. group%room == group_contacts) allowed = 4.0e-15_wp
             do item = 1, size(group%has)
                if (.not. group%has(item)) cycle
                call ask_alone(system, k, item, one_of)
@@ -120,14 +120,14 @@ contains
       if (allocated(error)) return
       call build_catalogue(system, catalogue)
       call check_true(error, size(catalogue%readings%rows%sets) > 0, "violations are read of rows")
-      call ask_alone(system, catalogue%find_group(room_drivers, "moment"), 1, catalogue)
+      call ask_alone(system, catalogue%find_group(group_drivers, "moment"), 1, catalogue)
       associate (plan => catalogue%readings)
          call check_equal(error, size(plan%rows%sets), 0, "rows for a driving moment")
          call check_equal(error, plan%balance%n_reading, 1, "what follows from a balance")
          call check_equal(error, plan%balance%n, 2, "bodies: crank and rod")
          call check_true(error, plan%balance%base(1) == plan%balance%body(2) .and. plan%balance%base(2) == 0, "the rod first")
       end associate
-      call ask_alone(system, catalogue%find_group(room_drivers, "coordinate"), 1, catalogue)
+      call ask_alone(system, catalogue%find_group(group_drivers, "coordinate"), 1, catalogue)
       call check_equal(error, catalogue%readings%balance%n, 0, "bodies for a coordinate")
    end subroutine test_needed
 

@@ -135,14 +135,14 @@ contains
       real(wp), intent(in) :: eps, eps_dot, om   !! state [1, 1/s, rad/s]
       real(wp) :: f(2)                           !! (2) along n and t [1/s]
 
-      integer, parameter :: n_piece = 256
+      integer, parameter :: n_segment = 256
       real(wp) :: a, b, high, low
       integer :: k
 
       f = 0.0_wp
-      do k = 1, merge(n_piece/2, n_piece, extent == first_half)
-         a = 2.0_wp*pi*real(k - 1, wp)/n_piece
-         b = 2.0_wp*pi*real(k, wp)/n_piece
+      do k = 1, merge(n_segment/2, n_segment, extent == first_half)
+         a = 2.0_wp*pi*real(k - 1, wp)/n_segment
+         b = 2.0_wp*pi*real(k, wp)/n_segment
          if (extent == where_positive) then
             low = in_variable(a)
             high = in_variable(b)
@@ -150,7 +150,7 @@ contains
             if (low < 0.0_wp) a = root_between(a, b)
             if (high < 0.0_wp) b = root_between(a, b)
          end if
-         call add_piece(a, b)
+         call add_segment(a, b)
       end do
       f = f*merge(0.5_wp, 6.0_wp, shape == short)
 
@@ -189,7 +189,7 @@ contains
       end function root_between
 
       !> One piece, by three points.
-      subroutine add_piece(x_1, x_2)
+      subroutine add_segment(x_1, x_2)
          real(wp), intent(in) :: x_1, x_2  !! its ends [rad]
 
          real(wp), parameter :: weight(3) = [5.0_wp, 8.0_wp, 5.0_wp]/18.0_wp
@@ -201,7 +201,7 @@ contains
             theta = angle_of(x)
             f = f + weight(m)*(x_2 - x_1)*sqrt(1.0_wp - eps*eps)/(1.0_wp - eps*cos(x))*in_variable(x)*[cos(theta), sin(theta)]
          end do
-      end subroutine add_piece
+      end subroutine add_segment
 
    end function force_of_pressure
 

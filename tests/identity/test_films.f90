@@ -80,10 +80,10 @@ contains
 
       do k = 1, size(names)
          call make_film(trim(names(k)), " ", " ", unit_bearing(), case)
-         call check_true(error, greatest_power(case) <= 0.0_wp, trim(names(k))//" feeds energy in")
+         call check_true(error, max_power(case) <= 0.0_wp, trim(names(k))//" feeds energy in")
       end do
       call make_film("squeeze", "pressure", "positive", unit_bearing(), case)
-      call check_true(error, greatest_power(case) <= 0.0_wp, "positive squeeze feeds energy in")
+      call check_true(error, max_power(case) <= 0.0_wp, "positive squeeze feeds energy in")
    end subroutine test_dissipative
 
    !> The printed radial force of a parting journal feeds in what it can, and it jumps at eps' = 0.
@@ -94,7 +94,7 @@ contains
       real(wp) :: before(2), after(2)
 
       call make_film("pinkus_sternlicht", "form", "book", unit_bearing(), book)
-      call check_true(error, greatest_power(book) > 0.99_wp, "book: power")
+      call check_true(error, max_power(book) > 0.99_wp, "book: power")
       before = components(book, 0.5_wp, -1.0_wp, 1.0_wp)
       call check_close(error, before(1), -8.44_wp, 5.0e-3_wp, "book: parting")
       before = components(book, 0.5_wp, -1.0e-12_wp, 1.0_wp)
@@ -111,7 +111,7 @@ contains
    end subroutine test_book_feeds_energy_in
 
    !> Greatest power of random states, of |F| |v|.
-   real(wp) function greatest_power(case) result(greatest)
+   real(wp) function max_power(case) result(maximum)
       type(film_case_t), intent(in) :: case  !! the film
 
       type(film_motion_t) :: motion
@@ -119,15 +119,15 @@ contains
       real(wp) :: f(2), v(2)
       integer :: k
 
-      greatest = -1.0_wp
+      maximum = -1.0_wp
       do k = 1, n_random
          motion = motion_of(case, random%between(0.0_wp, 0.99_wp), 0.0_wp, random%between(-2.0_wp, 2.0_wp), random%between(-pi, pi))
          motion%e_dot = random%vector(2, -1.0_wp, 1.0_wp)*10.0_wp**random%between(-3.0_wp, 1.0_wp)
          f = force_of(case, motion)
          v = motion%e_dot - 0.5_wp*motion%speed_sum*[-motion%e(2), motion%e(1)]
-         greatest = max(greatest, dot_product(f, v)/(norm2(f)*norm2(v) + tiny(1.0_wp)))
+         maximum = max(maximum, dot_product(f, v)/(norm2(f)*norm2(v) + tiny(1.0_wp)))
       end do
-   end function greatest_power
+   end function max_power
 
    !> No eccentricity, no squeeze, no speed, and pairs of them, of every kind: finite; nothing moves: no force.
    subroutine test_special_states(error)

@@ -40,10 +40,10 @@ contains
 
       call suite%test("slider_crank", test_slider_crank)
       call suite%test("contact_on_a_known_body", test_contact_on_a_known_body)
-      call suite%test("contact_of_guided_bodies", test_contact_of_guided_bodies)
+      call suite%test("contact_of_guided_bodies", test_contact_of_one_dof_bodies)
       call suite%test("direct_where_nothing_is_solved", test_direct)
       call suite%test("robot_arm", test_robot_arm)
-      call suite%test("guided_bodies", test_guided)
+      call suite%test("guided_bodies", test_one_dof)
       call suite%test("loop_between_known_bodies", test_loop)
       call suite%test("two_drivers_on_one_joint", test_two_drivers)
       call suite%test("known_is_what_is_smooth", test_smooth)
@@ -74,8 +74,8 @@ contains
       deck = replace(deck, "gudgeon pin small", "gudgeon throw big")
       call both_systems(deck, 1, full, small, start, error)
       if (allocated(error)) return
-      call full%loose%sets(1)%set%begin_contact(1, 0.0_wp, 2.0_wp, 0.0_wp)
-      call small%loose%sets(1)%set%begin_contact(1, 0.0_wp, 2.0_wp, 0.0_wp)
+      call full%clearance_joints%sets(1)%set%begin_contact(1, 0.0_wp, 2.0_wp, 0.0_wp)
+      call small%clearance_joints%sets(1)%set%begin_contact(1, 0.0_wp, 2.0_wp, 0.0_wp)
       do k = 1, 8
          y = start
          ! the rod aside by more than the clearance
@@ -83,14 +83,15 @@ contains
          y(7:8) = y(7:8) + [0.3_wp, -0.2_wp]*k
          call compare_at(full, small, 0.0_wp, y, error)
          if (allocated(error)) return
-         call check_true(error, maxval(abs(small%loose%integrands(loss_contact, :))) > 0.0_wp, "the contact loses energy")
+         call check_true(error, maxval(abs(small%clearance_joints%integrands(loss_contact, :))) > 0.0_wp, &
+                         "the contact loses energy")
          call check_true(error, abs(small%linkage%solution%lambda(small%linkage%reduced%known%held(1)%row(3))) > 0.1_wp, &
                          "the driver carries it")
       end do
    end subroutine test_contact_on_a_known_body
 
    !> The loose pin between a rod guided by the crank and a slider guided by the ground, touching, with friction.
-   subroutine test_contact_of_guided_bodies(error)
+   subroutine test_contact_of_one_dof_bodies(error)
       type(error_t), allocatable, intent(out) :: error  !! what failed
 
       type(mechanism_t) :: full, small
@@ -100,8 +101,8 @@ contains
       call both_systems(slider_crank("", "damped", "rubbing", "clearance"), 1, full, small, start, error)
       if (allocated(error)) return
       call check_true(error, small%is_direct .and. .not. full%is_direct, "nothing is solved with the fewest coordinates")
-      call full%loose%sets(1)%set%begin_contact(1, 0.0_wp, 2.0_wp, 0.0_wp)
-      call small%loose%sets(1)%set%begin_contact(1, 0.0_wp, 2.0_wp, 0.0_wp)
+      call full%clearance_joints%sets(1)%set%begin_contact(1, 0.0_wp, 2.0_wp, 0.0_wp)
+      call small%clearance_joints%sets(1)%set%begin_contact(1, 0.0_wp, 2.0_wp, 0.0_wp)
       do k = 1, 8
          y = start
          ! the slider aside by more than the clearance, the rod turned somewhat
@@ -109,9 +110,9 @@ contains
          y(3:4) = y(3:4) + [20.0_wp, -0.3_wp]*k
          call compare_at(full, small, 1.0e-4_wp*k, y, error)
          if (allocated(error)) return
-         call check_true(error, abs(small%loose%integrands(loss_friction, 1)) > 0.0_wp, "the contact rubs")
+         call check_true(error, abs(small%clearance_joints%integrands(loss_friction, 1)) > 0.0_wp, "the contact rubs")
       end do
-   end subroutine test_contact_of_guided_bodies
+   end subroutine test_contact_of_one_dof_bodies
 
    !> Which scenes are evaluated the direct way, and that a driver that says no number fails there as elsewhere.
    subroutine test_direct(error)
@@ -148,7 +149,7 @@ contains
 
    !> A driven plate that carries two pendulums and two sliders, each with its joint the one way round and the other, and as many
    !> on the ground: one coordinate each, and all that is reported as with three.
-   subroutine test_guided(error)
+   subroutine test_one_dof(error)
       type(error_t), allocatable, intent(out) :: error  !! what failed
 
       character(*), parameter :: deck = "[scene]"//nl//"gravity = 0.5 -9.81 m/s^2"//nl// &
@@ -175,13 +176,13 @@ contains
 
       call both_systems(deck, 1, full, small, start, error)
       if (allocated(error)) return
-      call check_equal(error, small%linkage%reduced%guided%n, 7, "guided bodies")
-      call check_equal(error, small%linkage%reduced%guided%n_turning, 3, "those that turn")
+      call check_equal(error, small%linkage%reduced%one_dof%n, 7, "guided bodies")
+      call check_equal(error, small%linkage%reduced%one_dof%n_turning, 3, "those that turn")
       call check_equal(error, small%n_position, 7, "coordinates")
       call check_equal(error, small%linkage%rows%n_solve, 0, "rows that are solved")
       call check_true(error, small%is_direct, "its evaluation is direct")
       call compare_often(deck, 1, 1.0_wp, error)
-   end subroutine test_guided
+   end subroutine test_one_dof
 
    !> Two bars between two driven cranks: known bodies at both ends of a loop, which a distance closes.
    subroutine test_loop(error)

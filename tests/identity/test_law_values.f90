@@ -64,7 +64,7 @@ contains
       character(*), parameter :: names(3) = [character(21) :: "dubowsky_freudenstein", "goldsmith", "esdu"]
       real(wp), parameter :: force(3) = [2178.15116465_wp, 1003.12455644_wp, 2023.74584636_wp]
       real(wp), parameter :: stiffness(3) = [2.49694236e8_wp, 1.06579125e8_wp, 2.29611604e8_wp]
-      real(wp), parameter :: greatest(3) = [1.184211e-3_wp, 5.263158_wp, 2.0e-3_wp]
+      real(wp), parameter :: maximum(3) = [1.184211e-3_wp, 5.263158_wp, 2.0e-3_wp]
       type(case_t) :: case
       type(surfaces_t) :: pair
       real(wp) :: f(4)
@@ -75,7 +75,7 @@ contains
          f = force_of(case, 1.0e-5_wp, 0.1_wp, 0.3_wp)
          call check_close(error, f([1, 4]), [force(k), force(k)], 1.0e-11_wp, trim(names(k))//": force", relative=.true.)
          call check_close(error, f(2), stiffness(k), 1.0e-8_wp, trim(names(k))//": stiffness", relative=.true.)
-         call check_close(error, case%parameters(parameter_deepest), 0.9_wp*greatest(k), 1.0e-6_wp, trim(names(k))//": range", &
+         call check_close(error, case%parameters(parameter_deepest), 0.9_wp*maximum(k), 1.0e-6_wp, trim(names(k))//": range", &
                           relative=.true.)
          ! the length of the law's row comes before that of the joint
          pair = steel_pair(shape_internal)

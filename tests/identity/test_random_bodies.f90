@@ -42,7 +42,7 @@ contains
       type(error_t), allocatable, intent(inout) :: error  !! first failure
 
       real(wp), allocatable :: full_a(:, :), full_lambda(:), left(:, :), row_left(:)
-      real(wp) :: greatest(2)
+      real(wp) :: maximum(2)
       integer :: body, row, side
 
       if (allocated(error)) return
@@ -50,11 +50,11 @@ contains
       allocate (left(size(a, 1), 0:problem%n_body), source=0.0_wp)
       full_lambda = spread(untouched, 1, size(lambda))
       call solve_fully(problem, is_singular, full_a, full_lambda, error)
-      greatest = [maxval(abs(full_a(:, problem%rows%unknown))), maxval(abs(full_lambda(:problem%rows%n_solve)))]
-      call check_close(error, reshape(a, [size(a)]), reshape(full_a, [size(a)]), tolerance(1)*greatest(1), &
+      maximum = [maxval(abs(full_a(:, problem%rows%unknown))), maxval(abs(full_lambda(:problem%rows%n_solve)))]
+      call check_close(error, reshape(a, [size(a)]), reshape(full_a, [size(a)]), tolerance(1)*maximum(1), &
                        what//": accelerations")
       associate (rows => problem%rows, n_v => problem%rows%n_v)
-         call check_close(error, lambda, full_lambda, tolerance(2)*greatest(2), what//": multipliers")
+         call check_close(error, lambda, full_lambda, tolerance(2)*maximum(2), what//": multipliers")
          ! M a + J^T lambda = g, J a = b, side by side
          left(:, rows%unknown) = a(:, rows%unknown)/problem%inverse_mass(:, rows%unknown) - problem%g(:, rows%unknown)
          row_left = -problem%b
@@ -68,10 +68,10 @@ contains
                end associate
             end do
          end do
-         call check_close(error, row_left(:rows%n_solve), spread(0.0_wp, 1, rows%n_solve), tolerance(1)*greatest(1), &
+         call check_close(error, row_left(:rows%n_solve), spread(0.0_wp, 1, rows%n_solve), tolerance(1)*maximum(1), &
                           what//": rows")
          call check_close(error, reshape(left(:, rows%unknown), [n_v*rows%n_unknown]), spread(0.0_wp, 1, n_v*rows%n_unknown), &
-                          tolerance(1)*maxval(greatest), what//": motion")
+                          tolerance(1)*maxval(maximum), what//": motion")
       end associate
    end subroutine compare
 

@@ -5,8 +5,8 @@ module test_random_rows
    use errors, only: error_t
    use fixed_random, only: random_t
    use kinds, only: i8, wp
-   use random_bodies, only: all_unknown, least_solution, new_problem, problem_t, some_known, tree
-   use row_kernels, only: right_hand_side, take_known
+   use random_bodies, only: all_unknown, min_solution, new_problem, problem_t, some_known, tree
+   use row_kernels, only: right_hand_side, take_prescribed
    use rows, only: n_v_planar, n_v_spatial, place_in_row, side_place
    use sparse_start, only: new_sparse_start, sparse_start_t
    use text, only: to_text
@@ -25,7 +25,7 @@ contains
       call suite%test("places", test_places)
       call suite%test("right_hand_side", test_right_hand_side)
       call suite%test("known_accelerations", test_known)
-      call suite%test("least_change", test_least_change)
+      call suite%test("least_change", test_min_change)
       call suite%test("dependent_rows_of_a_start", test_start_dependent)
    end subroutine run_test_random_rows
 
@@ -137,7 +137,7 @@ contains
                end do
             end do
             b = problem%b
-            call take_known(rows, problem%n_body, a, angular, b)
+            call take_prescribed(rows, problem%n_body, a, angular, b)
             call check_close(error, b, right, 1.0e-13_wp, to_text(n_v)//" rates")
          end associate
       end do
@@ -171,35 +171,35 @@ contains
    end subroutine new_start
 
    !> The least change of coordinates with given changes of rows, in a metric of weights.
-   subroutine test_least_change(error)
+   subroutine test_min_change(error)
       type(error_t), allocatable, intent(out) :: error  !! what failed
 
       type(problem_t) :: problem
       type(sparse_start_t) :: start
       type(random_t) :: random
-      real(wp), allocatable :: jac(:, :), least(:), right(:), weight(:), x(:)
-      integer :: k, least_rank, rank, seed
+      real(wp), allocatable :: jac(:, :), minimum(:), right(:), weight(:), x(:)
+      integer :: k, min_rank, rank, seed
 
       do k = 1, 2
          do seed = 1, 4
             call new_start(n_rates(k), seed, problem, jac, weight)
             random%state = int(seed, i8)
             right = matmul(jac, random%vector(size(jac, 2), -1.0_wp, 1.0_wp))
-            least = right
-            call least_solution(jac*spread(sqrt(weight), 1, size(jac, 1)), least, least_rank)
-            least = least*sqrt(weight)
+            minimum = right
+            call min_solution(jac*spread(sqrt(weight), 1, size(jac, 1)), minimum, min_rank)
+            minimum = minimum*sqrt(weight)
             call new_sparse_start(problem%n_body, problem%rows, start)
             x = weight
             call start%correct(problem%rows%jac, problem%inverse_mass, right, x, rank)
             associate (what => to_text(n_rates(k))//" rates, seed "//to_text(seed)//": ")
-               call check_equal(error, rank, least_rank, what//"rank")
+               call check_equal(error, rank, min_rank, what//"rank")
                call check_equal(error, rank, size(right) - 2, what//"independent rows")
                call check_close(error, matmul(jac, x), right, 1.0e-13_wp*maxval(abs(right)), what//"rows")
-               call check_close(error, x, least, 1.0e-11_wp, what//"the change", relative=.true.)
+               call check_close(error, x, minimum, 1.0e-11_wp, what//"the change", relative=.true.)
             end associate
          end do
       end do
-   end subroutine test_least_change
+   end subroutine test_min_change
 
    !> Rows that are there twice are found, with their twins.
    subroutine test_start_dependent(error)

@@ -66,7 +66,7 @@ contains
       type(suite_t), intent(inout) :: suite  !! where tests are registered
 
       call suite%test("robot_arm", test_robot_arm)
-      call suite%test("guided_bodies", test_guided)
+      call suite%test("guided_bodies", test_one_dof)
       call suite%test("contact", test_contact)
       call suite%test("works", test_works)
    end subroutine run_test_reduced_in_space
@@ -79,7 +79,7 @@ contains
    end subroutine test_robot_arm
 
    !> One coordinate each, and all that is reported as with six.
-   subroutine test_guided(error)
+   subroutine test_one_dof(error)
       type(error_t), allocatable, intent(out) :: error  !! what failed
 
       character(*), parameter :: deck = carousel//"[analysis.dynamic]"//nl//"end = 1 s"//nl//"stabilise = baumgarte"
@@ -88,12 +88,12 @@ contains
 
       call both_systems(deck, 1, full, small, start, error)
       if (allocated(error)) return
-      call check_equal(error, small%linkage%reduced%guided%n, 8, "guided bodies")
-      call check_equal(error, small%linkage%reduced%guided%n_turning, 4, "those that turn")
+      call check_equal(error, small%linkage%reduced%one_dof%n, 8, "guided bodies")
+      call check_equal(error, small%linkage%reduced%one_dof%n_turning, 4, "those that turn")
       call check_equal(error, small%linkage%n_position, 8, "coordinates")
       call check_equal(error, small%linkage%rows%n_solve, 0, "rows that are solved")
       call compare_often(deck, 1, 1.0_wp, error)
-   end subroutine test_guided
+   end subroutine test_one_dof
 
    !> A pin on a driven crank in a bushing of a rod that slides and tilts: the forces at both bases are carried by the driver.
    subroutine test_contact(error)
@@ -118,8 +118,8 @@ contains
       call both_systems(deck, 1, full, small, start, error)
       if (allocated(error)) return
       do k = 1, 2
-         call full%loose%sets(1)%set%begin_contact(k, 0.0_wp, 2.0_wp, 0.0_wp)
-         call small%loose%sets(1)%set%begin_contact(k, 0.0_wp, 2.0_wp, 0.0_wp)
+         call full%clearance_joints%sets(1)%set%begin_contact(k, 0.0_wp, 2.0_wp, 0.0_wp)
+         call small%clearance_joints%sets(1)%set%begin_contact(k, 0.0_wp, 2.0_wp, 0.0_wp)
       end do
       do k = 1, 8
          y = start
@@ -129,7 +129,8 @@ contains
          y(8:10) = y(8:10) + [0.3_wp, -0.2_wp, 0.1_wp]*k
          call compare_at(full, small, 0.0_wp, y, error)
          if (allocated(error)) return
-         call check_true(error, maxval(abs(small%loose%integrands(loss_contact, :))) > 0.0_wp, "the contact loses energy")
+         call check_true(error, maxval(abs(small%clearance_joints%integrands(loss_contact, :))) > 0.0_wp, &
+                         "the contact loses energy")
          call check_true(error, abs(small%linkage%solution%lambda(small%linkage%reduced%known%held(1)%row(6))) > 0.01_wp, &
                          "the driver carries it")
       end do

@@ -4,7 +4,7 @@ module test_spatial_clearances
    use, intrinsic :: ieee_arithmetic, only: ieee_is_finite
    use check, only: check_close, check_true, suite_t
    use clearance_set, only: loss_contact, loss_friction, n_integrand
-   use contact_grip, only: tangent_t
+   use contact_stick_slip, only: tangent_t
    use differences, only: five_point, places
    use errors, only: error_t
    use friction_law, only: memory_bristle, memory_none
@@ -118,7 +118,7 @@ contains
       call check_close(error, given/scale, (-five_point(stored, tick) - sum(integrands(loss_contact, :bench%set%n_contact)) &
                                             - sum(integrands(loss_friction, :bench%set%n_contact)))/scale, 1.0e-7_wp, &
                        bench%name//": power")
-      if (bench%set%grip%memory == memory_bristle) return  ! which may give back what they have stored
+      if (bench%set%stick_slip%memory == memory_bristle) return  ! which may give back what they have stored
       call check_true(error, all(integrands(loss_friction, :bench%set%n_contact) >= 0.0_wp), bench%name//": friction takes")
    end subroutine power
 
@@ -141,10 +141,10 @@ contains
          if (.not. bench%set%contact(c)%is_touching) cycle
          do k = 1, 4
             call move(bench, places(k)*tick)
-            call bench%set%watch(c, bench%motion, delta, rate, f(k), slope)
+            call bench%set%monitor(c, bench%motion, delta, rate, f(k), slope)
          end do
          call move(bench, 0.0_wp)
-         call bench%set%watch(c, bench%motion, delta, rate, force, slope)
+         call bench%set%monitor(c, bench%motion, delta, rate, force, slope)
          call check_close(error, slope/force, five_point(f, tick)/force, 1.0e-3_wp + 3.0e-7_wp*abs(slope/force), &
                           bench%name//": rate of the force")
       end do
@@ -210,7 +210,7 @@ contains
       real(wp) :: a(3), n(3, 4), normal(3), v(2, 4)
       integer :: c, k
 
-      if (bench%set%grip%memory == memory_none) return
+      if (bench%set%stick_slip%memory == memory_none) return
       do c = 1, bench%set%n_contact
          call bench%set%lie(c, bench%motion, tangent)
          tangent%way = tangent%t(:, 1) + 0.3_wp*tangent%t(:, 2)

@@ -146,7 +146,7 @@ contains
       type(bench_t), intent(inout) :: bench  !! the film
 
       call new_loads(2, bench%loads)
-      associate (linkage => bench%system%linkage, set => bench%system%loose%sets(1)%set)
+      associate (linkage => bench%system%linkage, set => bench%system%clearance_joints%sets(1)%set)
          call linkage%coordinates%move(2, [1, 2], bench%q, bench%v, linkage%motion)
          call set%laws%films%bear(set%items%body, set%items%s_i, set%items%s_j, linkage%motion, bench%loads)
       end associate
@@ -179,7 +179,7 @@ contains
             work = work + norm2(f(:, k)) + norm2(m(:, k))*norm2(motion%omega(:, k))
          end do
          call check_close(error, moment/scale, [0.0_wp, 0.0_wp, 0.0_wp], 1.0e-14_wp, bench%name//": moments")
-         associate (films => bench%system%loose%sets(1)%set%laws%films)
+         associate (films => bench%system%clearance_joints%sets(1)%set%laws%films)
             call check_close(error, given/work, -films%power/work, 1.0e-13_wp, bench%name//": power")
             if (bench%has_shear .and. bench%takes) call check_true(error, films%power > 0.0_wp, bench%name//": takes power")
          end associate
@@ -231,7 +231,7 @@ contains
       type(film_motion_t) :: film
       real(wp) :: f(2, 2), f_1(2, 2)
 
-      associate (set => bench%system%loose%sets(1)%set)
+      associate (set => bench%system%clearance_joints%sets(1)%set)
          film = set%laws%films%motion_of(1, set%items%body(:, 1), set%items%s_i(:, 1), set%items%s_j(:, 1), &
                                          bench%system%linkage%motion)
          if (set%laws%films%law%is_of_sphere()) return
@@ -262,7 +262,7 @@ contains
       logical :: is_of_contact
       integer :: c
 
-      associate (set => bench%system%loose%sets(1)%set, motion => bench%system%linkage%motion, loads => bench%loads)
+      associate (set => bench%system%clearance_joints%sets(1)%set, motion => bench%system%linkage%motion, loads => bench%loads)
          info = set%info()
          scale = sum(abs(loads%force(:, 2))) + sum(abs(loads%moment(:, 2)))
          at_point = loads%moment(:, 2) - cross(matmul(motion%rot(:, :, 2), set%items%s_j(:, 1)), loads%force(:, 2))

@@ -150,8 +150,9 @@ contains
          call close_to("places", [a%linkage%bodies%r(1, :), a%linkage%bodies%angle], [b%linkage%bodies%r(1, :), &
                        b%linkage%bodies%angle])
          call close_to("points", [loaded%scene%points%s], [original%scene%points%s])
-         call close_to("clearance", a%loose%sets(1)%set%items%clearance, b%loose%sets(1)%set%items%clearance)
-         call close_to("stiffness", a%loose%sets(1)%set%laws%parameters(1, :), b%loose%sets(1)%set%laws%parameters(1, :))
+         call close_to("clearance", a%clearance_joints%sets(1)%set%items%clearance, b%clearance_joints%sets(1)%set%items%clearance)
+         call close_to("stiffness", a%clearance_joints%sets(1)%set%laws%parameters(1, :), &
+                       b%clearance_joints%sets(1)%set%laws%parameters(1, :))
          call close_to("gains", [a%linkage%solution%alpha, a%linkage%solution%beta], [b%linkage%solution%alpha, &
                        b%linkage%solution%beta])
          call close_to("scale", [a%linkage%scales%length], [b%linkage%scales%length])

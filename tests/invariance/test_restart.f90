@@ -3,7 +3,7 @@
 !> What is saved and refused by name: test_restart_refused.
 module test_restart
    use catalogue, only: catalogue_t
-   use catalogue_rooms, only: room_bodies
+   use groups_of_catalogue, only: group_bodies
    use check, only: check_close, check_equal, check_true, suite_t
    use checkpoint, only: checkpoint_t
    use deck_scene, only: dry_deck, keeper_t, load_file, loaded_t, run_to_end
@@ -65,7 +65,7 @@ contains
       if (allocated(error)) return
       latest = t_end
       if (present(end)) latest = end
-      call new_part(run%loaded%system, run%loaded%method, run%loaded%plan%instants, none, run%part)
+      call new_part(run%loaded%system, run%loaded%method, run%loaded%plan%output_times, none, run%part)
       call run%keeper%start(catalogue, error)
       if (.not. allocated(error)) call begin_part(run%part, run%loaded%y, latest, run%tally, run%keeper, error)
    end subroutine begin
@@ -334,7 +334,7 @@ contains
       if (allocated(error)) return
       call save_run(second, again)
       call check_close(error, again%row, saved%row, 0.0_wp, "saved again")
-      call check_equal(error, second%loaded%system%loose%sets(1)%set%n_touching, 1, "contacts")
+      call check_equal(error, second%loaded%system%clearance_joints%sets(1)%set%n_touching, 1, "contacts")
       allocate (y(second%loaded%system%n), source=0.0_wp)
       call second%loaded%method%state_at(second%loaded%system, second%loaded%method%t, y)
       call check_close(error, y, first%loaded%method%step%y1, 0.0_wp, "present state")
@@ -384,7 +384,7 @@ contains
 
          type(loaded_t) :: loaded
 
-         keeper%room = room_bodies
+         keeper%room = group_bodies
          keeper%channel = "acceleration"
          call load_file(dry_deck, loaded, error, "friction=0.03")
          if (allocated(error)) return

@@ -77,7 +77,7 @@ contains
          allocate (second)
          call begin(method, second, error)
          if (.not. allocated(error)) call load_part_memory(saved(k), second%part, error)
-         if (.not. allocated(error)) second%begins = second%part%instants%is_at(second%part%method%t)
+         if (.not. allocated(error)) second%begins = second%part%output_times%is_at(second%part%method%t)
          if (.not. allocated(error)) call go_one_step(second, error)
          do while (second%part%method%t < t_end .and. .not. allocated(error))
             call save_here(second, has_history, error)
@@ -103,7 +103,7 @@ contains
       type(checkpoint_t) :: checkpoint
       logical :: ends
 
-      ends = run%part%instants%is_at(run%part%method%t)
+      ends = run%part%output_times%is_at(run%part%method%t)
       if (run%begins .or. ends .or. .not. has_history) then
          call save_part_memory(run%part, checkpoint)
          if (present(saved) .and. present(n_save)) then
@@ -134,7 +134,7 @@ contains
                      "[analysis.dynamic]"//nl//"start = given"//nl//"end = 1.5 s"//nl//"method = "//method//nl// &
                      "tolerance = 1e-6"//nl//"[output]"//nl//"every = 0.1 s"//nl, run%loaded, error)
       if (allocated(error)) return
-      call new_part(run%loaded%system, run%loaded%method, run%loaded%plan%instants, none, run%part)
+      call new_part(run%loaded%system, run%loaded%method, run%loaded%plan%output_times, none, run%part)
       call run%keeper%start(catalogue, error)
       if (.not. allocated(error)) call begin_part(run%part, run%loaded%y, t_end, run%tally, run%keeper, error)
    end subroutine begin
@@ -144,7 +144,7 @@ contains
       type(run_t), intent(inout) :: run                     !! the run
       type(error_t), allocatable, intent(inout) :: error    !! it failed
 
-      if (run%part%instants%is_at(run%part%method%t)) then
+      if (run%part%output_times%is_at(run%part%method%t)) then
          call pass_part_instant(run%part, run%tally, run%keeper, error)
          run%n_passed = run%n_passed + 1
       else

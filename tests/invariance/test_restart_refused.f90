@@ -1,7 +1,7 @@
 !> Memory of another run, or of another form, is refused by the name of what differs, and nothing is changed.
 module test_restart_refused
    use check, only: check_close, check_equal, check_true, suite_t
-   use checkpoint, only: add_piece, checkpoint_t
+   use checkpoint, only: add_segment, checkpoint_t
    use catalogue, only: catalogue_t
    use deck_scene, only: dry_deck, keeper_t, load_file, loaded_t
    use errors, only: error_t, exit_usage
@@ -54,7 +54,7 @@ contains
       call load_file(dry_deck, run%loaded, error, setting)
       if (allocated(error)) return
       if (present(method)) call use_method(run%loaded, method)
-      call new_part(run%loaded%system, run%loaded%method, run%loaded%plan%instants, none, run%part)
+      call new_part(run%loaded%system, run%loaded%method, run%loaded%plan%output_times, none, run%part)
       call run%keeper%start(catalogue, error)
       if (.not. allocated(error)) call begin_part(run%part, run%loaded%y, 1.0e-3_wp, run%tally, run%keeper, error)
    end subroutine begin
@@ -139,7 +139,7 @@ contains
       call save_after(1, run, saved, error)
       if (allocated(error)) return
       do i = 1, size(wanted)
-         call check_equal(error, count([(saved%pieces(k)%name == wanted(i), k=1, size(saved%pieces))]), 1, &
+         call check_equal(error, count([(saved%segments(k)%name == wanted(i), k=1, size(saved%segments))]), 1, &
                           "pieces with the name '"//trim(wanted(i))//"'")
       end do
    end subroutine test_names
@@ -153,7 +153,7 @@ contains
 
       call begin_again(7, run, saved, fresh, error)
       if (allocated(error)) return
-      call check_equal(error, sum(saved%pieces%size), size(saved%row), "numbers of all pieces")
+      call check_equal(error, sum(saved%segments%size), size(saved%row), "numbers of all pieces")
       call check_true(error, all(abs(saved%row) <= huge(1.0_wp)), "all are numbers")
       if (allocated(error)) return
       call load_part_memory(saved, fresh%part, error)
@@ -174,11 +174,11 @@ contains
 
       call begin_again(5, run, saved, fresh, error)
       if (allocated(error)) return
-      do k = 1, size(saved%pieces)
+      do k = 1, size(saved%segments)
          other = saved
-         other%pieces(k)%version = saved%pieces(k)%version + 1
-         call check_refused(fresh, other, other%pieces(k)%name//" has version "//to_text(other%pieces(k)%version)// &
-                            ", supported is version "//to_text(saved%pieces(k)%version), "another version", error)
+         other%segments(k)%version = saved%segments(k)%version + 1
+         call check_refused(fresh, other, other%segments(k)%name//" has version "//to_text(other%segments(k)%version)// &
+                            ", supported is version "//to_text(saved%segments(k)%version), "another version", error)
       end do
    end subroutine test_versions
 
@@ -192,12 +192,12 @@ contains
 
       call begin_again(5, run, saved, fresh, error)
       if (allocated(error)) return
-      do k = 1, size(saved%pieces)
-         if (.not. saved%pieces(k)%is_fixed) cycle
+      do k = 1, size(saved%segments)
+         if (.not. saved%segments(k)%is_fixed) cycle
          other = saved
-         other%pieces(k)%size = saved%pieces(k)%size + 1
+         other%segments(k)%size = saved%segments(k)%size + 1
          other%row = [saved%row, 0.0_wp]
-         call check_refused(fresh, other, "the state of "//other%pieces(k)%name//" has "//to_text(other%pieces(k)%size)// &
+         call check_refused(fresh, other, "the state of "//other%segments(k)%name//" has "//to_text(other%segments(k)%size)// &
                             " number", "another size", error)
       end do
    end subroutine test_other_size
@@ -215,14 +215,14 @@ contains
       call save_after(5, run, saved, error)
       if (.not. allocated(error)) call begin(fresh, error, method="auto")
       if (allocated(error)) return
-      do k = 1, size(saved%pieces)
-         if (saved%pieces(k)%name == "method = auto") exit
+      do k = 1, size(saved%segments)
+         if (saved%segments(k)%name == "method = auto") exit
       end do
-      call check_true(error, k < size(saved%pieces), "its piece is there")
+      call check_true(error, k < size(saved%segments), "its piece is there")
       if (allocated(error)) return
-      call check_equal(error, saved%pieces(k + 1)%name, "implicit part of method = auto", "the next piece")
-      call check_equal(error, saved%pieces(k + 1)%size, 0, "there is no such part yet")
-      saved%pieces(k)%size = saved%pieces(k)%size + 1
+      call check_equal(error, saved%segments(k + 1)%name, "implicit part of method = auto", "the next piece")
+      call check_equal(error, saved%segments(k + 1)%size, 0, "there is no such part yet")
+      saved%segments(k)%size = saved%segments(k)%size + 1
       saved%row = [saved%row, 0.0_wp]
       call check_refused(fresh, saved, "the state of method = auto has ", "another size", error)
    end subroutine test_size_of_auto
@@ -236,20 +236,20 @@ contains
 
       call begin_again(5, run, saved, fresh, error)
       if (allocated(error)) return
-      associate (n => size(saved%pieces))
+      associate (n => size(saved%segments))
          other = saved
-         other%pieces = saved%pieces(:n - 1)
-         other%row = saved%row(:size(saved%row) - saved%pieces(n)%size)
-         call check_refused(fresh, other, "the state of "//saved%pieces(n)%name//" is missing", "a piece less", error)
-         other%pieces = saved%pieces(:3)
-         call check_refused(fresh, other, "the state of "//saved%pieces(4)%name//" is missing", "three pieces", error)
+         other%segments = saved%segments(:n - 1)
+         other%row = saved%row(:size(saved%row) - saved%segments(n)%size)
+         call check_refused(fresh, other, "the state of "//saved%segments(n)%name//" is missing", "a piece less", error)
+         other%segments = saved%segments(:3)
+         call check_refused(fresh, other, "the state of "//saved%segments(4)%name//" is missing", "three pieces", error)
          other = saved
-         call add_piece(other%pieces, "clearance.revolute 'third'", 1, 0)
+         call add_segment(other%segments, "clearance.revolute 'third'", 1, 0)
          call check_refused(fresh, other, "the state of clearance.revolute 'third', which is not part of this run", &
                          "a piece more", error)
          other = saved
-         other%pieces(n)%name = "clearance.revolute 'third'"
-         call check_refused(fresh, other, "the state of clearance.revolute 'third' instead of that of "//saved%pieces(n)%name, &
+         other%segments(n)%name = "clearance.revolute 'third'"
+         call check_refused(fresh, other, "the state of clearance.revolute 'third' instead of that of "//saved%segments(n)%name, &
                          "another name", error)
       end associate
    end subroutine test_other_list
@@ -267,8 +267,8 @@ contains
       if (allocated(error)) return
       call check_close(error, fresh%loaded%method%t, run%loaded%method%t, 0.0_wp, "taken with another clearance")
       if (.not. allocated(error)) call begin(fresh, error, "law=kelvin_voigt")
-      call check_refused(fresh, saved, "the state of the state has "//to_text(saved%pieces(1)%size)//" numbers, expected "// &
-                         to_text(saved%pieces(1)%size + 10), "another law", error)
+      call check_refused(fresh, saved, "the state of the state has "//to_text(saved%segments(1)%size)//" numbers, expected "// &
+                         to_text(saved%segments(1)%size + 10), "another law", error)
    end subroutine test_other_law
 
    !> Memory of Verner's method is none of Adams's.

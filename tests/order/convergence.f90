@@ -36,17 +36,17 @@ contains
    end subroutine converge
 
    !> The last two observed orders must lie between two bounds.
-   subroutine check_order(error, errors, least, most, what)
+   subroutine check_order(error, errors, minimum, most, what)
       type(error_t), allocatable, intent(inout) :: error   !! first failure
       real(wp), intent(in) :: errors(:)                    !! (levels) errors, the step halved each time [any]
-      real(wp), intent(in) :: least, most                  !! bounds of the order [1]
+      real(wp), intent(in) :: minimum, most                  !! bounds of the order [1]
       character(*), intent(in) :: what                     !! what converges
 
       integer :: n
 
       n = size(errors)
       associate (order => slope(errors(n - 2:n - 1), errors(n - 1:n)))
-         call check_close(error, order, [0.5_wp, 0.5_wp]*(least + most), 0.5_wp*(most - least), what)
+         call check_close(error, order, [0.5_wp, 0.5_wp]*(minimum + most), 0.5_wp*(most - minimum), what)
       end associate
    end subroutine check_order
 

@@ -34,25 +34,25 @@ contains
       type(error_t), allocatable, intent(out) :: error  !! what failed
 
       type(kepler_t) :: system
-      type(auto_t) :: loose, tight
+      type(auto_t) :: clearance_joints, tight
       type(dop853_t) :: eighth
       type(verner_t) :: sixth
       real(wp) :: y(4)
 
       call new_kepler(0.5_wp, system, y)
-      loose%controls%tolerance = 1.01_wp*order_8_up_to
-      sixth%controls%tolerance = loose%controls%tolerance
+      clearance_joints%controls%tolerance = 1.01_wp*order_8_up_to
+      sixth%controls%tolerance = clearance_joints%controls%tolerance
       tight%controls%tolerance = order_8_up_to
       eighth%controls%tolerance = tight%controls%tolerance
-      call run_from(loose, system, y, 20.0_wp, error)
+      call run_from(clearance_joints, system, y, 20.0_wp, error)
       call run_from(sixth, system, y, 20.0_wp, error)
       call run_from(tight, system, y, 20.0_wp, error)
       call run_from(eighth, system, y, 20.0_wp, error)
-      call check_true(error, all(abs(loose%step%y1 - sixth%step%y1) <= 0.0_wp), "order 6")
+      call check_true(error, all(abs(clearance_joints%step%y1 - sixth%step%y1) <= 0.0_wp), "order 6")
       call check_true(error, all(abs(tight%step%y1 - eighth%step%y1) <= 0.0_wp), "order 8")
-      call check_true(error, loose%count%n_evaluations == sixth%count%n_evaluations, "evaluations of order 6")
+      call check_true(error, clearance_joints%count%n_evaluations == sixth%count%n_evaluations, "evaluations of order 6")
       call check_true(error, tight%count%n_evaluations == eighth%count%n_evaluations, "evaluations of order 8")
-      call check_true(error, loose%is_explicit() .and. loose%choice%n_change == 0, "no change")
+      call check_true(error, clearance_joints%is_explicit() .and. clearance_joints%choice%n_change == 0, "no change")
    end subroutine test_bits
 
    !> However fast the decay, evaluations stay bounded and the error within the tolerance's reach.

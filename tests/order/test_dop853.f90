@@ -88,7 +88,7 @@ contains
    end subroutine test_polynomials
 
    !> Greatest error of the interpolant of one step of an ellipse.
-   real(wp) function interpolation_error(method, system, t) result(greatest)
+   real(wp) function interpolation_error(method, system, t) result(maximum)
       type(dop853_t), intent(in) :: method    !! the integrator, after a step
       type(kepler_t), intent(in) :: system    !! the system
       real(wp), intent(in) :: t               !! time before the start of the integration [s]
@@ -97,10 +97,10 @@ contains
       real(wp) :: y(4)
       integer :: k
 
-      greatest = 0.0_wp
+      maximum = 0.0_wp
       do k = 0, n_place
          call method%state_at(system, method%step%t0 + method%step%h*real(k, wp)/n_place, y)
-         greatest = max(greatest, maxval(abs(y - system%exact(t + method%step%t0 + method%step%h*real(k, wp)/n_place))))
+         maximum = max(maximum, maxval(abs(y - system%exact(t + method%step%t0 + method%step%h*real(k, wp)/n_place))))
       end do
    end function interpolation_error
 

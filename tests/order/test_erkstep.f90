@@ -1,7 +1,7 @@
 !> Verner's method against ERKStep of SUNDIALS, on a pendulum and on the slider-crank with a loose pin.
 module test_erkstep
    use check, only: check_close, check_equal, check_true, suite_t
-   use contact_watch, only: contact_watch_t, new_contact_watch
+   use contact_monitor, only: contact_monitor_t, new_contact_monitor
    use deck_scene, only: dry_deck, load_file, loaded_t
    use erkstep_solver, only: solve_by_erkstep
    use errors, only: error_t
@@ -133,7 +133,7 @@ contains
       call check_close(error, rate(1), speed, 1.0e-10_wp, "impact speed")
       if (allocated(error)) return
 
-      call judge%system%loose%sets(1)%set%begin_contact(1, ours%method%t, rate(1), 0.0_wp)
+      call judge%system%clearance_joints%sets(1)%set%begin_contact(1, ours%method%t, rate(1), 0.0_wp)
       call begin(ours)
       call solve_by_erkstep(judge%system, ours%method%t, ours%method%t + half, judge%y, status, n_step=300)
       call check_equal(error, status, 0, "status of ERKStep within the contact")
@@ -147,14 +147,14 @@ contains
       subroutine begin(loaded)
          type(loaded_t), intent(inout) :: loaded  !! the deck, at the event
 
-         type(contact_watch_t) :: watch
+         type(contact_monitor_t) :: monitor
          type(event_t) :: row
          real(wp) :: step_hint
          integer :: outcome
          logical :: is_over
 
-         call new_contact_watch(loaded%system, watch)
-         call watch%handle_event(loaded%system, loaded%method, loaded%method%events%happened(1), is_over, row, step_hint)
+         call new_contact_monitor(loaded%system, monitor)
+         call monitor%handle_event(loaded%system, loaded%method, loaded%method%events%happened(1), is_over, row, step_hint)
          call check_true(error, .not. is_over, "a contact begins")
          call loaded%method%restart(loaded%system, step_hint, outcome)
       end subroutine begin

@@ -4,7 +4,7 @@ module test_rk4
    use convergence, only: check_order, converge
    use deck_scene, only: load_text, loaded_t
    use errors, only: error_t, exit_deck
-   use event_story, only: check_story, run_through, story_t
+   use event_description, only: check_description, run_through, description_t
    use integrator, only: advance_too_small
    use kinds, only: eps, pi, wp
    use ode_examples, only: kepler_t, new_kepler, new_particles, new_pendulum, particles_t, pendulum_t, power_t, run_to
@@ -90,7 +90,7 @@ contains
 
       type(particles_t) :: system
       type(rk4_t), allocatable :: method
-      type(story_t) :: story
+      type(description_t) :: description
       real(wp) :: errors(4, n_halving)
       integer :: k
 
@@ -98,9 +98,9 @@ contains
          allocate (method)
          method%controls%fixed_step = 0.2_wp/2**(k - 1)
          call new_particles([0.0_wp], [1.0_wp], [1], [0.5_wp], [1.0_wp], system)
-         call run_through(system, [0.0_wp, 1.0_wp], 10.0_wp, method, story)
-         call check_story(error, story, 4, 1.0e-15_wp, "spring")
-         errors(:, k) = abs(story%time(1:4) - [1.0_wp, 5.0_wp, 13.0_wp, 17.0_wp]*pi/6.0_wp)
+         call run_through(system, [0.0_wp, 1.0_wp], 10.0_wp, method, description)
+         call check_description(error, description, 4, 1.0e-15_wp, "spring")
+         errors(:, k) = abs(description%time(1:4) - [1.0_wp, 5.0_wp, 13.0_wp, 17.0_wp]*pi/6.0_wp)
          deallocate (method)
       end do
       call check_order(error, errors(3, :), 3.8_wp, 4.3_wp, "time of the third event")

@@ -7,7 +7,7 @@ module test_rock4
    use ode_examples, only: growth_t, kepler_t, new_kepler, new_particles, new_pendulum, particles_t, pendulum_t, power_t, &
       run_to, slope
    use rock4, only: rock4_t
-   use rock4_stages, only: least_degree, longest_stretch, n_recurrence
+   use rock4_stages, only: min_degree, longest_stretch, n_recurrence
    use spectral_radius, only: find_radius
    implicit none (type, external)
    private
@@ -102,7 +102,7 @@ contains
       integer :: degree, half, status
       character(24) :: what
 
-      do degree = 1, least_degree(longest_stretch())
+      do degree = 1, min_degree(longest_stretch())
          do half = 1, 2
             step = h/real(half, wp)
             call new_follower(0.3_wp, 0.99_wp*stretch_of(degree)/(1.2_wp*step), system, y)
@@ -130,7 +130,7 @@ contains
       high = longest_stretch()
       do k = 1, 60
          z = 0.5_wp*(low + high)
-         if (least_degree(z) <= degree .and. least_degree(z) > 0) then
+         if (min_degree(z) <= degree .and. min_degree(z) > 0) then
             low = z
          else
             high = z
@@ -181,7 +181,7 @@ contains
       system%n = n
       system%n_position = 0
       system%scale = [(1.0_wp, i=1, n)]
-      do degree = 1, least_degree(longest_stretch())
+      do degree = 1, min_degree(longest_stretch())
          ! no reserve: the radius is known to be a fifth too large, and the first guess is along the fastest decay
          z = [(-0.999_wp*stretch_of(degree)/1.2_wp*real(i, wp)/real(n, wp), i=1, n)]
          system%rate = z

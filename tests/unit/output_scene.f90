@@ -1,7 +1,7 @@
 !> A made-up scene for the tests of output/: what it can report, and a place to write to.
 module output_scene
    use catalogue, only: catalogue_t, names_of_channels
-   use catalogue_rooms, only: room_bodies, room_clearances, room_contacts, room_drivers, room_energy
+   use groups_of_catalogue, only: group_bodies, group_clearances, group_contacts, group_drivers, group_energy
    use kind_info, only: add_channel, kind_info_t
    use kinds, only: wp
    use posix, only: list_directory, make_directory, path_exists, process_number, remove_within
@@ -62,20 +62,20 @@ contains
       call add_channel(contact, "state", "1", "none", 1, "state")
       call add_channel(ledger, "kinetic", "J", "none", 1, "kinetic energy")
       call add_channel(ledger, "residual", "J", "none", 1, "what does not add up")
-      call scene%add_item(room_bodies, "crank", channels=names_of_channels(body))
-      call scene%add_item(room_bodies, "slider", channels=names_of_channels(body))
-      call scene%add_kind(room_bodies, body)
-      call scene%add_item(room_drivers, "motor", channels=names_of_channels(driver))
-      call scene%add_kind(room_drivers, driver)
-      call scene%add_item(room_clearances, "gudgeon", radius=5.0e-4_wp, channels=names_of_channels(joint))
-      call scene%add_item(room_clearances, "guide", radius=1.0e-4_wp, channels=names_of_channels(joint))
-      call scene%add_kind(room_clearances, joint)
-      call scene%add_item(room_contacts, "gudgeon", channels=names_of_channels(contact))
-      call scene%add_item(room_contacts, "guide", label="A", channels=names_of_channels(contact))
-      call scene%add_item(room_contacts, "guide", label="B", channels=names_of_channels(contact))
-      call scene%add_kind(room_contacts, contact)
-      call scene%add_item(room_energy, "energy")
-      call scene%add_kind(room_energy, ledger)
+      call scene%add_item(group_bodies, "crank", channels=names_of_channels(body))
+      call scene%add_item(group_bodies, "slider", channels=names_of_channels(body))
+      call scene%add_kind(group_bodies, body)
+      call scene%add_item(group_drivers, "motor", channels=names_of_channels(driver))
+      call scene%add_kind(group_drivers, driver)
+      call scene%add_item(group_clearances, "gudgeon", radius=5.0e-4_wp, channels=names_of_channels(joint))
+      call scene%add_item(group_clearances, "guide", radius=1.0e-4_wp, channels=names_of_channels(joint))
+      call scene%add_kind(group_clearances, joint)
+      call scene%add_item(group_contacts, "gudgeon", channels=names_of_channels(contact))
+      call scene%add_item(group_contacts, "guide", label="A", channels=names_of_channels(contact))
+      call scene%add_item(group_contacts, "guide", label="B", channels=names_of_channels(contact))
+      call scene%add_kind(group_contacts, contact)
+      call scene%add_item(group_energy, "energy")
+      call scene%add_kind(group_energy, ledger)
       call scene%allocate_data()
    end subroutine make_scene
 

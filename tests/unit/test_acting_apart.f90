@@ -32,7 +32,7 @@ module test_acting_apart
       procedure :: fit => cushion_fit
       procedure :: force => cushion_force
       procedure :: potential => cushion_potential
-      procedure :: story => cushion_story
+      procedure :: description => cushion_description
    end type cushion_t
 
 contains
@@ -115,8 +115,8 @@ contains
 
       call load_text(ball, loaded, error)
       if (allocated(error)) return
-      deallocate (loaded%system%loose%sets(1)%set%laws%normal)
-      allocate (loaded%system%loose%sets(1)%set%laws%normal, source=cushion(reach))
+      deallocate (loaded%system%clearance_joints%sets(1)%set%laws%normal)
+      allocate (loaded%system%clearance_joints%sets(1)%set%laws%normal, source=cushion(reach))
       call run_to_end(loaded, keeper, summary, error)
       if (allocated(error)) return
       call check_equal(error, keeper%n_event, 0, "contacts")
@@ -190,12 +190,12 @@ contains
       energy = 0.5_wp*stiffness*max(delta + self%reach, 0.0_wp)**2
    end function cushion_potential
 
-   function cushion_story(self, parameters) result(words)
+   function cushion_description(self, parameters) result(words)
       class(cushion_t), intent(in) :: self                 !! the law
       real(wp), intent(in) :: parameters(n_law_parameter)  !! (n_law_parameter) none [any]
       character(:), allocatable :: words                   !! its name
 
       words = self%name
-   end function cushion_story
+   end function cushion_description
 
 end module test_acting_apart

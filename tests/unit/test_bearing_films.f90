@@ -194,12 +194,12 @@ contains
       call system_of_text(deck_of("squeeze", "level e_t0 e_t1", "hybrid 5um 10um"), system, error)
       if (allocated(error)) return
       do k = 1, size(beyond)
-         if (k == 3) call system%loose%sets(1)%set%begin_contact(1, 0.0_wp, speed, 0.0_wp)
+         if (k == 3) call system%clearance_joints%sets(1)%set%begin_contact(1, 0.0_wp, speed, 0.0_wp)
          f = channel_pair(system, 0.0_wp, state_of(system, (gap + beyond(k))*direction, speed*direction, [0.2_wp, 1.1_wp], &
                                                    [0.0_wp, 0.0_wp]), "joint", "force")
          eps = (gap + beyond(k))/wide
          film = 12.0_wp*pi*viscosity*length*radius**3/wide**3*speed/(1.0_wp - eps*eps)**1.5_wp
-         associate (stiffness => system%loose%sets(1)%set%laws%parameters(1, 1))
+         associate (stiffness => system%clearance_joints%sets(1)%set%laws%parameters(1, 1))
             dry = stiffness*max(beyond(k), 0.0_wp)**1.5_wp
          end associate
          part = min(max(beyond(k)/depth, 0.0_wp), 1.0_wp)
@@ -235,7 +235,7 @@ contains
             end do
             y = state_of(system, (gap + 0.4_wp*depth)*[0.6_wp, 0.8_wp], [0.02_wp, -0.03_wp], [0.2_wp, 1.1_wp], [3.0_wp, 40.0_wp])
             computed = channel_pair(system, 0.0_wp, y, "joint", "film_force")
-            associate (set => system%loose%sets(1)%set)
+            associate (set => system%clearance_joints%sets(1)%set)
                call set%laws%films%slopes_of(1, set%items%body(:, 1), set%items%s_i(:, 1), set%items%s_j(:, 1), &
                                              system%linkage%motion, motion, slopes)
             end associate

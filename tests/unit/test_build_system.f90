@@ -63,19 +63,19 @@ contains
 
       call system_of_text(six_bearings(), system, error)
       if (allocated(error)) return
-      call check_equal(error, size(system%loose%sets), 4, "sets")
-      call check_equal(error, system%loose%n, 5, "loose joints")
+      call check_equal(error, size(system%clearance_joints%sets), 4, "sets")
+      call check_equal(error, system%clearance_joints%n, 5, "loose joints")
       call check_equal(error, system%n_event, 5, "event functions")
       if (allocated(error)) return
       do k = 1, 5
          call system%find_contact(k, slot, item)
-         call check_equal(error, system%loose%sets(slot)%set%names(item)%s, expected(k), "loose joint "//to_text(k))
-         call check_equal(error, system%loose%sets(slot)%set%before%contacts + item, k, "its number")
+         call check_equal(error, system%clearance_joints%sets(slot)%set%names(item)%s, expected(k), "loose joint "//to_text(k))
+         call check_equal(error, system%clearance_joints%sets(slot)%set%before%contacts + item, k, "its number")
       end do
-      call check_equal(error, system%loose%sets(1)%set%n, 2, "items that share laws")
-      call check_true(error, .not. allocated(system%loose%sets(1)%set%laws%friction), "no friction in the first set")
-      call check_true(error, allocated(system%loose%sets(3)%set%laws%friction), "friction in the third")
-      call check_equal(error, system%loose%sets(2)%set%laws%normal%name, "damped", "law of the second")
+      call check_equal(error, system%clearance_joints%sets(1)%set%n, 2, "items that share laws")
+      call check_true(error, .not. allocated(system%clearance_joints%sets(1)%set%laws%friction), "no friction in the first set")
+      call check_true(error, allocated(system%clearance_joints%sets(3)%set%laws%friction), "friction in the third")
+      call check_equal(error, system%clearance_joints%sets(2)%set%laws%normal%name, "damped", "law of the second")
       call check_equal(error, system%linkage%rows%n, 2, "rows of the ideal one")
       call check_equal(error, system%linkage%row_name(2), "loose_4", "name of its rows")
    end subroutine test_sets_share_laws
@@ -90,12 +90,12 @@ contains
       call read_scene_text(slider_crank("", "damped", "none", "clearance"), scene, error)
       if (allocated(error)) return
       call new_system(scene, levels_ideal, twin)
-      call check_equal(error, twin%loose%n, 0, "loose joints")
+      call check_equal(error, twin%clearance_joints%n, 0, "loose joints")
       call check_equal(error, twin%n_event, 0, "event functions")
       call check_equal(error, twin%linkage%rows%n, 9, "rows")
       call check_equal(error, twin%linkage%row_name(9), "gudgeon", "name of the last row")
       call new_system(scene, levels_as_written, twin)
-      call check_equal(error, twin%loose%n, 1, "loose joints as the deck has them")
+      call check_equal(error, twin%clearance_joints%n, 1, "loose joints as the deck has them")
       call check_equal(error, twin%linkage%rows%n, 7, "rows as the deck has them")
    end subroutine test_ideal_twin
 
@@ -107,13 +107,14 @@ contains
 
       call system_of_text(six_bearings(), system, error)
       if (allocated(error)) return
-      call check_close(error, system%loose%sets(1)%set%laws%parameters(1, :), [steel_pin, steel_pin], 1.0e-8_wp, &
+      call check_close(error, system%clearance_joints%sets(1)%set%laws%parameters(1, :), [steel_pin, steel_pin], 1.0e-8_wp, &
                        "steel", relative=.true.)
       ! bronze here is half as stiff as steel: compliances 1 + 2 instead of 1 + 1
-      call check_close(error, system%loose%sets(2)%set%laws%parameters(1, :), [2.0_wp*steel_pin/3.0_wp], 1.0e-8_wp, "bronze pin", &
+      call check_close(error, system%clearance_joints%sets(2)%set%laws%parameters(1, :), [2.0_wp*steel_pin/3.0_wp], 1.0e-8_wp, &
+                       "bronze pin", &
                        relative=.true.)
-      call check_close(error, system%loose%sets(4)%set%laws%parameters(1, :), [3.0e9_wp], 0.0_wp, "given")
-      call check_close(error, system%loose%sets(1)%set%items%clearance, [0.5e-3_wp, 0.5e-3_wp], 0.0_wp, "clearance")
+      call check_close(error, system%clearance_joints%sets(4)%set%laws%parameters(1, :), [3.0e9_wp], 0.0_wp, "given")
+      call check_close(error, system%clearance_joints%sets(1)%set%items%clearance, [0.5e-3_wp, 0.5e-3_wp], 0.0_wp, "clearance")
    end subroutine test_stiffness
 
    !> Friction with coefficient zero is dropped.
@@ -124,10 +125,10 @@ contains
 
       call system_of_text(slider_crank("", "damped", "rubbing", "clearance"), system, error)
       if (allocated(error)) return
-      call check_true(error, allocated(system%loose%sets(1)%set%laws%friction), "a law with effect")
+      call check_true(error, allocated(system%clearance_joints%sets(1)%set%laws%friction), "a law with effect")
       call system_of_text(replace(slider_crank("", "damped", "rubbing", "clearance"), "rubbing 0.1", "rubbing 0"), system, error)
       if (allocated(error)) return
-      call check_true(error, .not. allocated(system%loose%sets(1)%set%laws%friction), "a law without")
+      call check_true(error, .not. allocated(system%clearance_joints%sets(1)%set%laws%friction), "a law without")
    end subroutine test_law_without_effect
 
    !> Every joint has its rows; those of joints with clearance that are ideal come last.
@@ -167,8 +168,8 @@ contains
       allocate (y(system%n), source=0.0_wp)
       ! turned by a small angle: pin k is off by about 0.1 k times it; 4, 5 and 6 penetrate, 4 is ideal
       y(3) = 1.5e-3_wp
-      call system%loose%sets(3)%set%begin_contact(1, 0.0_wp, 1.0_wp, 0.0_wp)
-      call system%loose%sets(4)%set%begin_contact(1, 0.0_wp, 1.0_wp, 0.0_wp)
+      call system%clearance_joints%sets(3)%set%begin_contact(1, 0.0_wp, 1.0_wp, 0.0_wp)
+      call system%clearance_joints%sets(4)%set%begin_contact(1, 0.0_wp, 1.0_wp, 0.0_wp)
       energy = 0.0_wp
       do k = 5, 6
          delta = 0.2_wp*k*sin(0.5_wp*y(3)) - 0.5e-3_wp

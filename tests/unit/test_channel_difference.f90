@@ -1,6 +1,6 @@
 !> Differences of runs by channels, their scales, and the first contact that is another one, on runs made by hand.
 module test_channel_difference
-   use catalogue_rooms, only: room_clearances, room_energy
+   use groups_of_catalogue, only: group_clearances, group_energy
    use channel_difference, only: channel_scales, set_differences
    use check, only: check_close, check_true, suite_t
    use errors, only: error_t
@@ -44,9 +44,9 @@ contains
       run%goes_round = [.false., .false.]
       run%state_of = [0, 0]
       allocate (run%further(3))
-      run%further(1) = channel_kind_t(room_energy, class_energy, 0, "")
-      run%further(2) = channel_kind_t(room_clearances, class_other, 0, "Pa")
-      run%further(3) = channel_kind_t(room_clearances, class_other, 0, "m^3/s")
+      run%further(1) = channel_kind_t(group_energy, class_energy, 0, "")
+      run%further(2) = channel_kind_t(group_clearances, class_other, 0, "Pa")
+      run%further(3) = channel_kind_t(group_clearances, class_other, 0, "m^3/s")
       run%sort = [sort_positions, sort_velocities]
       allocate (run%values(2, n_instant), run%series%x(2, n_instant), source=0.0_wp)
       run%values(1, :) = run%t
@@ -55,7 +55,7 @@ contains
       run%series%x(2, :) = 10.0_wp*run%t
       allocate (run%series%low(2, n_instant), source=0.0_wp)
       run%series%high = run%series%x
-      run%series%least = [0.0_wp, 0.0_wp]
+      run%series%minimum = [0.0_wp, 0.0_wp]
       run%series%most = run%series%x(:, n_instant)
       allocate (run%magnitude(n_kind), source=0.0_wp)
    end subroutine new_run
@@ -125,12 +125,12 @@ contains
       a%series%x(1, :2) = not_a_number()
       a%series%low(1, :) = [huge(1.0_wp), huge(1.0_wp), 2.0_wp, 2.0_wp]
       a%series%high(1, :) = [-huge(1.0_wp), -huge(1.0_wp), 2.0_wp, 3.0_wp]
-      a%series%least(1) = 2.0_wp
+      a%series%minimum(1) = 2.0_wp
       b = a
       b%series%x(1, 2) = 1.9_wp      ! it touches here a little before
       b%series%low(1, 2:) = 1.9_wp
       b%series%high(1, 2) = 1.9_wp
-      b%series%least(1) = 1.9_wp
+      b%series%minimum(1) = 1.9_wp
       scale = 1.0_wp
       by_instant = 0.0_wp
       by_channel = 0.0_wp
@@ -158,8 +158,8 @@ contains
          call bound(a, i)
          call bound(b, i)
       end do
-      a%series%least = a%series%low(:, n_instant)
-      b%series%least = b%series%low(:, n_instant)
+      a%series%minimum = a%series%low(:, n_instant)
+      b%series%minimum = b%series%low(:, n_instant)
       a%series%most = a%series%high(:, n_instant)
       b%series%most = b%series%high(:, n_instant)
       scale = 1.0_wp

@@ -22,7 +22,7 @@ contains
       type(suite_t), intent(inout) :: suite  !! where tests are registered
 
       call suite%test("channels", test_channels)
-      call suite%test("story_of_a_contact", test_story_of_a_contact)
+      call suite%test("story_of_a_contact", test_description_of_a_contact)
       call suite%test("contact_time", test_contact_time)
    end subroutine run_test_clearance_revolute
 
@@ -47,7 +47,8 @@ contains
       info = bench%set%info()
       if (info%name /= "clearance.revolute") return
       ! a force that depends on a state, or always on material velocities: test_friction_memory
-      if (bench%set%grip%memory == memory_bristle .or. (bench%is_book .and. bench%set%grip%memory /= memory_none)) return
+      if (bench%set%stick_slip%memory == memory_bristle .or. (bench%is_book &
+                                                              .and. bench%set%stick_slip%memory /= memory_none)) return
       call evaluate_loads(bench, loads, integrands)
       force = 0.0_wp
       friction = 0.0_wp
@@ -87,7 +88,7 @@ contains
    end subroutine channels
 
    !> The row that a contact leaves behind, over or cut off by the end of the run.
-   subroutine test_story_of_a_contact(error)
+   subroutine test_description_of_a_contact(error)
       type(error_t), allocatable, intent(out) :: error  !! what failed
 
       type(bench_t) :: bench
@@ -109,7 +110,7 @@ contains
          call check_true(error, .not. ieee_is_finite(event%release_speed), "nor the release speed")
          call check_equal(error, event%state_after, "contact", "the run ended within it")
       end associate
-   end subroutine test_story_of_a_contact
+   end subroutine test_description_of_a_contact
 
    !> The duration of an elastic impact against its integration, with the reduced mass of the two bodies.
    subroutine test_contact_time(error)

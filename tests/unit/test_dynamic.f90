@@ -1,6 +1,6 @@
 !> The analysis: what it hands to a recorder, and when.
 module test_dynamic
-   use catalogue_rooms, only: room_bodies
+   use groups_of_catalogue, only: group_bodies
    use check, only: check_close, check_equal, check_true, suite_t
    use deck_scene, only: keeper_t
    use dynamic_fixture, only: run_text, settings, wheel
@@ -100,7 +100,7 @@ contains
       type(keeper_t) :: keeper
       type(summary_t) :: summary
 
-      keeper%room = room_bodies
+      keeper%room = group_bodies
       keeper%channel = "angle"
       call run_text(wheel//settings//"end = 3 s"//nl//"[output]"//nl//"every = 7 ms"//nl, keeper, summary, error)
       if (allocated(error)) return

@@ -27,7 +27,7 @@ contains
       call suite%test("driver_of_constant_speed", test_driver_of_constant_speed)
       call suite%test("driver_of_an_angle", test_driver_of_an_angle)
       call suite%test("driven_body_i", test_driven_body_i)
-      call suite%test("force_on_a_guided_mass", test_force_on_a_guided_mass)
+      call suite%test("force_on_a_guided_mass", test_force_on_a_one_dof_mass)
       call suite%test("torque_on_a_rotor", test_torque_on_a_rotor)
    end subroutine run_test_equations
 
@@ -221,7 +221,7 @@ contains
    end subroutine test_driven_body_i
 
    !> A sin(w t) along a guide: the acceleration is exact at any time; what is across goes into the guide.
-   subroutine test_force_on_a_guided_mass(error)
+   subroutine test_force_on_a_one_dof_mass(error)
       type(error_t), allocatable, intent(out) :: error  !! what failed
 
       type(mechanism_t) :: system
@@ -248,7 +248,7 @@ contains
          call check_close(error, channel_pair(system, t, y, "push", "force"), [f, -3.0_wp + 8.0_wp*t], 1.0e-14_wp, "force")
          call check_close(error, channel_of(system, t, y, "push", "power"), 1.5_wp*f, 1.0e-13_wp, "power")
       end do
-   end subroutine test_force_on_a_guided_mass
+   end subroutine test_force_on_a_one_dof_mass
 
    !> A torque on a body that turns about its centre of mass.
    subroutine test_torque_on_a_rotor(error)

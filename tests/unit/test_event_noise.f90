@@ -23,14 +23,14 @@ module test_event_noise
    end type distant_t
 
    !> What happened in a run.
-   type :: story_t
+   type :: description_t
       integer :: n_event = 0                    !! events
       integer :: count(n_wall) = 0              !! (walls) events of each
       real(wp) :: error = 0.0_wp                !! greatest distance of an event from the nearest crossing [s]
-      real(wp) :: least_rate = huge(1.0_wp)     !! least rate of a function at its event [m/s]
+      real(wp) :: min_rate = huge(1.0_wp)     !! least rate of a function at its event [m/s]
       integer :: n_meeting = 0                  !! steps that ended at events
       logical :: is_complete = .false.          !! the end was reached
-   end type story_t
+   end type description_t
 
 contains
 
@@ -74,13 +74,13 @@ contains
    end subroutine new_distant
 
    !> Run to the end. At an event the particle goes on through the wall: the function changes its sign.
-   subroutine follow(system, y, t_end, crossings, method, story)
+   subroutine follow(system, y, t_end, crossings, method, description)
       type(distant_t), intent(inout) :: system       !! the system
       real(wp), intent(in) :: y(:)                   !! (n) state at t = 0 [any]
       real(wp), intent(in) :: t_end                  !! end [s]
       real(wp), intent(in) :: crossings(:)           !! (any) when the wall is crossed [s]
       class(integrator_t), intent(inout) :: method   !! the integrator, with its controls
-      type(story_t), intent(out) :: story            !! what happened
+      type(description_t), intent(out) :: description            !! what happened
 
       real(wp) :: g(n_wall), rate(n_wall)
       integer :: i, k, status
@@ -91,19 +91,19 @@ contains
          call method%advance(system, t_end, status)
          if (status /= advance_event) cycle
          call system%events(method%t, method%step%y1, g, rate)
-         story%n_meeting = story%n_meeting + 1
+         description%n_meeting = description%n_meeting + 1
          do k = 1, method%events%n_happened
             associate (number => method%events%happened(k))
-               story%n_event = story%n_event + 1
-               story%count(number) = story%count(number) + 1
-               story%least_rate = min(story%least_rate, rate(number))
-               story%error = max(story%error, minval(abs(crossings - method%t)))
+               description%n_event = description%n_event + 1
+               description%count(number) = description%count(number) + 1
+               description%min_rate = min(description%min_rate, rate(number))
+               description%error = max(description%error, minval(abs(crossings - method%t)))
                system%side(number) = -system%side(number)
             end associate
          end do
          call method%restart(system, 0.0_wp, status)
       end do
-      story%is_complete = method%t >= t_end .and. status >= 0
+      description%is_complete = method%t >= t_end .and. status >= 0
    end subroutine follow
 
    !> A method by its name, with a small error.
@@ -122,19 +122,19 @@ contains
 
       class(integrator_t), allocatable :: method
       type(distant_t) :: system
-      type(story_t) :: story
+      type(description_t) :: description
       integer :: i
 
       do i = 1, size(methods)
          call make(methods(i), method)
          call new_distant(0.0_wp, 1.0_wp, 0.5_wp, system)
-         call follow(system, [0.0_wp, 1.0_wp], 10.0_wp, [1.0_wp, 5.0_wp, 13.0_wp, 17.0_wp]*pi/6.0_wp, method, story)
-         call check_true(error, story%is_complete, methods(i)//": comes to its end")
-         call check_true(error, all(story%count == 4), methods(i)//": each wall at each crossing once")
-         call check_true(error, story%least_rate > 0.0_wp, methods(i)//": functions rise at their events")
-         call check_close(error, story%error, 0.0_wp, 1.0e-6_wp, methods(i)//": times")
+         call follow(system, [0.0_wp, 1.0_wp], 10.0_wp, [1.0_wp, 5.0_wp, 13.0_wp, 17.0_wp]*pi/6.0_wp, method, description)
+         call check_true(error, description%is_complete, methods(i)//": comes to its end")
+         call check_true(error, all(description%count == 4), methods(i)//": each wall at each crossing once")
+         call check_true(error, description%min_rate > 0.0_wp, methods(i)//": functions rise at their events")
+         call check_close(error, description%error, 0.0_wp, 1.0e-6_wp, methods(i)//": times")
          ! the place of the noisiest may be a step off for the others
-         call check_true(error, story%n_meeting <= 8, methods(i)//": together")
+         call check_true(error, description%n_meeting <= 8, methods(i)//": together")
       end do
    end subroutine test_walls_at_one_place
 
@@ -144,7 +144,7 @@ contains
 
       class(integrator_t), allocatable :: method
       type(distant_t) :: system
-      type(story_t) :: story
+      type(description_t) :: description
       integer :: i, k
 
       do i = 1, size(methods)
@@ -152,10 +152,10 @@ contains
             call make(methods(i), method)
             method%controls%initial_step = 0.1_wp**(2*k)
             call new_distant(1.0_wp, 0.0_wp, 1.0_wp/3.0_wp, system)
-            call follow(system, [1.0_wp/3.0_wp, -1.0_wp], 3.0_wp, [2.0_wp], method, story)
-            call check_true(error, story%is_complete, methods(i)//": comes to its end")
-            call check_true(error, all(story%count == 1), methods(i)//": each wall once, on the way back")
-            call check_close(error, story%error, 0.0_wp, 1.0e-7_wp, methods(i)//": time")
+            call follow(system, [1.0_wp/3.0_wp, -1.0_wp], 3.0_wp, [2.0_wp], method, description)
+            call check_true(error, description%is_complete, methods(i)//": comes to its end")
+            call check_true(error, all(description%count == 1), methods(i)//": each wall once, on the way back")
+            call check_close(error, description%error, 0.0_wp, 1.0e-7_wp, methods(i)//": time")
          end do
       end do
    end subroutine test_parting
@@ -166,16 +166,16 @@ contains
 
       class(integrator_t), allocatable :: method
       type(distant_t) :: system
-      type(story_t) :: story
+      type(description_t) :: description
       integer :: i
 
       do i = 1, size(methods)
          call make(methods(i), method)
          call new_distant(0.0_wp, 0.0_wp, 1.0_wp/3.0_wp, system)
-         call follow(system, [1.0_wp/3.0_wp, 1.0_wp], 1.0_wp, [0.0_wp], method, story)
-         call check_true(error, story%is_complete, methods(i)//": comes to its end")
-         call check_true(error, all(story%count == 1), methods(i)//": each wall once")
-         call check_close(error, story%error, 0.0_wp, 1.0e-9_wp, methods(i)//": at once")
+         call follow(system, [1.0_wp/3.0_wp, 1.0_wp], 1.0_wp, [0.0_wp], method, description)
+         call check_true(error, description%is_complete, methods(i)//": comes to its end")
+         call check_true(error, all(description%count == 1), methods(i)//": each wall once")
+         call check_close(error, description%error, 0.0_wp, 1.0e-9_wp, methods(i)//": at once")
       end do
    end subroutine test_approaching
 

@@ -272,11 +272,11 @@ contains
    subroutine test_no_warning(error)
       type(error_t), allocatable, intent(out) :: error  !! what failed
 
-      type(keeper_t) :: driven, loose
+      type(keeper_t) :: driven, clearance_joints
       type(summary_t) :: summary
       character(:), allocatable :: message
 
-      call run_text(pins, .false., loose, summary, message, error)
+      call run_text(pins, .false., clearance_joints, summary, message, error)
       if (.not. allocated(error)) call check_equal(error, all_of(summary%warnings), "", "warnings of the pins")
       call run_text(pendulum//"[driver.angle]"//nl//"name joint angle"//nl//"motor pin {0.3 rad*sin(20 rad/s*t)}"//nl// &
                     second, .false., driven, summary, message, error)

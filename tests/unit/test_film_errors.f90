@@ -83,7 +83,7 @@ contains
       type(error_t), allocatable, intent(out) :: error  !! what failed
 
       type(line_t), allocatable :: lines(:)
-      real(wp) :: greatest
+      real(wp) :: maximum
       integer :: k, kind, n
 
       allocate (lines(n_line))
@@ -92,11 +92,11 @@ contains
       n = n_line/n_journal_film_kinds
       do kind = 1, n_journal_film_kinds
          k = (kind - 1)*n
-         greatest = maxval(lines(k + 1:k + n)%row%error)
+         maximum = maxval(lines(k + 1:k + n)%row%error)
          select case (lines(k + 1)%film)
-         case ("finite"); call check_true(error, greatest < 0.5_wp, "finite: within 0.5 %")
-         case ("grid"); call check_true(error, greatest < 0.3_wp, "grid: within 0.3 %")
-         case default; call check_true(error, greatest > 10.0_wp, trim(lines(k + 1)%film)//": not so right everywhere")
+         case ("finite"); call check_true(error, maximum < 0.5_wp, "finite: within 0.5 %")
+         case ("grid"); call check_true(error, maximum < 0.3_wp, "grid: within 0.3 %")
+         case default; call check_true(error, maximum > 10.0_wp, trim(lines(k + 1)%film)//": not so right everywhere")
          end select
       end do
    end subroutine test_claims

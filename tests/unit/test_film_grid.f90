@@ -172,10 +172,10 @@ contains
 
       call make_film("grid", " ", " ", unit_bearing(), case)
       call check_equal(error, case%law%mistake(), "", "no supply")
-      call check_equal(error, case%law%story(case%parameters), "160 x 16 cells", "story")
+      call check_equal(error, case%law%description(case%parameters), "160 x 16 cells", "story")
       call make_grooved("fixed", 2.0_wp, 0.0_wp, 2.0_wp, 1.0e5_wp, case)
       call check_equal(error, case%law%mistake(), "", "two supplies of 115 deg")
-      call check_true(error, index(case%law%story(case%parameters), "supplied at 100000 Pa") > 0, "story of supplies")
+      call check_true(error, index(case%law%description(case%parameters), "supplied at 100000 Pa") > 0, "story of supplies")
       call make_grooved("fixed", 3.0_wp, 0.0_wp, 1.9_wp, 1.0e5_wp, case)
       call check_true(error, index(case%law%mistake(), "3 supplies as wide as this leave no film") == 1, "too wide")
    end subroutine test_mistakes

@@ -6,7 +6,7 @@ module test_finite_bearing
    use film_case, only: components, film_case_t, make_film
    use film_grid_case, only: make_grid, result_of
    use film_law, only: film_bearing_t
-   use finite_bearing, only: basis, finite_force, finite_weights, greatest_ratio, least_ratio, n_local, n_ratio
+   use finite_bearing, only: basis, finite_force, finite_weights, max_ratio, min_ratio, n_local, n_ratio
    use fixed_random, only: random_t
    use kinds, only: pi, wp
    use reynolds_grid, only: boundary_reynolds, journal_state_t, reynolds_grid_t
@@ -39,7 +39,7 @@ contains
 
       real(wp) :: eps
 
-      ratio = exp(random%between(log(least_ratio), log(greatest_ratio)))
+      ratio = exp(random%between(log(min_ratio), log(max_ratio)))
       if (random%between(0.0_wp, 1.0_wp) < 0.5_wp) then
          eps = random%between(0.0_wp, 0.999_wp)
       else

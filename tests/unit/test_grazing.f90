@@ -2,7 +2,7 @@
 module test_grazing
    use check, only: check_close, check_equal, check_true, suite_t
    use errors, only: error_t
-   use event_story, only: check_story, run_through, story_t
+   use event_description, only: check_description, run_through, description_t
    use kinds, only: pi, wp
    use ode_examples, only: new_particles, particles_t
    use verner, only: verner_t
@@ -32,7 +32,7 @@ contains
       real(wp), parameter :: step = 2.0_wp
       type(particles_t) :: system
       type(verner_t), allocatable :: method
-      type(story_t) :: story
+      type(description_t) :: description
       real(wp) :: depth, half, top
       integer :: i, k
 
@@ -45,10 +45,10 @@ contains
             allocate (method)
             method%controls%initial_step = step
             call new_particles([-1.0_wp], [0.0_wp], [1], [0.5_wp*top**2 - depth], [1.0_wp], system)
-            call run_through(system, [0.0_wp, top], 1.5_wp*step, method, story)
-            call check_story(error, story, 2, 1.0e-15_wp, "in and out")
-            call check_close(error, story%time(1:2), [top - half, top + half], 1.0e-11_wp, "times")
-            call check_true(error, story%n_step <= 6, "few steps")
+            call run_through(system, [0.0_wp, top], 1.5_wp*step, method, description)
+            call check_description(error, description, 2, 1.0e-15_wp, "in and out")
+            call check_close(error, description%time(1:2), [top - half, top + half], 1.0e-11_wp, "times")
+            call check_true(error, description%n_step <= 6, "few steps")
             deallocate (method)
          end do
       end do
@@ -60,7 +60,7 @@ contains
 
       type(particles_t) :: system
       type(verner_t), allocatable :: method
-      type(story_t) :: story
+      type(description_t) :: description
       real(wp) :: depth, top
       integer :: i, k
 
@@ -71,9 +71,10 @@ contains
             allocate (method)
             method%controls%initial_step = 1.9_wp
             call new_particles([-1.0_wp], [0.0_wp], [1], [0.5_wp*top**2 - depth], [1.0_wp], system)
-            call run_through(system, [0.0_wp, top], 4.0_wp, method, story)
-            call check_story(error, story, merge(2, 0, k == 1), 1.0e-15_wp, "grazing")
-            if (k == 1) call check_close(error, story%time(1:2), top + sqrt(2.0_wp*depth)*[-1.0_wp, 1.0_wp], 1.0e-10_wp, "times")
+            call run_through(system, [0.0_wp, top], 4.0_wp, method, description)
+            call check_description(error, description, merge(2, 0, k == 1), 1.0e-15_wp, "grazing")
+            if (k == 1) call check_close(error, description%time(1:2), top + sqrt(2.0_wp*depth)*[-1.0_wp, 1.0_wp], 1.0e-10_wp, &
+                                         "times")
             deallocate (method)
          end do
       end do
@@ -85,7 +86,7 @@ contains
 
       type(particles_t) :: system
       type(verner_t), allocatable :: method
-      type(story_t) :: story
+      type(description_t) :: description
       real(wp) :: phase
       integer :: i, k
 
@@ -95,8 +96,8 @@ contains
             allocate (method)
             method%controls%tolerance = 1.0e-12_wp
             call new_particles([0.0_wp], [1.0_wp], [1], [1.0_wp - merge(1.0e-9_wp, -1.0e-9_wp, k == 1)], [1.0_wp], system)
-            call run_through(system, [sin(phase), cos(phase)], 4.0_wp*pi, method, story)
-            call check_story(error, story, merge(4, 0, k == 1), 1.0e-15_wp, "grazing spring")
+            call run_through(system, [sin(phase), cos(phase)], 4.0_wp*pi, method, description)
+            call check_description(error, description, merge(4, 0, k == 1), 1.0e-15_wp, "grazing spring")
             deallocate (method)
          end do
       end do
@@ -108,7 +109,7 @@ contains
 
       type(particles_t) :: system
       type(verner_t), allocatable :: method
-      type(story_t) :: story
+      type(description_t) :: description
       real(wp) :: top
       integer :: i
 
@@ -117,10 +118,10 @@ contains
          allocate (method)
          method%controls%initial_step = 1.9_wp
          call new_particles([-1.0_wp], [0.0_wp], [1], [0.5_wp*top**2], [1.0_wp], system)
-         call run_through(system, [0.0_wp, top], 4.0_wp, method, story)
-         call check_true(error, story%n_event <= 2, "at most an onset and an end")
-         call check_story(error, story, story%n_event, 1.0e-14_wp, "touching")
-         call check_true(error, story%n_step < 20, "few steps")
+         call run_through(system, [0.0_wp, top], 4.0_wp, method, description)
+         call check_true(error, description%n_event <= 2, "at most an onset and an end")
+         call check_description(error, description, description%n_event, 1.0e-14_wp, "touching")
+         call check_true(error, description%n_step < 20, "few steps")
          deallocate (method)
       end do
    end subroutine test_touching
@@ -132,7 +133,7 @@ contains
       real(wp), parameter :: half = 1.0e-3_wp  ! of the brief contact [s]
       type(particles_t) :: system
       type(verner_t), allocatable :: method
-      type(story_t) :: story
+      type(description_t) :: description
       real(wp) :: top
       integer :: i, k
 
@@ -144,9 +145,9 @@ contains
             call new_particles([-1.0_wp, 0.0_wp], [0.0_wp, 0.0_wp], [k, 3 - k], [0.0_wp, 0.0_wp], [1.0_wp, 1.0_wp], system)
             system%wall(k) = 0.5_wp*(top**2 - half**2)
             system%wall(3 - k) = top + 0.004_wp
-            call run_through(system, [0.0_wp, 0.0_wp, top, 1.0_wp], 1.0_wp, method, story)
-            call check_story(error, story, 3, 1.0e-15_wp, "a brief contact before another")
-            call check_close(error, story%time(1:3), top + [-half, half, 0.004_wp], 1.0e-11_wp, "times")
+            call run_through(system, [0.0_wp, 0.0_wp, top, 1.0_wp], 1.0_wp, method, description)
+            call check_description(error, description, 3, 1.0e-15_wp, "a brief contact before another")
+            call check_close(error, description%time(1:3), top + [-half, half, 0.004_wp], 1.0e-11_wp, "times")
             deallocate (method)
          end do
       end do
@@ -159,25 +160,25 @@ contains
       real(wp), parameter :: place(3) = [1.0e-18_wp, 0.0_wp, -1.0e-18_wp]
       type(particles_t) :: system
       type(verner_t), allocatable :: method
-      type(story_t) :: story
+      type(description_t) :: description
       integer :: k
 
       do k = 1, 3
          ! away from the wall, and back to it at t = 2
          allocate (method)
          call new_particles([1.0_wp], [0.0_wp], [1], [0.0_wp], [1.0_wp], system)
-         call run_through(system, [place(k), -1.0_wp], 3.0_wp, method, story)
-         call check_equal(error, story%n_event, 1, "event on the way back")
-         call check_close(error, story%time(1), 2.0_wp, 2.0e-15_wp, "its time")
-         call check_true(error, story%is_complete .and. story%n_step < 20, "few steps")
+         call run_through(system, [place(k), -1.0_wp], 3.0_wp, method, description)
+         call check_equal(error, description%n_event, 1, "event on the way back")
+         call check_close(error, description%time(1), 2.0_wp, 2.0e-15_wp, "its time")
+         call check_true(error, description%is_complete .and. description%n_step < 20, "few steps")
          deallocate (method)
          ! through the wall at once
          allocate (method)
          call new_particles([0.0_wp], [0.0_wp], [1], [0.0_wp], [1.0_wp], system)
-         call run_through(system, [place(k), 1.0_wp], 3.0_wp, method, story)
-         call check_equal(error, story%n_event, 1, "event at the start")
-         call check_close(error, story%time(1), 0.0_wp, 1.0e-15_wp, "its time")
-         call check_true(error, story%is_complete .and. story%n_step < 20, "few steps")
+         call run_through(system, [place(k), 1.0_wp], 3.0_wp, method, description)
+         call check_equal(error, description%n_event, 1, "event at the start")
+         call check_close(error, description%time(1), 0.0_wp, 1.0e-15_wp, "its time")
+         call check_true(error, description%is_complete .and. description%n_step < 20, "few steps")
          deallocate (method)
       end do
    end subroutine test_start_on_the_wall
@@ -188,7 +189,7 @@ contains
 
       type(particles_t) :: system
       type(verner_t), allocatable :: method
-      type(story_t) :: story
+      type(description_t) :: description
       real(wp) :: far, speed
       integer :: i, k
 
@@ -198,9 +199,9 @@ contains
          do i = -2, 2
             allocate (method)
             call new_particles([-1.0_wp], [0.0_wp], [1], [far], [1.0_wp], system)
-            call run_through(system, [far + i*spacing(far), -speed], 1.0_wp, method, story)
-            call check_equal(error, story%n_event, 0, "no event")
-            call check_true(error, story%is_complete .and. story%n_step < 20, "few steps")
+            call run_through(system, [far + i*spacing(far), -speed], 1.0_wp, method, description)
+            call check_equal(error, description%n_event, 0, "no event")
+            call check_true(error, description%is_complete .and. description%n_step < 20, "few steps")
             deallocate (method)
          end do
       end do
@@ -212,12 +213,12 @@ contains
 
       type(particles_t) :: system
       type(verner_t) :: method
-      type(story_t) :: story
+      type(description_t) :: description
 
       call new_particles([0.0_wp, 0.0_wp], [0.0_wp, 1.0_wp], [1, 2], [0.3_wp, 0.5_wp], [1.0_wp, 1.0_wp], system)
-      call run_through(system, [0.3_wp, 0.0_wp, 0.0_wp, 1.0_wp], 3.0_wp, method, story)
-      call check_story(error, story, 2, 1.0e-15_wp, "one lies, the other passes")
-      call check_true(error, all(story%number(1:2) == 2), "only the second")
+      call run_through(system, [0.3_wp, 0.0_wp, 0.0_wp, 1.0_wp], 3.0_wp, method, description)
+      call check_description(error, description, 2, 1.0e-15_wp, "one lies, the other passes")
+      call check_true(error, all(description%number(1:2) == 2), "only the second")
    end subroutine test_zero_for_ever
 
 end module test_grazing

@@ -5,8 +5,8 @@ module test_hold_kinds
    use deck_scene, only: keeper_t, load_text, loaded_t, run_to_end
    use errors, only: error_t
    use free_four_bar, only: four_bar, n_turn, run_four_bar
-   use hold_partitioning, only: hold_partitioning_t
-   use hold_registry, only: n_hold_kinds
+   use stabilisation_partitioning, only: stabilisation_partitioning_t
+   use stabilisation_registry, only: n_stabilisation_kinds
    use kinds, only: two_pi, wp
    use mechanism_energy, only: energy_of, energy_t
    use recorder, only: summary_t
@@ -44,7 +44,7 @@ contains
       call check_way("partitioning"//by_verner, 1.0e-7_wp, 1.0e-12_wp, 1.0e-7_wp)
       call check_way("projection"//by_verner, 1.0e-7_wp, 1.0e-12_wp, 1.0e-7_wp)
       call check_way("projection"//by_steps, 1.0e-6_wp, 1.0e-12_wp, 1.0e-5_wp)
-      call check_equal(error, n_way, n_hold_kinds + 1, "ways that were looked at, one of them twice")
+      call check_equal(error, n_way, n_stabilisation_kinds + 1, "ways that were looked at, one of them twice")
 
    contains
 
@@ -128,7 +128,7 @@ contains
          worst = 0.0_wp
          ! as if the place of the slider had been chosen to stand for all
          select type (way => system%way)
-         type is (hold_partitioning_t)
+         type is (stabilisation_partitioning_t)
             way%order = [1, 2, 3, 4, 5, 6, 8, 9, 7]
             before = way%order
             way%rank = 8
@@ -138,7 +138,7 @@ contains
             call method%advance(system, 0.5_wp, status)
             call check_true(error, status >= 0, "a step is made")
             select type (way => system%way)
-            type is (hold_partitioning_t)
+            type is (stabilisation_partitioning_t)
                call check_equal(error, way%rank, 8, "dependent coordinates")
                if (any(before /= way%order)) n_change = n_change + 1
                before = way%order

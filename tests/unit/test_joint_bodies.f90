@@ -5,8 +5,8 @@ module test_joint_bodies
    use diagnostics, only: diagnostics_t
    use deck_scene, only: load_text, loaded_t
    use errors, only: error_t
-   use find_guided, only: find_guided_bodies, guide_t
-   use find_known, only: find_known_bodies, joint_bodies, link_t
+   use find_one_dof, only: find_one_dof_bodies, guide_t
+   use find_prescribed, only: find_prescribed_bodies, joint_bodies, link_t
    use item, only: item_t
    use joint_rigid, only: joint_rigid_t
    use kind_info, only: add_reference, kind_info_t
@@ -89,10 +89,10 @@ contains
          table%items(1)%values(2)%index = 3
       end associate
       call check_true(error, all(joint_bodies(loaded%scene, weld, 1) == [2, 3]), "weld of bodies")
-      call find_known_bodies(loaded%scene, links)
+      call find_prescribed_bodies(loaded%scene, links)
       call check_equal(error, size(links), 1, "known bodies")
       call check_equal(error, links(1)%body, 1, "the crank")
-      call find_guided_bodies(loaded%scene, [.true., .true., .false., .false.], levels_ideal, guides)
+      call find_one_dof_bodies(loaded%scene, [.true., .true., .false., .false.], levels_ideal, guides)
       call check_equal(error, size(guides), 0, "guided bodies")
    end subroutine test_by_bodies
 

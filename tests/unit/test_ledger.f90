@@ -52,7 +52,7 @@ contains
       character(*), intent(in) :: what                     !! for messages
 
       real(wp) :: change, elastic(1), f(1), gained, scale, unused(1), unused_too(1), ydot(size(y)), z(size(y))
-      real(wp) :: balance(4), delta(system%loose%n_contact), rate(system%loose%n_contact)
+      real(wp) :: balance(4), delta(system%clearance_joints%n_contact), rate(system%clearance_joints%n_contact)
       type(energy_t) :: energy
       integer :: i, k, last, m, n, status
 
@@ -63,9 +63,9 @@ contains
       last = system%place_of_impulse(0)
       gained = mechanical_rate(system, y, ydot)
       scale = abs(gained)
-      if (system%loose%n > 0) call system%events(t, y, delta, rate)
-      do k = 1, size(system%loose%sets)
-         associate (set => system%loose%sets(k)%set)
+      if (system%clearance_joints%n > 0) call system%events(t, y, delta, rate)
+      do k = 1, size(system%clearance_joints%sets)
+         associate (set => system%clearance_joints%sets(k)%set)
             do i = 1, set%n_contact
                if (.not. set%contact(i)%is_touching) cycle
                ! event functions of touching contacts are the negatives of penetrations
@@ -152,7 +152,7 @@ contains
          do friction = 1, 2
             call start_text(slider_crank("", laws(law), frictions(friction), "clearance"), system, start, error)
             if (allocated(error)) return
-            call system%loose%sets(1)%set%begin_contact(1, 0.0_wp, 6.0_wp, 0.0_wp)
+            call system%clearance_joints%sets(1)%set%begin_contact(1, 0.0_wp, 6.0_wp, 0.0_wp)
             do k = 1, 10
                y = start
                ! the slider is the bearing: moved back along its guide by clearance and penetration
@@ -160,8 +160,9 @@ contains
                y(10:18) = y(10:18) + random%vector(9, -1.0_wp, 1.0_wp)
                call check_powers(error, system, 0.0_wp, y, "contact "//laws(law)//" "//frictions(friction))
             end do
-            call check_true(error, sum(abs(system%loose%integrands(1, :))) > 0.0_wp .eqv. law == 2, "damping works")
-            call check_true(error, sum(abs(system%loose%integrands(2, :))) > 0.0_wp .eqv. friction == 2, "friction works")
+            call check_true(error, sum(abs(system%clearance_joints%integrands(1, :))) > 0.0_wp .eqv. law == 2, "damping works")
+            call check_true(error, sum(abs(system%clearance_joints%integrands(2, :))) > 0.0_wp .eqv. friction == 2, &
+                            "friction works")
          end do
       end do
    end subroutine test_powers_in_contact

@@ -86,7 +86,7 @@ contains
       if (allocated(error)) return
       call start_text(slider_crank("", "damped", "rubbing", "clearance"), fresh, y, error)
       if (allocated(error)) return
-      call system%loose%sets(1)%set%begin_contact(1, 0.25_wp, 3.5_wp, 0.125_wp)
+      call system%clearance_joints%sets(1)%set%begin_contact(1, 0.25_wp, 3.5_wp, 0.125_wp)
       y(7) = y(7) - 0.52e-3_wp
       ydot = y
       ydot_fresh = y
@@ -99,7 +99,7 @@ contains
       call fresh%load(row, place)
       call check_equal(error, place, fresh%memory_size(), "numbers loaded")
       call check_true(error, fresh%n_evaluations == 1_i8, "evaluations")
-      call check_equal(error, fresh%loose%sets(1)%set%n_touching, 1, "the contact touches")
+      call check_equal(error, fresh%clearance_joints%sets(1)%set%n_touching, 1, "the contact touches")
       call fresh%evaluate(0.0_wp, y, ydot_fresh, status)
       call check_close(error, ydot_fresh, ydot, 0.0_wp, "derivative")
       call check_true(error, maxval(abs(ydot(16:17))) > 1000.0_wp, "there is a contact force")

@@ -2,7 +2,7 @@
 module test_multistep_events
    use check, only: check_close, check_equal, check_true, suite_t
    use errors, only: error_t
-   use event_story, only: check_story, run_through, story_t
+   use event_description, only: check_description, run_through, description_t
    use integrator, only: advance_too_many_evaluations, advance_too_many_steps, advance_too_small, integrator_t
    use integrator_controls, only: controls_t
    use integrator_registry, only: find_integrator
@@ -34,7 +34,7 @@ contains
 
       class(integrator_t), allocatable :: method
       type(particles_t) :: system
-      type(story_t) :: story
+      type(description_t) :: description
       real(wp) :: errors(4)
       integer :: i, k
 
@@ -43,9 +43,9 @@ contains
             call find_integrator(trim(methods(i)), method)
             method%controls%tolerance = 0.01_wp**(k + 1)
             call new_particles([0.0_wp], [1.0_wp], [1], [0.5_wp], [1.0_wp], system)
-            call run_through(system, [0.0_wp, 1.0_wp], 10.0_wp, method, story)
-            call check_story(error, story, 4, 1.0e-14_wp, methods(i)//": spring")
-            errors(k) = maxval(abs(story%time(1:4) - [1.0_wp, 5.0_wp, 13.0_wp, 17.0_wp]*pi/6.0_wp))
+            call run_through(system, [0.0_wp, 1.0_wp], 10.0_wp, method, description)
+            call check_description(error, description, 4, 1.0e-14_wp, methods(i)//": spring")
+            errors(k) = maxval(abs(description%time(1:4) - [1.0_wp, 5.0_wp, 13.0_wp, 17.0_wp]*pi/6.0_wp))
             call check_true(error, errors(k) < 300.0_wp*0.01_wp**(k + 1), methods(i)//": times")
          end do
          call check_true(error, all(errors(2:) < errors(:3)/8.0_wp), methods(i)//": they follow the tolerance")
@@ -59,7 +59,7 @@ contains
       real(wp), parameter :: restitution = 0.9_wp, first = sqrt(6.0_wp/9.81_wp)
       class(integrator_t), allocatable :: method
       type(particles_t) :: system
-      type(story_t) :: story
+      type(description_t) :: description
       real(wp) :: time
       integer :: i, k
 
@@ -68,10 +68,10 @@ contains
          call find_integrator(trim(methods(i)), method)
          method%controls%tolerance = 1.0e-8_wp
          call new_particles([-9.81_wp], [0.0_wp], [1], [0.0_wp], [-1.0_wp], system)
-         call run_through(system, [3.0_wp, 0.0_wp], time + 0.01_wp, method, story, restitution)
-         call check_story(error, story, 10, 1.0e-13_wp, methods(i)//": bouncing ball")
-         call check_close(error, story%time(1), first, 1.0e-7_wp, methods(i)//": first bounce", relative=.true.)
-         call check_close(error, story%time(10), time, 1.0e-6_wp, methods(i)//": tenth bounce", relative=.true.)
+         call run_through(system, [3.0_wp, 0.0_wp], time + 0.01_wp, method, description, restitution)
+         call check_description(error, description, 10, 1.0e-13_wp, methods(i)//": bouncing ball")
+         call check_close(error, description%time(1), first, 1.0e-7_wp, methods(i)//": first bounce", relative=.true.)
+         call check_close(error, description%time(10), time, 1.0e-6_wp, methods(i)//": tenth bounce", relative=.true.)
       end do
    end subroutine test_bouncing_ball
 
@@ -82,7 +82,7 @@ contains
       real(wp), parameter :: depth = 1.0e-5_wp
       class(integrator_t), allocatable :: method
       type(particles_t) :: system
-      type(story_t) :: story
+      type(description_t) :: description
       real(wp) :: half
       integer :: i
 
@@ -91,9 +91,9 @@ contains
          call find_integrator(trim(methods(i)), method)
          method%controls%tolerance = 1.0e-9_wp
          call new_particles([0.0_wp], [1.0_wp], [1], [1.0_wp - depth], [1.0_wp], system)
-         call run_through(system, [0.0_wp, 1.0_wp], 10.0_wp, method, story)
-         call check_story(error, story, 4, 1.0e-14_wp, methods(i)//": in and out")
-         call check_close(error, story%time(1:4), 0.5_wp*pi + [-half, half, 2.0_wp*pi - half, 2.0_wp*pi + half], 2.0e-5_wp, &
+         call run_through(system, [0.0_wp, 1.0_wp], 10.0_wp, method, description)
+         call check_description(error, description, 4, 1.0e-14_wp, methods(i)//": in and out")
+         call check_close(error, description%time(1:4), 0.5_wp*pi + [-half, half, 2.0_wp*pi - half, 2.0_wp*pi + half], 2.0e-5_wp, &
                           methods(i)//": times")
       end do
    end subroutine test_in_and_out
@@ -104,18 +104,18 @@ contains
 
       class(integrator_t), allocatable :: method
       type(particles_t) :: system
-      type(story_t) :: story
+      type(description_t) :: description
       integer :: i, k
 
       do i = 1, size(methods)
          call find_integrator(trim(methods(i)), method)
          call new_particles([-1.0_wp, 0.0_wp, 2.0_wp], [0.0_wp, 0.0_wp, 0.0_wp], [1, 1, 2, 3], &
                             [0.0_wp, 0.0_wp, 1.1_wp, 1.21_wp], [-1.0_wp, -1.0_wp, 1.0_wp, 1.0_wp], system)
-         call run_through(system, [0.605_wp, 0.0_wp, 0.0_wp, 0.0_wp, 1.0_wp, 0.0_wp], 2.0_wp, method, story)
-         call check_equal(error, story%n_event, 4, methods(i)//": events")
-         call check_close(error, story%time(1:4), [(1.1_wp, k=1, 4)], 1.0e-6_wp, methods(i)//": times")
-         call check_true(error, all([(any(story%number(1:4) == k), k=1, 4)]), methods(i)//": each of them once")
-         call check_true(error, story%is_complete, methods(i)//": comes to its end")
+         call run_through(system, [0.605_wp, 0.0_wp, 0.0_wp, 0.0_wp, 1.0_wp, 0.0_wp], 2.0_wp, method, description)
+         call check_equal(error, description%n_event, 4, methods(i)//": events")
+         call check_close(error, description%time(1:4), [(1.1_wp, k=1, 4)], 1.0e-6_wp, methods(i)//": times")
+         call check_true(error, all([(any(description%number(1:4) == k), k=1, 4)]), methods(i)//": each of them once")
+         call check_true(error, description%is_complete, methods(i)//": comes to its end")
       end do
    end subroutine test_simultaneous
 
@@ -126,17 +126,17 @@ contains
       real(wp), parameter :: place(3) = [1.0e-18_wp, 0.0_wp, -1.0e-18_wp]
       class(integrator_t), allocatable :: method
       type(particles_t) :: system
-      type(story_t) :: story
+      type(description_t) :: description
       integer :: i, k
 
       do i = 1, size(methods)
          do k = 1, 3
             call find_integrator(trim(methods(i)), method)
             call new_particles([1.0_wp], [0.0_wp], [1], [0.0_wp], [1.0_wp], system)
-            call run_through(system, [place(k), -1.0_wp], 3.0_wp, method, story)
-            call check_equal(error, story%n_event, 1, methods(i)//": event on the way back")
-            call check_close(error, story%time(1), 2.0_wp, 1.0e-6_wp, methods(i)//": its time")
-            call check_true(error, story%is_complete, methods(i)//": comes to its end")
+            call run_through(system, [place(k), -1.0_wp], 3.0_wp, method, description)
+            call check_equal(error, description%n_event, 1, methods(i)//": event on the way back")
+            call check_close(error, description%time(1), 2.0_wp, 1.0e-6_wp, methods(i)//": its time")
+            call check_true(error, description%is_complete, methods(i)//": comes to its end")
          end do
       end do
    end subroutine test_start_on_the_wall

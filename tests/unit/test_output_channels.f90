@@ -1,7 +1,7 @@
 !> Words for channels and figures: what they name, and what is said of those that name nothing.
 module test_output_channels
    use catalogue, only: catalogue_t
-   use catalogue_rooms, only: room_bodies, room_contacts
+   use groups_of_catalogue, only: group_bodies, group_contacts
    use channel_names, only: component_letter, scalar_name, scalar_t
    use channels, only: list_scalars, select_channels, selection_t
    use check, only: check_equal, check_true, suite_t
@@ -116,11 +116,11 @@ contains
       type(catalogue_t) :: scene
 
       call make_scene(scene)
-      call check_true(error, scene%item_has(scene%find_group(room_bodies, "angle"), 2), "the slider has an angle")
-      call check_true(error, scene%item_has(scene%find_group(room_contacts, "state"), 3), "a contact has a state")
-      call scene%add_item(room_bodies, "point_mass")
+      call check_true(error, scene%item_has(scene%find_group(group_bodies, "angle"), 2), "the slider has an angle")
+      call check_true(error, scene%item_has(scene%find_group(group_contacts, "state"), 3), "a contact has a state")
+      call scene%add_item(group_bodies, "point_mass")
       call scene%allocate_data()
-      call check_true(error, scene%item_has(scene%find_group(room_bodies, "angle"), 3), "an item without kind has all")
+      call check_true(error, scene%item_has(scene%find_group(group_bodies, "angle"), 3), "an item without kind has all")
    end subroutine an_item_has_only_its_channels
 
    subroutine components_have_letters(error)

@@ -9,7 +9,7 @@ module test_precision
    use kinds, only: eps, not_a_number, wp
    use precision_choice, only: choose_best, find_orders
    use precision_info, only: check_setting_word, setting_t, settings_of
-   use precision_results, only: error_motion, ladder_t, median, precision_t, rung_done, rung_failed
+   use precision_results, only: error_motion, tol_sweep_t, median, precision_t, tol_run_done, tol_run_failed
    use run_difference, only: compare_contacts, compare_sorts, distances, scales_of
    use text, only: split_blank
    implicit none (type, external)
@@ -102,7 +102,7 @@ contains
       type(error_t), allocatable, intent(out) :: error  !! what failed
 
       real(wp), allocatable :: d(:, :)
-      real(wp) :: greatest(n_sort), motion, scale(n_sort)
+      real(wp) :: maximum(n_sort), motion, scale(n_sort)
       type(kept_run_t) :: a, b
 
       call make_run([1000.0_wp, 1001.0_wp, 1004.0_wp], [0.0_wp, -5.0_wp, 1.0_wp], [7.0_wp, 8.0_wp, -2.0_wp], a)
@@ -110,10 +110,10 @@ contains
       scale = scales_of(a, 1.0_wp, 2.0_wp)
       call check_close(error, scale, [4.0_wp, 5.0_wp, 8.0_wp], 1.0e-15_wp, "scales")
       call distances(b, a, scale, d)
-      call compare_sorts(d, a%t, 1.5_wp, greatest, motion)
-      call check_close(error, greatest, [0.025_wp, 0.0_wp, 0.0_wp], 1.0e-12_wp, "up to 1.5 s")
-      call compare_sorts(d, a%t, 2.0_wp, greatest, motion)
-      call check_close(error, greatest, [0.1_wp, 0.1_wp, 0.5_wp], 1.0e-12_wp, "up to the end")
+      call compare_sorts(d, a%t, 1.5_wp, maximum, motion)
+      call check_close(error, maximum, [0.025_wp, 0.0_wp, 0.0_wp], 1.0e-12_wp, "up to 1.5 s")
+      call compare_sorts(d, a%t, 2.0_wp, maximum, motion)
+      call check_close(error, maximum, [0.1_wp, 0.1_wp, 0.5_wp], 1.0e-12_wp, "up to the end")
       call check_close(error, motion, 0.1_wp, 1.0e-12_wp, "of the motion")
    end subroutine test_distances
 
@@ -230,14 +230,15 @@ contains
 
       call make_study(study)
       call find_orders(study)
-      call check_close(error, study%ladders(1)%order, 4.0_wp, 0.05_wp, "order of fixed steps")
-      call check_true(error, ieee_is_nan(study%ladders(1)%exponent), "steps have no proportionality")
-      call check_close(error, study%ladders(2)%exponent, 1.0_wp, 1.0e-9_wp, "proportionality")
-      call check_close(error, study%ladders(2)%ratio, 20.0_wp, 1.0e-9_wp, "error over tolerance")
-      study%ladders(2)%rungs%count%steps = [(100 + k, k=1, 13)]
+      call check_close(error, study%tol_sweeps(1)%order, 4.0_wp, 0.05_wp, "order of fixed steps")
+      call check_true(error, ieee_is_nan(study%tol_sweeps(1)%exponent), "steps have no proportionality")
+      call check_close(error, study%tol_sweeps(2)%exponent, 1.0_wp, 1.0e-9_wp, "proportionality")
+      call check_close(error, study%tol_sweeps(2)%ratio, 20.0_wp, 1.0e-9_wp, "error over tolerance")
+      study%tol_sweeps(2)%tol_runs%count%steps = [(100 + k, k=1, 13)]
       call find_orders(study)
-      call check_true(error, ieee_is_nan(study%ladders(2)%order), "errors that something else than the steps makes have no order")
-      call check_close(error, study%ladders(2)%exponent, 1.0_wp, 1.0e-9_wp, "proportionality all the same")
+      call check_true(error, ieee_is_nan(study%tol_sweeps(2)%order), &
+                      "errors that something else than the steps makes have no order")
+      call check_close(error, study%tol_sweeps(2)%exponent, 1.0_wp, 1.0e-9_wp, "proportionality all the same")
    end subroutine test_order
 
    !> Two ladders: fixed steps 10^-k/4 of a method of order 4 with a floor of round-off, a cheaper one of tolerances.
@@ -246,16 +247,16 @@ contains
 
       integer :: k
 
-      allocate (study%ladders(2))
+      allocate (study%tol_sweeps(2))
       study%reference%bar = 1.0e-13_wp
       study%accuracy = 1.0e-6_wp
       do k = 1, 2
-         allocate (study%ladders(k)%rungs(13))
-         study%ladders(k)%rungs%state = rung_done
+         allocate (study%tol_sweeps(k)%tol_runs(13))
+         study%tol_sweeps(k)%tol_runs%state = tol_run_done
       end do
-      study%ladders(1)%is_fixed = .true.
+      study%tol_sweeps(1)%is_fixed = .true.
       do k = 1, 13
-         associate (fixed => study%ladders(1)%rungs(k), variable => study%ladders(2)%rungs(k))
+         associate (fixed => study%tol_sweeps(1)%tol_runs(k), variable => study%tol_sweeps(2)%tol_runs(k))
             fixed%asked = 10.0_wp**(-0.25_wp*k)
             fixed%count%steps = nint(1.0e4_wp/fixed%asked)
             fixed%error(error_motion) = fixed%asked**4 + 1.0e-15_wp/fixed%asked
@@ -275,19 +276,19 @@ contains
       type(precision_t) :: study
 
       call make_study(study)
-      study%ladders(2)%rungs(8)%state = rung_failed
+      study%tol_sweeps(2)%tol_runs(8)%state = tol_run_failed
       call choose_best(study)
-      call check_equal(error, study%choice%ladder, 2, "ladder of the choice")
-      call check_equal(error, study%choice%rung, 9, "the first rung below the error wanted that did not fail")
-      call check_true(error, study%ladders(2)%rungs(9)%is_front, "the choice is on the front")
-      call check_true(error, .not. study%ladders(2)%rungs(8)%is_front, "a failure is not")
-      call check_true(error, .not. any(study%ladders(1)%rungs(6:11)%is_front), "a dear method is not")
-      study%ladders(2)%rungs(11)%error(error_motion) = 2.0e-6_wp
+      call check_equal(error, study%choice%tol_sweep, 2, "ladder of the choice")
+      call check_equal(error, study%choice%tol_run, 9, "the first rung below the error wanted that did not fail")
+      call check_true(error, study%tol_sweeps(2)%tol_runs(9)%is_front, "the choice is on the front")
+      call check_true(error, .not. study%tol_sweeps(2)%tol_runs(8)%is_front, "a failure is not")
+      call check_true(error, .not. any(study%tol_sweeps(1)%tol_runs(6:11)%is_front), "a dear method is not")
+      study%tol_sweeps(2)%tol_runs(11)%error(error_motion) = 2.0e-6_wp
       call choose_best(study)
-      call check_equal(error, study%choice%rung, 12, "a run is not chosen if a tighter one misses the error wanted")
+      call check_equal(error, study%choice%tol_run, 12, "a run is not chosen if a tighter one misses the error wanted")
       study%accuracy = 1.0e-14_wp
       call choose_best(study)
-      call check_equal(error, study%choice%ladder, 0, "nothing reaches an error below the reference's own")
+      call check_equal(error, study%choice%tol_sweep, 0, "nothing reaches an error below the reference's own")
    end subroutine test_choice
 
    !> Medians of an odd and of an even number.

@@ -6,9 +6,9 @@ module test_precision_statistics
    use, intrinsic :: ieee_arithmetic, only: ieee_is_finite
    use kept_run, only: contact_t, kept_run_t, sort_positions, sort_reactions, sort_velocities
    use kinds, only: not_a_number, wp
-   use precision_results, only: n_statistic, precision_t, rung_done, rung_failed, statistic_peaks, statistic_rate, &
+   use precision_results, only: n_statistic, precision_t, tol_run_done, tol_run_failed, statistic_peaks, statistic_rate, &
       statistic_reactions, statistic_speeds, statistic_velocities
-   use precision_reference, only: kept_ladder_t, reference_t
+   use precision_reference, only: kept_tol_sweep_t, reference_t
    use precision_statistics, only: statistics_of_run, take_statistics
    implicit none (type, external)
    private
@@ -111,7 +111,7 @@ contains
 
       real(wp), parameter :: apart(5) = [0.5_wp, 0.5_wp, 0.5_wp, 0.4_wp, 0.5_wp]
       real(wp), parameter :: amplitude(5) = [8.0_wp, 9.0_wp, 8.001_wp, 9.0_wp, 9.0_wp]
-      type(kept_ladder_t) :: kept(1)
+      type(kept_tol_sweep_t) :: kept(1)
       type(precision_t) :: study
       type(reference_t) :: reference
       integer :: k
@@ -122,20 +122,21 @@ contains
       study%end = finish
       study%reference%is_cut = .true.
       study%reference%window = 30.0_wp
-      allocate (kept(1)%runs(5), study%ladders(1))
-      allocate (study%ladders(1)%rungs(5))
+      allocate (kept(1)%runs(5), study%tol_sweeps(1))
+      allocate (study%tol_sweeps(1)%tol_runs(5))
       do k = 1, 5
          call make_run(amplitude(k), apart(k), kept(1)%runs(k))
       end do
-      study%ladders(1)%rungs%state = [rung_done, rung_done, rung_done, rung_done, rung_failed]
+      study%tol_sweeps(1)%tol_runs%state = [tol_run_done, tol_run_done, tol_run_done, tol_run_done, tol_run_failed]
       call take_statistics(kept, reference, study)
       call check_true(error, study%reference%statistics%is_there, "there is such a time")
       call check_close(error, study%reference%statistics%from, 30.0_wp, 0.0_wp, "it begins where runs are not compared")
-      associate (ladder => study%ladders(1))
-         call check_true(error, all(ladder%rungs%statistics%is_own .eqv. [.false., .true., .false., .true., .false.]), "own ways")
-         call check_true(error, ladder%statistics%n_run(statistic_rate) == 2, "two runs count")
-         call check_true(error, ladder%statistics%n_apart(statistic_rate) == 1, "one is apart")
-         call check_close(error, ladder%statistics%list(statistic_rate)%value, 2.25_wp, 1.0e-2_wp, "their mean")
+      associate (tol_sweep => study%tol_sweeps(1))
+         call check_true(error, all(tol_sweep%tol_runs%statistics%is_own .eqv. [.false., .true., .false., .true., .false.]), &
+                         "own ways")
+         call check_true(error, tol_sweep%statistics%n_run(statistic_rate) == 2, "two runs count")
+         call check_true(error, tol_sweep%statistics%n_apart(statistic_rate) == 1, "one is apart")
+         call check_close(error, tol_sweep%statistics%list(statistic_rate)%value, 2.25_wp, 1.0e-2_wp, "their mean")
       end associate
       study%reference%statistics%is_there = .false.
       study%reference%is_cut = .false.

@@ -7,7 +7,7 @@ module test_reference_search
    use kinds, only: wp
    use precision_info, only: setting_t
    use precision_reference, only: reference_t
-   use precision_results, only: precision_t, rung_done, rung_failed, rung_t
+   use precision_results, only: precision_t, tol_run_done, tol_run_failed, tol_run_t
    use reference_search, only: choose_pair
    implicit none (type, external)
    private
@@ -44,7 +44,7 @@ contains
    subroutine new_study(study)
       type(precision_t), intent(out) :: study  !! the study
 
-      allocate (study%ladders(0))
+      allocate (study%tol_sweeps(0))
       study%accuracy = 1.0e-3_wp
    end subroutine new_study
 
@@ -99,17 +99,17 @@ contains
    subroutine test_reasons(error)
       type(error_t), allocatable, intent(out) :: error  !! what failed
 
-      type(rung_t) :: rungs(5)
+      type(tol_run_t) :: tol_runs(5)
       type(reason_t), allocatable :: reasons(:)
 
-      rungs%state = rung_failed
-      rungs(1)%reason = "a step of 0.1 s is too long at t = 1.5e-3 s"
-      rungs(2)%reason = "out of memory"
-      rungs(3)%reason = "a step of 0.02 s is too long at t = 12 s"
-      rungs(4)%reason = ""
-      rungs(4)%state = rung_done
-      rungs(5)%reason = "out of memory"
-      reasons = reasons_of(rungs, rung_failed)
+      tol_runs%state = tol_run_failed
+      tol_runs(1)%reason = "a step of 0.1 s is too long at t = 1.5e-3 s"
+      tol_runs(2)%reason = "out of memory"
+      tol_runs(3)%reason = "a step of 0.02 s is too long at t = 12 s"
+      tol_runs(4)%reason = ""
+      tol_runs(4)%state = tol_run_done
+      tol_runs(5)%reason = "out of memory"
+      reasons = reasons_of(tol_runs, tol_run_failed)
       call check_equal(error, size(reasons), 2, "two reasons")
       call check_equal(error, reasons(1)%first, 1, "the first run of the first")
       call check_equal(error, reasons(1)%n, 2, "runs of the first")

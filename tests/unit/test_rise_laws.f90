@@ -78,7 +78,7 @@ contains
 
       integer, parameter :: n_look = 400
       type(random_t) :: random
-      real(wp) :: f(2, 3), greatest(3), least(3), s(3), u(2)
+      real(wp) :: f(2, 3), maximum(3), minimum(3), s(3), u(2)
       integer :: i, k, law
 
       do law = 1, size(rise_names)
@@ -86,16 +86,16 @@ contains
             u = random%vector(2, -0.3_wp, 1.3_wp)
             u = [minval(u), maxval(u)]
             f = bound_rise(law, u)
-            least = huge(1.0_wp)
-            greatest = -huge(1.0_wp)
+            minimum = huge(1.0_wp)
+            maximum = -huge(1.0_wp)
             do i = 0, n_look
                s = rise_values(law, u(1) + (u(2) - u(1))*real(i, wp)/real(n_look, wp))
-               least = min(least, s)
-               greatest = max(greatest, s)
+               minimum = min(minimum, s)
+               maximum = max(maximum, s)
             end do
-            call check_true(error, all(f(1, :) <= least) .and. all(f(2, :) >= greatest), trim(rise_names(law))//" within")
+            call check_true(error, all(f(1, :) <= minimum) .and. all(f(2, :) >= maximum), trim(rise_names(law))//" within")
             if (allocated(error)) return
-            call check_close(error, [f(1, :2), f(2, :2)], [least(:2), greatest(:2)], 0.01_wp, trim(rise_names(law))//" tight")
+            call check_close(error, [f(1, :2), f(2, :2)], [minimum(:2), maximum(:2)], 0.01_wp, trim(rise_names(law))//" tight")
             if (allocated(error)) return
          end do
       end do

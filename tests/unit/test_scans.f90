@@ -8,7 +8,7 @@ module test_scans
    use expression_switches, only: find_switches, switch_t
    use, intrinsic :: ieee_exceptions, only: ieee_get_status, ieee_set_halting_mode, ieee_set_status, ieee_status_type, ieee_usual
    use kinds, only: eps, pi, wp
-   use pace_scan, only: new_pace_scan, pace_scan_t
+   use rate_scan, only: new_rate_scan, rate_scan_t
    use root_scan, only: new_root_scan, place_t, root_scan_t
    implicit none (type, external)
    private
@@ -172,7 +172,7 @@ contains
    subroutine test_pace(error)
       type(error_t), allocatable, intent(out) :: error  !! what failed
 
-      type(pace_scan_t) :: scan
+      type(rate_scan_t) :: scan
       real(wp) :: stop, t
       integer :: n
       logical :: was_seen
@@ -180,10 +180,10 @@ contains
 
       call ieee_get_status(status)
       call ieee_set_halting_mode(ieee_usual, .false.)
-      call new_pace_scan(compiled("sin(2*pi*100Hz*t)"), 0.0_wp, 10.0_wp, 0.0_wp, scan)
+      call new_rate_scan(compiled("sin(2*pi*100Hz*t)"), 0.0_wp, 10.0_wp, 0.0_wp, scan)
       call scan%stop_after(1.0_wp, stop)
       call check_close(error, stop - 1.0_wp, 4.0_wp/(200.0_wp*pi), 1.0e-6_wp, "4 rad")
-      call new_pace_scan(compiled("exp(-((t-1.2345s)/1e-5s)^2)"), 0.0_wp, 10.0_wp, 0.0_wp, scan)
+      call new_rate_scan(compiled("exp(-((t-1.2345s)/1e-5s)^2)"), 0.0_wp, 10.0_wp, 0.0_wp, scan)
       t = 0.0_wp
       n = 0
       was_seen = .false.
@@ -197,7 +197,7 @@ contains
       end do
       call check_true(error, was_seen, "no step is longer than the bell where it stands")
       call check_true(error, n < 100, "and there are few of them")
-      call new_pace_scan(compiled("3*t/1s+step(t-1s)"), 0.0_wp, 10.0_wp, 0.0_wp, scan)
+      call new_rate_scan(compiled("3*t/1s+step(t-1s)"), 0.0_wp, 10.0_wp, 0.0_wp, scan)
       call check_true(error, scan%is_calm, "a straight line asks for nothing")
       call ieee_set_status(status)
    end subroutine test_pace

@@ -69,8 +69,8 @@ contains
          ydot = start
          ydot_full = start
          if (level == 2) then
-            call schur%loose%sets(1)%set%begin_contact(1, 0.0_wp, 2.0_wp, 0.0_wp)
-            call full%loose%sets(1)%set%begin_contact(1, 0.0_wp, 2.0_wp, 0.0_wp)
+            call schur%clearance_joints%sets(1)%set%begin_contact(1, 0.0_wp, 2.0_wp, 0.0_wp)
+            call full%clearance_joints%sets(1)%set%begin_contact(1, 0.0_wp, 2.0_wp, 0.0_wp)
          end if
          do k = 1, 20
             y = start

@@ -3,7 +3,8 @@ module test_spline
    use, intrinsic :: ieee_arithmetic, only: ieee_is_nan
    use akima, only: new_akima
    use check, only: check_close, check_true, suite_t
-   use curve, only: beyond_error, beyond_hold, beyond_linear, beyond_periodic, beyond_same, curve_t, curve_values, jet_of_curve
+   use curve, only: beyond_error, beyond_stabilisation, beyond_linear, beyond_periodic, beyond_same, curve_t, curve_values, &
+        jet_of_curve
    use errors, only: error_t
    use fixed_random, only: random_t
    use kinds, only: i8, pi, wp
@@ -248,7 +249,7 @@ contains
       call check_true(error, all(ieee_is_nan(f)), "nothing after the end")
       call curve_values(curve, x(1) - 0.1_wp, f)
       call check_true(error, all(ieee_is_nan(f)), "nothing before the start")
-      curve%beyond = beyond_hold
+      curve%beyond = beyond_stabilisation
       call curve_values(curve, x(8) + 2.0_wp, f)
       call check_close(error, f, [y(8), 0.0_wp, 0.0_wp], 1.0e-13_wp, "held after the end")
       call curve_values(curve, x(1) - 2.0_wp, f)

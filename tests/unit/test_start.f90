@@ -25,8 +25,8 @@ contains
 
       call suite%test("perturbed_slider_crank", test_perturbed_slider_crank)
       call suite%test("far_away", test_far_away)
-      call suite%test("least_velocities", test_least_velocities)
-      call suite%test("least_positions", test_least_positions)
+      call suite%test("least_velocities", test_min_velocities)
+      call suite%test("least_positions", test_min_positions)
       call suite%test("free_body", test_free_body)
       call suite%test("given_start", test_given_start)
       call suite%test("rigid_joint", test_rigid_joint)
@@ -109,7 +109,7 @@ contains
    end subroutine test_far_away
 
    !> A pendulum with velocities that do not fit: the change is least in m/s over the body's size and rad/s.
-   subroutine test_least_velocities(error)
+   subroutine test_min_velocities(error)
       type(error_t), allocatable, intent(out) :: error  !! what failed
 
       type(mechanism_t) :: system
@@ -124,10 +124,10 @@ contains
       ! vx = 0; vy = 0.4 omega with (vy - 1.2)/0.4 + omega - 7 = 0
       call check_close(error, y(4:6), [0.0_wp, 2.0_wp, 5.0_wp], 1.0e-14_wp, "velocities", relative=.true.)
       call check_close(error, y(1:3), [0.4_wp, 0.0_wp, 0.0_wp], 1.0e-16_wp, "positions that fitted")
-   end subroutine test_least_velocities
+   end subroutine test_min_velocities
 
    !> Two bodies that should share their centres and are apart: each moves half the way, nothing turns.
-   subroutine test_least_positions(error)
+   subroutine test_min_positions(error)
       type(error_t), allocatable, intent(out) :: error  !! what failed
 
       type(mechanism_t) :: system
@@ -143,7 +143,7 @@ contains
       if (allocated(error)) return
       call check_close(error, y(1:6), [3.5_wp, 0.0_wp, 0.0_wp, 3.5_wp, 0.0_wp, 0.5_wp], 1.0e-14_wp, "positions")
       call check_close(error, report%moved, 0.5_wp, 1.0e-14_wp, "greatest move")
-   end subroutine test_least_positions
+   end subroutine test_min_positions
 
    !> A body without joints stays where it is, to the last digit, while others are assembled.
    subroutine test_free_body(error)

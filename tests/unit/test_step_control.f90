@@ -2,7 +2,7 @@
 module test_step_control
    use check, only: check_close, check_true, suite_t
    use errors, only: error_t
-   use event_prediction, only: foretell_event
+   use event_prediction, only: predict_event
    use integrator, only: event_values_t
    use kinds, only: eps, wp
    use step_control, only: n_control_number, step_control_t
@@ -18,7 +18,7 @@ contains
 
       call suite%test("smooth_errors_are_met_with_the_order", test_smooth)
       call suite%test("a_rough_start_takes_one_rejection", test_rough_start)
-      call suite%test("a_norm_that_swings_is_damped", test_swing)
+      call suite%test("a_norm_that_swings_is_damped", test_contact_rate)
       call suite%test("contacts_begin_with_what_the_last_one_took", test_contact_start)
       call suite%test("contacts_end_in_one_step", test_contact_end)
       call suite%test("a_second_rejection_shows_the_order", test_second_rejection)
@@ -69,7 +69,7 @@ contains
 
    !> Steps of E = (h/h_1)^8 settle where 0.93 E^(-0.5625/8) is one; an estimate that now and then is much too small is not followed
    !> by a step that is rejected.
-   subroutine test_swing(error)
+   subroutine test_contact_rate(error)
       type(error_t), allocatable, intent(out) :: error  !! what failed
 
       type(step_control_t) :: pace
@@ -87,7 +87,7 @@ contains
       call pace%reject(pace%h_next, pace%h_next**8)
       call pace%accept(pace%h_next, pace%h_next**8, .false.)
       call check_true(error, pace%h_next < 1.0_wp, "the next one not")
-   end subroutine test_swing
+   end subroutine test_contact_rate
 
    !> E = (h/h_1)^4.5 where time goes as a square, E = (h/h_1)^2.5 where it does not; h_1 = 0.02, a hint of 0.01.
    subroutine test_contact_start(error)
@@ -290,7 +290,7 @@ contains
 
       integer :: event
 
-      call foretell_event(events, h, time, event)
+      call predict_event(events, h, time, event)
       if (event > 0) then
          if (events%is_hidden(event) .or. events%rate1(event) <= 0.0_wp) time = -1.0_wp  ! it cannot be that one
       else if (time < huge(1.0_wp)) then

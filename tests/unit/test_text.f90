@@ -6,7 +6,7 @@ module test_text
    use kinds, only: not_a_number, pi, wp
    use numbers, only: number_length, read_number
    use spelling, only: nearest_word
-   use text, only: append_text, exact_text, join, lower, piece, real_text, replace, split_blank, starts_with, text_t, to_text
+   use text, only: append_text, exact_text, join, lower, segment, real_text, replace, split_blank, starts_with, text_t, to_text
    use text_buffer, only: buffer_t
    implicit none (type, external)
    private
@@ -90,8 +90,8 @@ contains
          read (image(index(image, "E") + 1:), *) power
          if (power >= -4 .and. power < max(digits, 6)) cycle  ! written without an exponent
          s = image(1:index(image, "E") - 1)
-         if (index(s, ".") > 0) s = piece(s, 1, verify(s, "0", back=.true.))
-         if (s(len(s):) == ".") s = piece(s, 1, len(s) - 1)
+         if (index(s, ".") > 0) s = segment(s, 1, verify(s, "0", back=.true.))
+         if (s(len(s):) == ".") s = segment(s, 1, len(s) - 1)
          call check_equal(error, real_text(x, digits), s//"e"//to_text(power), trim(image))
       end do
    end subroutine test_figures

@@ -17,14 +17,14 @@ module closing_fit
    use lapack, only: dgelsd
    use linkage, only: linkage_t
    use mobility, only: drives, joint_names, split_space
-   use row_corrections, only: evaluate_rows, least_correction, limit_step, scaled_jacobian, worst_violation
+   use row_corrections, only: evaluate_rows, min_correction, limit_step, scaled_jacobian, worst_violation
    use second_order, only: find_forms, most_free
    use text, only: real_text, to_text
    implicit none (type, external)
    private
    public :: fit_loops, misfit_words
 
-   real(wp), parameter :: least = 1.0e-7_wp          !! delta to begin with [1]
+   real(wp), parameter :: minimum = 1.0e-7_wp          !! delta to begin with [1]
    real(wp), parameter :: most = 0.1_wp              !! delta that is too much [1]
    real(wp), parameter :: above = 30.0_wp            !! delta over the misfit, at least [1]
    real(wp), parameter :: higher = 10.0_wp           !! the next delta over one that does not do [1]
@@ -53,7 +53,7 @@ contains
       is_fitted = .false.
       rest = 0.0_wp
       best = huge(1.0_wp)
-      delta = least
+      delta = minimum
       do while (delta <= most)
          q_fit = q_given
          call close_in_least_squares(linkage, delta, q_fit, is_settled)
@@ -92,7 +92,7 @@ contains
       is_settled = .false.
       call evaluate_rows(linkage, 0.0_wp, q, rest)
       do k = 1, n_newton
-         call least_correction(linkage, -linkage%rows%phi, ease, correction, rank, delta)
+         call min_correction(linkage, -linkage%rows%phi, ease, correction, rank, delta)
          correction = limit_step(linkage, correction)
          call linkage%coordinates%add_change(linkage%bodies%n, correction, q)
          call evaluate_rows(linkage, 0.0_wp, q, rest)

@@ -14,7 +14,7 @@ module consistent_start
    use errors, only: error_t
    use kinds, only: wp
    use linkage, only: linkage_t
-   use row_corrections, only: change_weights, coordinate_scale, evaluate_rows, least_correction, limit_step, rates, wants_sparse, &
+   use row_corrections, only: change_weights, coordinate_scale, evaluate_rows, min_correction, limit_step, rates, wants_sparse, &
       worst_violation
    use sparse_start, only: new_sparse_start, sparse_start_t
    use start_errors, only: check_finite, name_misfit, position_error, velocity_error
@@ -155,7 +155,7 @@ contains
          if (with_sparse) then
             call sparse%correct(linkage%rows%jac, change_weights(linkage, ease), change, correction, report%rank)
          else
-            call least_correction(linkage, change, ease, correction, report%rank)
+            call min_correction(linkage, change, ease, correction, report%rank)
          end if
       end subroutine correct
 

@@ -13,7 +13,7 @@ module driver_conflict
    use kinds, only: wp
    use mechanism, only: mechanism_t
    use scene, only: scene_t
-   use text, only: append_text, piece, starts_with, text_t
+   use text, only: append_text, segment, starts_with, text_t
    implicit none (type, external)
    private
    public :: name_conflict
@@ -57,7 +57,7 @@ contains
          if (k == size(guilty)) names = names//" and '"//guilty(k)%s//"'"
       end do
       was = error%message
-      if (index(was, new_line("a")) > 0) was = piece(was, 1, index(was, new_line("a")) - 1)
+      if (index(was, new_line("a")) > 0) was = segment(was, 1, index(was, new_line("a")) - 1)
       call set_error(error, exit_assembly, names//" prescribe contradictory motion at t = 0"//new_line("a")// &
                      "  = the mechanism can be assembled without any one of them, but not with all: "//was//new_line("a")// &
                      "  = remove one, or make their positions and speeds consistent")

@@ -89,11 +89,11 @@ contains
       real(wp), intent(in), optional :: tolerance         !! least ratio of singular values, if another than usual [1]
 
       real(wp), allocatable :: a(:, :), s(:), vt(:, :), work(:)
-      real(wp) :: least
+      real(wp) :: minimum
       integer :: info, k, m, n
 
-      least = rank_tolerance
-      if (present(tolerance)) least = tolerance
+      minimum = rank_tolerance
+      if (present(tolerance)) minimum = tolerance
       m = size(jac, 1)
       n = size(jac, 2)
       rank = 0
@@ -105,7 +105,7 @@ contains
       else
          a = jac
          call dgesvd("A", "A", m, n, a, m, s, left, m, vt, n, work, size(work), info)
-         rank = count(s > least*s(1))
+         rank = count(s > minimum*s(1))
       end if
       free = transpose(vt(rank + 1:, :))
    end subroutine split_space

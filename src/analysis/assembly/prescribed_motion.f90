@@ -12,7 +12,7 @@ module prescribed_motion
    use, intrinsic :: ieee_arithmetic, only: ieee_is_finite
    use kinds, only: i8, wp
    use linkage, only: linkage_t
-   use row_corrections, only: evaluate_rows, least_correction, limit_step, rates, worst_violation
+   use row_corrections, only: evaluate_rows, min_correction, limit_step, rates, worst_violation
    implicit none (type, external)
    private
    public :: newton_t, solve_positions, solve_rates
@@ -65,7 +65,7 @@ contains
          if (now <= round_off .or. (now <= newton%tolerance .and. now >= 0.5_wp*before)) exit
          if (k == newton%most) exit
          before = now
-         call least_correction(linkage, -linkage%rows%phi, ease, correction, rank)
+         call min_correction(linkage, -linkage%rows%phi, ease, correction, rank)
          newton%n_solved = newton%n_solved + 1_i8
          call linkage%coordinates%add_change(linkage%bodies%n, limit_step(linkage, correction), q)
       end do
@@ -115,7 +115,7 @@ contains
       none = linkage%rows%phi_t
       do k = 1, 2
          call rates(linkage, x, left)
-         call least_correction(linkage, right - (left - none), ease, correction, rank, near_singular)
+         call min_correction(linkage, right - (left - none), ease, correction, rank, near_singular)
          newton%n_solved = newton%n_solved + 1_i8
          x = x + correction
       end do

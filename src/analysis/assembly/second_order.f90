@@ -22,7 +22,7 @@ module second_order
    integer, parameter :: most_free = 40             !! free motions that are tested, at most
    integer, parameter :: n_search = 200             !! steps of the perceptron
    real(wp), parameter :: vanishing = 1.0e-4_wp     !! form that counts as none, of the sum of its magnitudes [1]
-   real(wp), parameter :: least = 1.0e-6_wp         !! terms of a form that count, for unit motions and stresses [1]
+   real(wp), parameter :: minimum = 1.0e-6_wp         !! terms of a form that count, for unit motions and stresses [1]
    real(wp), parameter :: round_off = 1.0e-6_wp     !! negative eigenvalue that counts as none, of the same [1]
 
 contains
@@ -43,7 +43,7 @@ contains
       real(wp) :: none
       integer :: f, i, j, k
 
-      none = least
+      none = minimum
       if (present(floor_terms)) none = floor_terms
       f = size(free, 2)
       allocate (bend(linkage%rows%n, f, f), form(f, f, size(stress, 2)), source=0.0_wp)

@@ -67,17 +67,17 @@ contains
 
       real(wp), parameter :: far = 0.5_wp        ! least violation of such a row [1]
       real(wp), parameter :: dead = 0.05_wp      ! greatest entry, of the violation, of a row that small turns hardly help [1]
-      real(wp) :: help, least
+      real(wp) :: help, minimum
       integer :: k
 
       row = 0
-      least = dead
+      minimum = dead
       do k = 1, linkage%rows%n
          if (.not. (linkage%rows%is_angle(k) .and. abs(linkage%rows%phi(k)) > far)) cycle
          help = maxval(abs(linkage%rows%jac(:, k)))/abs(linkage%rows%phi(k))
-         if (help >= least) cycle
+         if (help >= minimum) cycle
          row = k
-         least = help
+         minimum = help
       end do
    end function dead_row
 

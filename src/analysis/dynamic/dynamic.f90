@@ -5,7 +5,7 @@
 !> steps end, and what was saved is taken back at once, so that a run that is ended there and resumed does the same.
 module dynamic
    use catalogue, only: catalogue_t
-   use contact_watch, only: close_open
+   use contact_monitor, only: close_open
    use cpu_budget, only: cpu_budget_t
    use errors, only: error_t, exit_integration, exit_stopped, set_error
    use integrator, only: advance_event, advance_failed_evaluation, advance_step, integrator_t
@@ -18,7 +18,7 @@ module dynamic
    use run_summary, only: sum_up
    use run_tally, only: run_tally_t
    use sampling, only: new_sampler, sampler_t
-   use saved_run, only: saved_run_t, wish_nothing, wish_stop
+   use saved_run, only: saved_run_t, action_none, requested_action_stop
    use stop_condition, only: cut_step, stop_t
    use subsystems, only: subsystem_t
    use time_plan, only: time_plan_t
@@ -96,7 +96,7 @@ contains
 
       call system_clock(clock_0, ticks)
       run%stop = limits%stop
-      call new_whole_motion(system, method, subsystems, limits, plan%instants, run%whole)
+      call new_whole_motion(system, method, subsystems, limits, plan%output_times, run%whole)
       allocate (run%waiting(size(run%whole%parts)))
       call new_sampler(system, plan, run%sampler, catalogue)
       call recorder%start(run%sampler%catalogue, error)
@@ -141,7 +141,7 @@ contains
 
       call begin(run, y, plan, recorder, error)
       if (allocated(error)) return
-      if (run%sampler%films%has_least) call look_at_films(run)
+      if (run%sampler%films%has_min) call look_at_films(run)
       call look_for_stop(run, plan, error)
       if (allocated(error)) return
       if (present(saved)) then
@@ -164,7 +164,7 @@ contains
          if (.not. run%whole%is_smooth) then
             if (.not. allocated(error)) call look_at_guards(run, error)
             if (run%stop%met == 0 .and. .not. allocated(error)) call handle_events(run, plan, recorder, error)
-            if (run%stop%met == 0 .and. .not. allocated(error)) call pass_instants(run, plan, recorder, error)
+            if (run%stop%met == 0 .and. .not. allocated(error)) call pass_output_times(run, plan, recorder, error)
             if (run%sampler%follows_steps .and. run%stop%met == 0 .and. .not. allocated(error)) then
                call run%sampler%follow_step(run%whole, .true., plan, run%tally%residual, recorder)
             end if
@@ -192,15 +192,16 @@ contains
       class(recorder_t), intent(inout) :: recorder        !! keeps the results
       type(error_t), allocatable, intent(out) :: error    !! a file could not be written
 
-      integer :: wish
+      integer :: requested_action
       logical :: can_save, is_due
 
       is_due = run%whole%t >= run%next_checkpoint .and. run%whole%is_together()
       can_save = is_due .or. .not. run%is_scheduled
-      wish = recorder%wish(can_save)
-      if (wish == wish_stop .and. run%is_scheduled .and. run%next_checkpoint < plan%end) wish = merge(wish, wish_nothing, can_save)
-      run%is_stopped = wish == wish_stop
-      if (is_due .or. (wish /= wish_nothing .and. can_save)) call save_now(run, plan, recorder, error)
+      requested_action = recorder%requested_action(can_save)
+      if (requested_action == requested_action_stop .and. run%is_scheduled &
+          .and. run%next_checkpoint < plan%end) requested_action = merge(requested_action, action_none, can_save)
+      run%is_stopped = requested_action == requested_action_stop
+      if (is_due .or. (requested_action /= action_none .and. can_save)) call save_now(run, plan, recorder, error)
    end subroutine heed
 
    !> All parts begin.
@@ -215,7 +216,7 @@ contains
       integer :: p
 
       associate (whole => run%whole)
-         if (size(whole%parts) > 1) call whole%instants%begin(plan%end, whole%system%linkage%piece)
+         if (size(whole%parts) > 1) call whole%output_times%begin(plan%end, whole%system%linkage%segment)
          do p = 1, size(whole%parts)
             call whole%scatter(p, y, own)
             call begin_part(whole%parts(p), own, plan%end, run%tally, recorder, error)
@@ -255,7 +256,7 @@ contains
                   if (run%budget%is_spent()) call describe_failure(part%system, part%method, time_used_up, error)
                   if (allocated(error)) return
                end if
-               if (run%sampler%films%has_least) call run%sampler%films%look(part%system, part%method%t)
+               if (run%sampler%films%has_min) call run%sampler%films%look(part%system, part%method%t)
             end associate
          end do
          call whole%move_front()
@@ -339,7 +340,7 @@ contains
    end subroutine handle_events_of
 
    !> Pass the instants at which functions of time are not smooth, of parts at the front that have come to one.
-   subroutine pass_instants(run, plan, recorder, error)
+   subroutine pass_output_times(run, plan, recorder, error)
       type(run_t), intent(inout) :: run                   !! state of the run
       type(time_plan_t), intent(in) :: plan               !! times
       class(recorder_t), intent(inout) :: recorder        !! keeps the results
@@ -351,7 +352,7 @@ contains
          n = 0
          do k = 1, whole%n_front
             associate (part => whole%parts(whole%front(k)))
-               if (.not. part%instants%is_at(part%method%t)) cycle
+               if (.not. part%output_times%is_at(part%method%t)) cycle
             end associate
             n = n + 1
             run%waiting(n) = whole%front(k)
@@ -364,8 +365,8 @@ contains
          end do
          if (allocated(error)) return
          if (size(whole%parts) > 1) then
-            do while (whole%instants%is_at(whole%t))
-               call whole%instants%pass(whole%system%linkage%piece)
+            do while (whole%output_times%is_at(whole%t))
+               call whole%output_times%pass(whole%system%linkage%segment)
             end do
          end if
          do k = 1, n
@@ -375,7 +376,7 @@ contains
          end do
          call run%sampler%take(whole, plan, run%tally%residual, recorder, error)
       end associate
-   end subroutine pass_instants
+   end subroutine pass_output_times
 
    !> The run ends within contacts: a row for each.
    subroutine close_contacts(run, recorder, error)

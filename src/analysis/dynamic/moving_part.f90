@@ -4,11 +4,11 @@
 !> handled by `handle_part_events` and `pass_part_instant`, when the other parts have come as far.
 module moving_part
    use contact_places, only: touch_function
-   use contact_watch, only: contact_watch_t, new_contact_watch
+   use contact_monitor, only: contact_monitor_t, new_contact_monitor
    use errors, only: error_t
    use film_end, only: film_that_ended
    use guards, only: guards_t
-   use instants, only: instants_t
+   use output_times, only: output_times_t
    use integrator, only: advance_failed_evaluation, integrator_t
    use kinds, only: i8, wp
    use mechanism, only: mechanism_t
@@ -17,7 +17,7 @@ module moving_part
    use recorder, only: event_t, recorder_t
    use run_failure, only: constraints_lost, describe_failure, events_without_end, film_ended, off_branch
    use run_tally, only: run_tally_t
-   use slip_watch, only: find_change, find_reversal, note_jumps, sliding_way
+   use slip_monitor, only: find_change, find_reversal, note_jumps, sliding_way
    use step_follower, only: find_off_branch, follow_motion, has_branches, must_follow
    use velocity_jumps, only: velocity_jumps_t
    implicit none (type, external)
@@ -51,9 +51,9 @@ module moving_part
    type :: moving_part_t
       type(mechanism_t), pointer :: system => null()       !! its equations
       class(integrator_t), pointer :: method => null()     !! its integrator
-      type(contact_watch_t) :: watch                       !! its contacts
+      type(contact_monitor_t) :: monitor                       !! its contacts
       type(guards_t) :: guards                             !! what no mechanism does
-      type(instants_t) :: instants                         !! when its functions of time are not smooth
+      type(output_times_t) :: output_times                         !! when its functions of time are not smooth
       type(velocity_jumps_t) :: jumps                      !! drivers whose velocity jumps there
       logical :: must_follow = .false.                     !! something goes on from step to step, see `step_follower`
       logical :: has_branches = .false.                    !! joints may reach an unintended branch, see there
@@ -68,20 +68,20 @@ module moving_part
 contains
 
    !> A part that has not begun.
-   subroutine new_part(system, method, instants, guards, part)
+   subroutine new_part(system, method, output_times, guards, part)
       type(mechanism_t), intent(inout), target :: system      !! its equations
       class(integrator_t), intent(inout), target :: method    !! its integrator
-      type(instants_t), intent(in) :: instants                !! when its functions of time are not smooth
+      type(output_times_t), intent(in) :: output_times                !! when its functions of time are not smooth
       type(guards_t), intent(in) :: guards                    !! what no mechanism does
       type(moving_part_t), intent(out) :: part                !! the part; points at system and integrator
 
       part%system => system
       part%method => method
-      part%instants = instants
+      part%output_times = output_times
       part%guards = guards
       part%must_follow = must_follow(system)
       part%has_branches = has_branches(system)
-      call new_contact_watch(system, part%watch)
+      call new_contact_monitor(system, part%monitor)
    end subroutine new_part
 
    !> Begin at a state at t = 0.
@@ -97,7 +97,7 @@ contains
       integer :: status
 
       associate (system => part%system, method => part%method)
-         call part%instants%begin(end, system%linkage%piece)
+         call part%output_times%begin(end, system%linkage%segment)
          call system%begin_pace(0.0_wp, y, end)
          call system%linkage%set_motion(0.0_wp, y)
          call decide_slips(part, 0.0_wp, y, .true., recorder, error)
@@ -114,7 +114,7 @@ contains
          part%ledger%potential_0 = energy%potential
          call look_at_step(part, tally)
          if (system%ledger%is_kept) call look_at_energy(part, tally)
-         if (system%loose%n > 0) call part%watch%after_restart(system, method)
+         if (system%clearance_joints%n > 0) call part%monitor%after_restart(system, method)
       end associate
    end subroutine begin_part
 
@@ -138,7 +138,7 @@ contains
       real(wp) :: t_stop
 
       associate (system => part%system, method => part%method)
-         call part%instants%stop_after(method, t_stop)
+         call part%output_times%stop_after(method, t_stop)
          if (present(until)) t_stop = min(t_stop, until)
          call method%advance(system, t_stop, part%status)
          if (part%status < 0) then
@@ -174,7 +174,7 @@ contains
                return
             end if
          end if
-         if (system%loose%n > 0) call part%watch%after_step(system, method)
+         if (system%clearance_joints%n > 0) call part%monitor%after_step(system, method)
          if (system%ledger%is_kept) call look_at_energy(part, tally)
          call part%guards%look(system, method%t)
       end associate
@@ -202,7 +202,7 @@ contains
             call describe_failure(system, method, events_without_end, error)
             return
          end if
-         if (system%loose%has_films) then
+         if (system%clearance_joints%has_films) then
             ended = film_that_ended(system, method)
             if (ended /= "") then
                call describe_failure(system, method, film_ended, error, ended)
@@ -216,8 +216,8 @@ contains
             ways(:, k) = sliding_way(system, method%events%happened(k))
          end do
          do k = 1, method%events%n_happened
-            call part%watch%handle_event(system, method, method%events%happened(k), is_over, row, hint)
-            call part%guards%look_at_made(part%watch%made, tally%energy_max)
+            call part%monitor%handle_event(system, method, method%events%happened(k), is_over, row, hint)
+            call part%guards%look_at_made(part%monitor%made, tally%energy_max)
             if (hint > 0.0_wp) step_hint = merge(hint, min(hint, step_hint), step_hint <= 0.0_wp)
             tally%events = tally%events + 1
             if (is_over) then
@@ -225,7 +225,7 @@ contains
                call recorder%event(row, error)
                if (allocated(error)) return
                call tally%aside%come_back()
-            else if (system%loose%functions%kind_of(method%events%happened(k)) == touch_function) then
+            else if (system%clearance_joints%functions%kind_of(method%events%happened(k)) == touch_function) then
                tally%contacts = tally%contacts + 1
             end if
          end do
@@ -237,8 +237,8 @@ contains
             call describe_failure(system, method, status, error)
             return
          end if
-         call part%instants%note_turning(system)
-         call part%watch%after_restart(system, method)
+         call part%output_times%note_turning(system)
+         call part%monitor%after_restart(system, method)
       end associate
    end subroutine handle_part_events
 
@@ -256,7 +256,7 @@ contains
          method%events%g = method%events%g1
          before = method%step%f1
          call part%jumps%before_instant(system, method)
-         call part%instants%pass(system%linkage%piece)
+         call part%output_times%pass(system%linkage%segment)
          call part%jumps%after_instant(system, method, status)
          if (status /= 0) then
             call describe_failure(system, method, advance_failed_evaluation, error)
@@ -276,8 +276,8 @@ contains
             call describe_failure(system, method, constraints_lost, error)
             return
          end if
-         part%watch%shift = 0.0_wp  ! no contact began here
-         call part%watch%after_restart(system, method)
+         part%monitor%shift = 0.0_wp  ! no contact began here
+         call part%monitor%after_restart(system, method)
          call note_jumps(system, method)
       end associate
    end subroutine pass_part_instant
@@ -290,7 +290,7 @@ contains
       associate (linkage => part%system%linkage)
          call part%system%follow_pace(part%method%step%y1)
          if (.not. part%system%ledger%is_kept) call part%system%scale_quadratures(0.0_wp)  ! impulses; else with the energy
-         call part%instants%note_turning(part%system)
+         call part%output_times%note_turning(part%system)
          if (linkage%rows%n_solve > 0) call look_at_rows(part, tally)
       end associate
    end subroutine look_at_step
@@ -317,7 +317,7 @@ contains
       end associate
    end subroutine look_at_rows
 
-   !> Energy balance at the end of a step, after `watch` has looked at it. The ledger is kept.
+   !> Energy balance at the end of a step, after `monitor` has looked at it. The ledger is kept.
    subroutine look_at_energy(part, tally)
       type(moving_part_t), intent(inout) :: part   !! the part, its motion that of the end of the step
       type(run_tally_t), intent(inout) :: tally    !! sums follow, maxima are raised
@@ -329,7 +329,7 @@ contains
       call follow(energy%dissipated_contact, part%ledger%lost, tally%lost)
       call follow(energy%kinetic + energy%elastic + abs(energy%potential - part%ledger%potential_0), part%ledger%level, tally%level)
       call follow(energy%magnitude(), part%ledger%magnitude, tally%magnitude)
-      tally%least_lost = min(tally%least_lost, tally%lost)
+      tally%min_lost = min(tally%min_lost, tally%lost)
       tally%residual_max = max(tally%residual_max, abs(tally%residual))
       tally%energy_max = max(tally%energy_max, tally%level)
       call part%system%scale_quadratures(max(part%ledger%level, energy%largest_work()))
@@ -366,10 +366,10 @@ contains
       integer :: k, slot
       logical :: has_row
 
-      if (part%system%friction%grips%n_slip == 0) return
+      if (part%system%friction%stick_slips%n_slip == 0) return
       call part%system%decide_slips(t, y, only_new)
-      do slot = 1, size(part%system%loose%sets)
-         do k = 1, part%system%loose%sets(slot)%set%n_contact
+      do slot = 1, size(part%system%clearance_joints%sets)
+         do k = 1, part%system%clearance_joints%sets(slot)%set%n_contact
             call find_change(part%system, t, slot, k, has_row, row)
             if (has_row) call recorder%event(row, error)
             if (allocated(error)) return

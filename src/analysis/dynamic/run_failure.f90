@@ -151,7 +151,7 @@ contains
                loads%force = 0.0_wp
                loads%moment = 0.0_wp
                power = 0.0_wp
-               call set%evaluate(linkage%piece%inside(linkage%motion%t), linkage%motion, loads, power)
+               call set%evaluate(linkage%segment%inside(linkage%motion%t), linkage%motion, loads, power)
                do i = 1, set%n
                   associate (bodies => set%bodies_of(i))
                      if (all(ieee_is_finite(loads%force(:, bodies))) .and. all(ieee_is_finite(loads%moment(:, bodies)))) cycle
@@ -186,15 +186,15 @@ contains
       class(integrator_t), intent(in) :: method        !! the integrator
       character(:), allocatable :: words               !! a line of the message, blank if nothing touches
 
-      real(wp) :: delta(system%loose%n_contact), deepest, rate(system%loose%n_contact)
+      real(wp) :: delta(system%clearance_joints%n_contact), deepest, rate(system%clearance_joints%n_contact)
       integer :: i, k
 
       words = ""
-      if (system%loose%n == 0) return
+      if (system%clearance_joints%n == 0) return
       deepest = -1.0_wp
       call system%events(method%t, method%step%y1, delta, rate)
-      do k = 1, size(system%loose%sets)
-         associate (set => system%loose%sets(k)%set)
+      do k = 1, size(system%clearance_joints%sets)
+         associate (set => system%clearance_joints%sets(k)%set)
             do i = 1, set%n_contact
                if (.not. set%contact(i)%is_touching .or. -delta(set%before%contacts + i) <= deepest) cycle
                deepest = -delta(set%before%contacts + i)
@@ -214,7 +214,7 @@ contains
       integer :: contact, slot
 
       call system%find_contact(method%events%happened(1), slot, contact)
-      associate (set => system%loose%sets(slot)%set)
+      associate (set => system%clearance_joints%sets(slot)%set)
          name = set%names(set%item_of(contact))%s
       end associate
    end function last_event

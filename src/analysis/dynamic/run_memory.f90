@@ -5,7 +5,7 @@
 !> another method, another mechanism or another form is refused by name, and nothing is changed.
 !> Limits: several parts must have come to the same time, since nothing is kept of the way within their last steps.
 module run_memory
-   use checkpoint, only: add_piece, checkpoint_t, piece_t
+   use checkpoint, only: add_segment, checkpoint_t, segment_t
    use errors, only: error_t, exit_usage, set_error
    use kinds, only: wp
    use mechanism, only: mechanism_t
@@ -15,7 +15,7 @@ module run_memory
    use run_tally, only: run_tally_t
    use sampling, only: sampler_t
    use saved_run, only: saved_run_t
-   use smooth_piece, only: smooth_piece_t
+   use smooth_segment, only: smooth_segment_t
    use stop_condition, only: stop_t
    use text, only: to_text
    use whole_motion, only: whole_motion_t
@@ -23,7 +23,7 @@ module run_memory
    private
    public :: load_part_memory, load_run, save_part_memory, save_run
 
-   integer, parameter :: watch_version = 1   !! of the form of what is kept of contacts from step to step
+   integer, parameter :: monitor_version = 1   !! of the form of what is kept of contacts from step to step
    integer, parameter :: part_version = 1    !! of the form of where ledger and events stand
    integer, parameter :: n_part = 10         !! numbers of the latter
 
@@ -40,23 +40,23 @@ contains
 
       integer :: p, place
 
-      associate (n => size(whole%parts), tape => saved%motion)
+      associate (n => size(whole%parts), archive => saved%motion)
          saved%t = whole%t
          allocate (saved%parts(merge(n + 1, n, n > 1)))
          do p = 1, n
             call save_part_memory(whole%parts(p), saved%parts(p))
-            call whole%parts(p)%guards%save(tape)
-            call whole%parts(p)%jumps%save(tape)
+            call whole%parts(p)%guards%save(archive)
+            call whole%parts(p)%jumps%save(archive)
          end do
          if (n > 1) then
             call saved%parts(n + 1)%begin(list_of_system(whole%system))
             place = 0
             call whole%system%save(saved%parts(n + 1)%row, place)
          end if
-         call tape%put([whole%t, cpu])
-         call sampler%save(tape)
-         call tally%save(tape)
-         call stop%save(tape)
+         call archive%put([whole%t, cpu])
+         call sampler%save(archive)
+         call tally%save(archive)
+         call stop%save(archive)
       end associate
    end subroutine save_run
 
@@ -70,11 +70,11 @@ contains
       real(wp), intent(out) :: cpu                         !! processor time used by then [s]
       type(error_t), allocatable, intent(out) :: error     !! it is another run's
 
-      type(smooth_piece_t) :: passed
+      type(smooth_segment_t) :: passed
       integer :: p, place
 
       cpu = 0.0_wp
-      associate (n => size(whole%parts), tape => saved%motion)
+      associate (n => size(whole%parts), archive => saved%motion)
          if (size(saved%parts) /= merge(n + 1, n, n > 1)) then
             call set_error(error, exit_usage, "the checkpoint does not belong to this run: it has "// &
                            to_text(size(saved%parts))//" parts, expected "//to_text(merge(n + 1, n, n > 1))//"")
@@ -83,35 +83,35 @@ contains
          do p = 1, n
             call load_part_memory(saved%parts(p), whole%parts(p), error)
             if (allocated(error)) return
-            call whole%parts(p)%guards%load(tape)
-            call whole%parts(p)%jumps%load(tape)
+            call whole%parts(p)%guards%load(archive)
+            call whole%parts(p)%jumps%load(archive)
          end do
          if (n > 1) then
             call saved%parts(n + 1)%compare(list_of_system(whole%system), error)
             if (allocated(error)) return
             place = 0
             call whole%system%load(saved%parts(n + 1)%row, place)
-            do while (whole%instants%next%at < whole%system%linkage%piece%end)
-               call whole%instants%pass(passed)
+            do while (whole%output_times%next%at < whole%system%linkage%segment%end)
+               call whole%output_times%pass(passed)
             end do
          end if
-         call tape%get(whole%t)
-         call tape%get(cpu)
-         call sampler%load(tape)
-         call tally%load(tape)
-         call stop%load(tape)
-         if (tape%is_at_end()) return
+         call archive%get(whole%t)
+         call archive%get(cpu)
+         call sampler%load(archive)
+         call tally%load(archive)
+         call stop%load(archive)
+         if (archive%is_at_end()) return
       end associate
       call set_error(error, exit_usage, "the checkpoint does not belong to this run: its samples and sums have "// &
                      "another length")
    end subroutine load_run
 
    !> The pieces of a system.
-   function list_of_system(system) result(pieces)
+   function list_of_system(system) result(segments)
       type(mechanism_t), intent(in) :: system        !! the system
-      type(piece_t), allocatable :: pieces(:)        !! (any) the list
+      type(segment_t), allocatable :: segments(:)        !! (any) the list
 
-      call system%list_memory(pieces)
+      call system%list_memory(segments)
    end function list_of_system
 
    !> Save it.
@@ -126,7 +126,7 @@ contains
       associate (row => checkpoint%row)
          call part%method%save(row, place)
          call part%system%save(row, place)
-         call part%watch%save(row, place)
+         call part%monitor%save(row, place)
          call put(row, place, part%n_idle)
          associate (ledger => part%ledger)
             call put(row, place, [part%t_event, ledger%balance_0, ledger%potential_0, ledger%residual, ledger%level, &
@@ -142,7 +142,7 @@ contains
       type(moving_part_t), intent(inout) :: part           !! the part, begun
       type(error_t), allocatable, intent(out) :: error     !! it is another run's; nothing is changed
 
-      type(smooth_piece_t) :: piece
+      type(smooth_segment_t) :: segment
       integer :: place, status
 
       call checkpoint%compare(list_of_part(part), error)
@@ -151,7 +151,7 @@ contains
       associate (row => checkpoint%row)
          call part%method%load(row, place)
          call part%system%load(row, place)
-         call part%watch%load(row, place)
+         call part%monitor%load(row, place)
          call get(row, place, part%n_idle)
          call get(row, place, part%t_event)
          call get(row, place, part%ledger%balance_0)
@@ -163,25 +163,25 @@ contains
          call get(row, place, part%violation%worst)
          call get(row, place, part%violation%row)
       end associate
-      do while (part%instants%next%at < part%system%linkage%piece%end)
-         call part%instants%pass(piece)
+      do while (part%output_times%next%at < part%system%linkage%segment%end)
+         call part%output_times%pass(segment)
       end do
       call part%system%linkage%set_motion(part%method%t, part%method%step%y1)
-      call part%instants%note_turning(part%system)
+      call part%output_times%note_turning(part%system)
       if (.not. part%method%begins_anew()) return
       call part%method%restart(part%system, 0.0_wp, status)  ! what the last evaluation leaves behind is that of this state
       if (status /= 0) call describe_failure(part%system, part%method, status, error)
    end subroutine load_part_memory
 
    !> The pieces of a part, in the order in which they are saved.
-   function list_of_part(part) result(pieces)
+   function list_of_part(part) result(segments)
       type(moving_part_t), intent(in) :: part        !! the part
-      type(piece_t), allocatable :: pieces(:)        !! (any) the list
+      type(segment_t), allocatable :: segments(:)        !! (any) the list
 
-      call part%method%list_memory(pieces)
-      call part%system%list_memory(pieces)
-      call add_piece(pieces, "the contacts from step to step", watch_version, part%watch%memory_size())
-      call add_piece(pieces, "where ledger and events stand", part_version, n_part)
+      call part%method%list_memory(segments)
+      call part%system%list_memory(segments)
+      call add_segment(segments, "the contacts from step to step", monitor_version, part%monitor%memory_size())
+      call add_segment(segments, "where ledger and events stand", part_version, n_part)
    end function list_of_part
 
 end module run_memory

@@ -70,7 +70,7 @@ contains
       if (.not. allocated(error)) call audit(summary, tally%magnitude, limits, error)
       worst = maxloc(whole%parts%violation%worst, dim=1)
       call warn_of_errors(whole%parts(worst)%system, whole%parts(worst)%violation%worst, whole%parts(worst)%violation%row, &
-                          tally%least_lost, tally%magnitude, summary)
+                          tally%min_lost, tally%magnitude, summary)
       call warn_by_parts(whole, summary)
       guards = limits%guards
       call whole%seen(guards)

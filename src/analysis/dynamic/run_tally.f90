@@ -1,8 +1,8 @@
 !> What a run adds up and holds the greatest of, over all parts of the mechanism.
 module run_tally
    use kinds, only: wp
-   use tape, only: tape_t
-   use time_aside, only: time_aside_t
+   use archive, only: archive_t
+   use time_in_output, only: output_time_t
    implicit none (type, external)
    private
    public :: run_tally_t
@@ -11,12 +11,12 @@ module run_tally
    type :: run_tally_t
       integer :: events = 0                       !! located events
       integer :: contacts = 0                     !! contacts that began
-      type(time_aside_t) :: aside                 !! CPU time spent on writing events
+      type(output_time_t) :: aside                 !! CPU time spent on writing events
       real(wp) :: residual = 0.0_wp               !! of the ledger at the last steps [J]
       real(wp) :: level = 0.0_wp                  !! kinetic + elastic energy + |change of potential| there [J]
       real(wp) :: magnitude = 0.0_wp              !! of what the ledger adds up there [J]
       real(wp) :: lost = 0.0_wp                   !! what contacts have lost by then [J]
-      real(wp) :: least_lost = 0.0_wp             !! least of it so far: negative, they made energy [J]
+      real(wp) :: min_lost = 0.0_wp             !! least of it so far: negative, they made energy [J]
       real(wp) :: residual_max = 0.0_wp           !! greatest |residual| [J]
       real(wp) :: energy_max = 0.0_wp             !! greatest level [J]
       real(wp) :: violation_max = 0.0_wp          !! greatest |Phi|; rotations times 1 m [m]
@@ -29,35 +29,35 @@ module run_tally
 contains
 
    !> Write it.
-   subroutine save_tally(self, tape)
+   subroutine save_tally(self, archive)
       class(run_tally_t), intent(in) :: self  !! the tally
-      type(tape_t), intent(inout) :: tape     !! receives it
+      type(archive_t), intent(inout) :: archive     !! receives it
 
-      call tape%put([self%events, self%contacts])
-      call tape%put([self%aside%seconds(), self%residual, self%level, self%magnitude, self%lost, self%least_lost, &
+      call archive%put([self%events, self%contacts])
+      call archive%put([self%aside%seconds(), self%residual, self%level, self%magnitude, self%lost, self%min_lost, &
                      self%residual_max, self%energy_max, self%violation_max, self%violation_rate_max])
    end subroutine save_tally
 
    !> Take it back.
-   subroutine load_tally(self, tape)
+   subroutine load_tally(self, archive)
       class(run_tally_t), intent(inout) :: self  !! the tally
-      type(tape_t), intent(inout) :: tape        !! holds it
+      type(archive_t), intent(inout) :: archive        !! holds it
 
       real(wp) :: aside  ! [s]
 
-      call tape%get(self%events)
-      call tape%get(self%contacts)
-      call tape%get(aside)
+      call archive%get(self%events)
+      call archive%get(self%contacts)
+      call archive%get(aside)
       call self%aside%begin(aside)
-      call tape%get(self%residual)
-      call tape%get(self%level)
-      call tape%get(self%magnitude)
-      call tape%get(self%lost)
-      call tape%get(self%least_lost)
-      call tape%get(self%residual_max)
-      call tape%get(self%energy_max)
-      call tape%get(self%violation_max)
-      call tape%get(self%violation_rate_max)
+      call archive%get(self%residual)
+      call archive%get(self%level)
+      call archive%get(self%magnitude)
+      call archive%get(self%lost)
+      call archive%get(self%min_lost)
+      call archive%get(self%residual_max)
+      call archive%get(self%energy_max)
+      call archive%get(self%violation_max)
+      call archive%get(self%violation_rate_max)
    end subroutine load_tally
 
 end module run_tally

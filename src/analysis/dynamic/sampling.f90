@@ -17,8 +17,8 @@ module sampling
    use run_failure, only: describe_failure
    use sample_stride, only: sample_stride_t
    use stop_condition, only: stop_t
-   use tape, only: tape_t
-   use time_aside, only: time_aside_t
+   use archive, only: archive_t
+   use time_in_output, only: output_time_t
    use time_plan, only: instant, last_instant, time_plan_t
    use whole_motion, only: whole_motion_t
    implicit none (type, external)
@@ -29,10 +29,10 @@ module sampling
    type :: sampler_t
       type(catalogue_t), allocatable :: catalogue  !! what is reported
       integer(i8) :: n_sample = 0                !! output instants done
-      integer :: n_strobe = 0                    !! stroboscopic instants done
+      integer :: n_poincare = 0                    !! stroboscopic instants done
       integer :: n_row(n_row_kind) = 0           !! rows beside those of output instants, by kind
       integer(i8) :: n_reports = 0               !! evaluations made for all these
-      type(time_aside_t) :: aside                !! CPU time spent
+      type(output_time_t) :: aside                !! CPU time spent
       real(wp) :: until = huge(1.0_wp)           !! no later instant is reported [s]
       type(film_moments_t) :: films              !! films that are asked for
       logical :: follows_steps = .false.         !! ends of steps are looked at for extremes
@@ -82,7 +82,7 @@ module sampling
       end subroutine follow_step
 
       !> All stroboscopic instants up to the time that all have reached.
-      module subroutine take_strobes(self, whole, plan, residual, recorder, error)
+      module subroutine take_poincare(self, whole, plan, residual, recorder, error)
          implicit none (type, external)
          class(sampler_t), intent(inout) :: self             !! what is reported
          type(whole_motion_t), intent(inout) :: whole        !! the motion
@@ -90,7 +90,7 @@ module sampling
          real(wp), intent(in) :: residual                    !! of the ledger at the last step [J]
          class(recorder_t), intent(inout) :: recorder        !! keeps the results
          type(error_t), allocatable, intent(out) :: error    !! the equations cannot be solved there
-      end subroutine take_strobes
+      end subroutine take_poincare
 
       !> Films of all times up to that which all have reached.
       module subroutine take_fields(self, whole, residual, recorder, error)
@@ -142,17 +142,17 @@ module sampling
 
    interface
       !> Write how far the reports are.
-      module subroutine save_samples(self, tape)
+      module subroutine save_samples(self, archive)
          implicit none (type, external)
          class(sampler_t), intent(in) :: self  !! what is reported
-         type(tape_t), intent(inout) :: tape   !! what is remembered
+         type(archive_t), intent(inout) :: archive   !! what is remembered
       end subroutine save_samples
 
       !> Take it back.
-      module subroutine load_samples(self, tape)
+      module subroutine load_samples(self, archive)
          implicit none (type, external)
          class(sampler_t), intent(inout) :: self  !! what is reported, at the start
-         type(tape_t), intent(inout) :: tape      !! what was remembered
+         type(archive_t), intent(inout) :: archive      !! what was remembered
       end subroutine load_samples
    end interface
 
@@ -190,7 +190,7 @@ contains
       end do
       call bind_channels(whole%system, self%catalogue)
       call self%films%begin(whole%system, recorder)
-      whole%parts(:)%watch%tells_all = recorder%wants_contact_rows
+      whole%parts(:)%monitor%tells_all = recorder%wants_contact_rows
       if (.not. allocated(recorder%located%place)) return
       call self%peaks%begin(self%catalogue, recorder%located%place, recorder%located%from, size(self%y))
       call self%stride%begin(whole%system%linkage%n_rate)
@@ -209,7 +209,7 @@ contains
 
       call take_all(self, whole, plan, residual, recorder, error)
       self%due = min(next_instant(self, whole%system, plan), self%films%next())
-      if (self%n_strobe < size(plan%strobes)) self%due = min(self%due, plan%strobes(self%n_strobe + 1))
+      if (self%n_poincare < size(plan%poincare_samples)) self%due = min(self%due, plan%poincare_samples(self%n_poincare + 1))
    end subroutine take_samples
 
    !> What of these is due, if anything is.
@@ -224,8 +224,8 @@ contains
       real(wp) :: reached, t, t_peak
 
       reached = min(whole%t, self%until)
-      if (self%n_strobe < size(plan%strobes)) then
-         if (plan%strobes(self%n_strobe + 1) <= reached) call take_strobes(self, whole, plan, residual, recorder, error)
+      if (self%n_poincare < size(plan%poincare_samples)) then
+         if (plan%poincare_samples(self%n_poincare + 1) <= reached) call take_poincare(self, whole, plan, residual, recorder, error)
          if (allocated(error)) return
       end if
       if (self%films%next() <= reached) call take_fields(self, whole, residual, recorder, error)
@@ -280,7 +280,7 @@ contains
 
       t = huge(1.0_wp)
       if (self%n_sample <= self%n_last_sample) t = instant(plan, self%n_sample)
-      if (t >= system%linkage%piece%end) t = huge(1.0_wp)
+      if (t >= system%linkage%segment%end) t = huge(1.0_wp)
    end function next_instant
 
    !> What comes does not continue what was before.
@@ -392,7 +392,7 @@ contains
          call report_state(whole%system, t + shift, self%y, self%ydot, residual, self%catalogue, status)
       end if
       whole%system%traits%with_quadratures = .true.
-      if (status == 0 .and. self%films%has_least) call self%films%look(whole%system, t + shift)
+      if (status == 0 .and. self%films%has_min) call self%films%look(whole%system, t + shift)
       if (status /= 0) call describe_failure(whole%parts(whole%front(1))%system, whole%parts(whole%front(1))%method, &
                                              advance_failed_evaluation, error)
    end subroutine report

@@ -111,21 +111,21 @@ contains
    end procedure follow_step
 
    !> All stroboscopic instants up to the time that all have reached.
-   module procedure take_strobes
+   module procedure take_poincare
       real(wp) :: reached, t
 
       reached = min(whole%t, self%until)
       call self%aside%leave()
-      do while (self%n_strobe < size(plan%strobes))
-         t = plan%strobes(self%n_strobe + 1)
-         if (t > reached .or. t >= whole%system%linkage%piece%end) exit
+      do while (self%n_poincare < size(plan%poincare_samples))
+         t = plan%poincare_samples(self%n_poincare + 1)
+         if (t > reached .or. t >= whole%system%linkage%segment%end) exit
          call report(self, whole, t, .false., 0.0_wp, residual, error)
          if (allocated(error)) return
-         call recorder%strobe(t, self%catalogue)
-         self%n_strobe = self%n_strobe + 1
+         call recorder%poincare(t, self%catalogue)
+         self%n_poincare = self%n_poincare + 1
       end do
       call self%aside%come_back()
-   end procedure take_strobes
+   end procedure take_poincare
 
    !> Films of all times up to that which all have reached.
    module procedure take_fields

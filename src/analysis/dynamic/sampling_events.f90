@@ -14,7 +14,7 @@ contains
       self%has_jump = .false.
       do k = 1, size(parts)
          associate (part => whole%parts(parts(k)))
-            call part%watch%foresee(part%system, part%method, ends, begins, jumps)
+            call part%monitor%extrapolate(part%system, part%method, ends, begins, jumps)
          end associate
          has_end = has_end .or. ends
          self%has_onset = self%has_onset .or. begins
@@ -44,7 +44,7 @@ contains
    !> The row after the events, where a contact began or a force may have jumped.
    module procedure after_events
       if (.not. (self%has_onset .or. self%has_jump)) return
-      call put_row_here(self, whole, plan, merge(row_onset, row_jump, self%has_onset), maxval(whole%parts(parts)%watch%shift), &
+      call put_row_here(self, whole, plan, merge(row_onset, row_jump, self%has_onset), maxval(whole%parts(parts)%monitor%shift), &
                         residual, recorder, error)
       call whole%note_row()
    end procedure after_events

@@ -144,8 +144,8 @@ contains
       call find_equilibrium(scene, system, q, report, equilibrium, error)
       if (allocated(error)) return
       v = 0.0_wp
-      do k = 1, size(system%loose%sets)
-         call system%loose%sets(k)%set%begin_at_rest()
+      do k = 1, size(system%clearance_joints%sets)
+         call system%clearance_joints%sets(k)%set%begin_at_rest()
       end do
    end subroutine start_at_rest
 
@@ -209,13 +209,13 @@ contains
       logical, intent(in) :: is_preload                    !! overlap is wanted
       type(error_t), allocatable, intent(out) :: error     !! names the joint and the depth
 
-      real(wp) :: delta(system%loose%n_contact), rate(system%loose%n_contact)
+      real(wp) :: delta(system%clearance_joints%n_contact), rate(system%clearance_joints%n_contact)
       integer :: i, k
 
-      if (system%loose%n == 0) return
+      if (system%clearance_joints%n == 0) return
       call system%events(0.0_wp, y, delta, rate)
-      do k = 1, size(system%loose%sets)
-         associate (set => system%loose%sets(k)%set)
+      do k = 1, size(system%clearance_joints%sets)
+         associate (set => system%clearance_joints%sets(k)%set)
             do i = 1, set%n_contact
                if (delta(set%before%contacts + i) <= touching*set%items%clearance(set%item_of(i))) cycle
                if (is_preload) then

@@ -2,7 +2,7 @@
 !> costs the others nothing.
 module subsystems
    use build_system, only: new_system
-   use instants, only: instants_t, new_instants
+   use output_times, only: output_times_t, new_output_times
    use integrator, only: integrator_t
    use integrator_registry, only: find_integrator
    use force_registry, only: n_force_kinds
@@ -22,7 +22,7 @@ module subsystems
    type :: subsystem_t
       type(mechanism_t) :: system                       !! its equations
       class(integrator_t), allocatable :: method        !! its integrator, not started
-      type(instants_t) :: instants                      !! when its functions of time are not smooth
+      type(output_times_t) :: output_times                      !! when its functions of time are not smooth
       integer, allocatable :: body(:)                   !! (bodies) numbers in the whole
       integer, allocatable :: slot(:)                   !! (contacts) sets of the whole
       integer, allocatable :: contact(:)                !! (contacts) contacts of these sets
@@ -52,7 +52,7 @@ contains
          return
       end if
       allocate (subsystems(groups%n))
-      call list_loose(system, table, slot, item)
+      call list_clearance_joints(system, table, slot, item)
       call rubbing%list(rubbing_names(system))
       call begin_group_scene(scene, one)
       do g = 1, groups%n
@@ -61,12 +61,12 @@ contains
             subsystem%body = groups%bodies_of(g)
             call new_system(one, levels, subsystem%system)
             subsystem%system%linkage%solution%is_redundant = system%linkage%solution%is_redundant
-            call subsystem%system%linkage%solution%take_least_pivot(system%linkage%solution%least_pivot)
+            call subsystem%system%linkage%solution%take_min_pivot(system%linkage%solution%min_pivot)
             call find_contacts(system, table, slot, item, subsystem)
             subsystem%rubbing = numbers_of(rubbing_names(subsystem%system), rubbing)
             call find_integrator(scene%settings%dynamic%word("method"), subsystem%method)
             subsystem%method%controls = method%controls
-            call new_instants(one, end, subsystem%system%loose%n > 0, subsystem%instants)
+            call new_output_times(one, end, subsystem%system%clearance_joints%n > 0, subsystem%output_times)
          end associate
       end do
    end subroutine new_subsystems
@@ -112,7 +112,7 @@ contains
    end function grouping_words
 
    !> The loose joints of the whole, by name.
-   subroutine list_loose(system, table, slot, item)
+   subroutine list_clearance_joints(system, table, slot, item)
       type(mechanism_t), intent(in) :: system            !! the whole
       type(name_table_t), intent(out) :: table           !! their names
       integer, allocatable, intent(out) :: slot(:)       !! (loose joints) set of each
@@ -121,18 +121,18 @@ contains
       type(text_t), allocatable :: names(:)
       integer :: i, k, n
 
-      allocate (names(system%loose%n), slot(system%loose%n), item(system%loose%n))
+      allocate (names(system%clearance_joints%n), slot(system%clearance_joints%n), item(system%clearance_joints%n))
       n = 0
-      do k = 1, size(system%loose%sets)
-         do i = 1, system%loose%sets(k)%set%n
+      do k = 1, size(system%clearance_joints%sets)
+         do i = 1, system%clearance_joints%sets(k)%set%n
             n = n + 1
-            names(n)%s = system%loose%sets(k)%set%names(i)%s
+            names(n)%s = system%clearance_joints%sets(k)%set%names(i)%s
             slot(n) = k
             item(n) = i
          end do
       end do
       call table%list(names)
-   end subroutine list_loose
+   end subroutine list_clearance_joints
 
    !> The ideal joints that rub, by name.
    function rubbing_names(system) result(names)
@@ -173,16 +173,17 @@ contains
 
       integer :: i, joint, k, m
 
-      allocate (subsystem%slot(subsystem%system%loose%n_contact), subsystem%contact(subsystem%system%loose%n_contact))
+      allocate (subsystem%slot(subsystem%system%clearance_joints%n_contact), &
+                subsystem%contact(subsystem%system%clearance_joints%n_contact))
       m = 0
-      do k = 1, size(subsystem%system%loose%sets)
-         associate (set => subsystem%system%loose%sets(k)%set)
+      do k = 1, size(subsystem%system%clearance_joints%sets)
+         associate (set => subsystem%system%clearance_joints%sets(k)%set)
             do i = 1, set%n_contact
                m = m + 1
                joint = table%find(set%names(set%item_of(i))%s)
                subsystem%slot(m) = slot(joint)
                subsystem%contact(m) = (item(joint) - 1)*set%n_contact_item + modulo(i - 1, set%n_contact_item) + 1
-               call set%adopt(i, system%loose%sets(subsystem%slot(m))%set, subsystem%contact(m))
+               call set%adopt(i, system%clearance_joints%sets(subsystem%slot(m))%set, subsystem%contact(m))
             end do
          end associate
       end do

@@ -17,7 +17,7 @@ module velocity_jumps
    use kinds, only: wp
    use mechanism_energy, only: mechanical_energy
    use mechanism, only: mechanism_t
-   use tape, only: tape_t
+   use archive, only: archive_t
    use text, only: append_text, real_text, text_t, to_text
    implicit none (type, external)
    private
@@ -114,24 +114,24 @@ contains
    end subroutine warn
 
    !> Write what is remembered.
-   subroutine save_jumps(self, tape)
+   subroutine save_jumps(self, archive)
       class(velocity_jumps_t), intent(in) :: self   !! what is remembered
-      type(tape_t), intent(inout) :: tape           !! receives it
+      type(archive_t), intent(inout) :: archive           !! receives it
 
-      call tape%put([self%n, self%row])
-      call tape%put([self%t, self%jump, self%work])
+      call archive%put([self%n, self%row])
+      call archive%put([self%t, self%jump, self%work])
    end subroutine save_jumps
 
    !> Take it back.
-   subroutine load_jumps(self, tape)
+   subroutine load_jumps(self, archive)
       class(velocity_jumps_t), intent(inout) :: self  !! what is remembered
-      type(tape_t), intent(inout) :: tape             !! holds it
+      type(archive_t), intent(inout) :: archive             !! holds it
 
-      call tape%get(self%n)
-      call tape%get(self%row)
-      call tape%get(self%t)
-      call tape%get(self%jump)
-      call tape%get(self%work)
+      call archive%get(self%n)
+      call archive%get(self%row)
+      call archive%get(self%t)
+      call archive%get(self%jump)
+      call archive%get(self%work)
    end subroutine load_jumps
 
 end module velocity_jumps

@@ -7,7 +7,7 @@ module whole_motion
    use contact_places, only: n_loss, n_quadratures, place_of_film_loss, place_of_joint_loss, place_of_loss
    use friction_law, only: memory_bristle
    use guards, only: guards_t
-   use instants, only: instants_t
+   use output_times, only: output_times_t
    use integrator, only: advance_event, integrator_t
    use kinds, only: wp
    use mechanism, only: mechanism_t
@@ -29,7 +29,7 @@ module whole_motion
       logical :: is_smooth = .true.                          !! the motion goes on as it is: no part there has an event or an
                                                              !! instant, or a guard that ends the run
       integer :: n_peak = 0                                  !! parts with peaks to be told
-      type(instants_t) :: instants                           !! of several parts: when functions of time of any are not smooth
+      type(output_times_t) :: output_times  !! of several parts: when functions of time of any are not smooth
       type(subsystem_t), pointer, private :: places(:) => null()  !! (parts) where they are in the whole; a single part: none
       type(time_queue_t), private :: queue                   !! parts that are ahead, by their time
       integer, allocatable, private :: with_peak(:)          !! (parts) those with peaks to be told, the first n_peak
@@ -44,19 +44,19 @@ module whole_motion
       procedure :: owes_row => whole_owes_row
       procedure :: state_at => whole_state_at
       procedure :: is_evaluated => whole_is_evaluated
-      procedure :: seen => whole_seen
+      procedure :: seen => whole_observed
       procedure :: is_together => whole_is_together
    end type whole_motion_t
 
 contains
 
    !> The whole as one part, or as several.
-   subroutine new_whole_motion(system, method, subsystems, limits, instants, whole)
+   subroutine new_whole_motion(system, method, subsystems, limits, output_times, whole)
       type(mechanism_t), intent(inout), target :: system           !! the whole
       class(integrator_t), intent(inout), target :: method         !! its integrator, if it is one part
       type(subsystem_t), intent(inout), target :: subsystems(:)    !! (parts) its parts; none: it is one
       type(limits_t), intent(in) :: limits                         !! guards of the whole
-      type(instants_t), intent(in) :: instants                     !! when functions of time of any are not smooth
+      type(output_times_t), intent(in) :: output_times                     !! when functions of time of any are not smooth
       type(whole_motion_t), intent(out) :: whole                   !! at the start; points at the arguments
 
       type(guards_t) :: guards
@@ -69,18 +69,18 @@ contains
       whole%front = [(k, k=1, n)]
       call whole%queue%start(n)
       if (size(subsystems) == 0) then
-         call new_part(system, method, instants, limits%guards, whole%parts(1))
+         call new_part(system, method, output_times, limits%guards, whole%parts(1))
          return
       end if
       whole%places => subsystems
-      whole%instants = instants
+      whole%output_times = output_times
       associate (coordinates => system%linkage%coordinates, n_body => system%linkage%bodies%n)
          allocate (whole%q(coordinates%n_q*n_body), whole%v(coordinates%n_v*n_body), source=0.0_wp)
       end associate
       allocate (whole%y(maxval([(subsystems(k)%system%n, k=1, n)])), source=0.0_wp)
       do k = 1, n
          call limits%guards%share(contacts_of(system, subsystems(k)), guards)
-         call new_part(subsystems(k)%system, subsystems(k)%method, subsystems(k)%instants, guards, whole%parts(k))
+         call new_part(subsystems(k)%system, subsystems(k)%method, subsystems(k)%output_times, guards, whole%parts(k))
       end do
    end subroutine new_whole_motion
 
@@ -94,7 +94,7 @@ contains
 
       allocate (numbers(size(place%slot)))
       do k = 1, size(numbers)
-         numbers(k) = system%loose%sets(place%slot(k))%set%before%contacts + place%contact(k)
+         numbers(k) = system%clearance_joints%sets(place%slot(k))%set%before%contacts + place%contact(k)
       end do
    end function contacts_of
 
@@ -132,13 +132,13 @@ contains
 
       if (.not. associated(self%places)) then
          self%t = self%parts(1)%method%t
-         if (self%parts(1)%watch%n_peak > 0) call note_peak(self, 1)
+         if (self%parts(1)%monitor%n_peak > 0) call note_peak(self, 1)
          self%is_smooth = goes_on(self%parts(1))
          return
       end if
       do k = 1, self%n_front
          call self%queue%add(self%parts(self%front(k))%method%t, self%front(k))
-         if (self%parts(self%front(k))%watch%n_peak > 0) call note_peak(self, self%front(k))
+         if (self%parts(self%front(k))%monitor%n_peak > 0) call note_peak(self, self%front(k))
       end do
       call self%queue%take_first(self%t, self%front, self%n_front)
       self%is_smooth = .true.
@@ -160,7 +160,8 @@ contains
    pure logical function goes_on(part)
       type(moving_part_t), intent(in) :: part   !! the part
 
-      goes_on = .not. (part%status == advance_event .or. part%method%t >= part%instants%next%at .or. allocated(part%guards%reason))
+      goes_on = .not. (part%status == advance_event .or. part%method%t >= part%output_times%next%at &
+                       .or. allocated(part%guards%reason))
    end function goes_on
 
    !> Time of the first peak that is not told; far away if there is none.
@@ -171,7 +172,7 @@ contains
 
       t = huge(1.0_wp)
       do k = 1, self%n_peak
-         t = min(t, self%parts(self%with_peak(k))%watch%peaks(1)%t)
+         t = min(t, self%parts(self%with_peak(k))%monitor%peaks(1)%t)
       end do
    end function whole_next_peak
 
@@ -184,9 +185,9 @@ contains
 
       n = 0
       do k = 1, self%n_peak
-         associate (watch => self%parts(self%with_peak(k))%watch)
-            call watch%drop_peaks(t)
-            if (watch%n_peak == 0) cycle
+         associate (monitor => self%parts(self%with_peak(k))%monitor)
+            call monitor%drop_peaks(t)
+            if (monitor%n_peak == 0) cycle
          end associate
          n = n + 1
          self%with_peak(n) = self%with_peak(k)
@@ -201,7 +202,7 @@ contains
       integer :: k
 
       do k = 1, self%n_front
-         call self%parts(self%front(k))%watch%note_row()
+         call self%parts(self%front(k))%monitor%note_row()
       end do
    end subroutine whole_note_row
 
@@ -213,7 +214,7 @@ contains
 
       owes = .false.
       do k = 1, self%n_front
-         owes = owes .or. any(self%parts(self%front(k))%watch%owes_row)
+         owes = owes .or. any(self%parts(self%front(k))%monitor%owes_row)
       end do
    end function whole_owes_row
 
@@ -225,7 +226,7 @@ contains
    end function whole_is_together
 
    !> What the guards of all parts have seen.
-   subroutine whole_seen(self, guards)
+   subroutine whole_observed(self, guards)
       class(whole_motion_t), intent(in) :: self   !! the motion
       type(guards_t), intent(inout) :: guards     !! of the whole
 
@@ -239,7 +240,7 @@ contains
       do p = 1, size(self%parts)
          call guards%gather(self%parts(p)%guards, self%places(p)%body, contacts_of(self%system, self%places(p)))
       end do
-   end subroutine whole_seen
+   end subroutine whole_observed
 
    !> State of the whole at a time that the last steps of all parts hold; the contacts of the whole become as those of the parts.
    subroutine whole_state_at(self, t, at_peak, shift, y)
@@ -283,7 +284,7 @@ contains
       is_evaluated = .false.
       if (associated(self%places)) return
       associate (part => self%parts(1), friction => self%parts(1)%system%friction)
-         if (friction%grips%n_slip > 0 .or. friction%rubbing%n > 0) return
+         if (friction%stick_slips%n_slip > 0 .or. friction%rubbing%n > 0) return
          is_evaluated = part%n_evaluations == part%system%n_evaluations .and. .not. abs(t - part%method%t) > 0.0_wp
       end associate
    end function whole_is_evaluated
@@ -299,9 +300,9 @@ contains
       integer :: k
 
       if (at_peak) then
-         do k = 1, part%watch%n_peak
-            if (part%watch%peaks(k)%t < t .or. part%watch%peaks(k)%t > t) cycle
-            y = part%watch%peaks(k)%y
+         do k = 1, part%monitor%n_peak
+            if (part%monitor%peaks(k)%t < t .or. part%monitor%peaks(k)%t > t) cycle
+            y = part%monitor%peaks(k)%y
             return
          end do
       end if
@@ -321,16 +322,16 @@ contains
       integer :: from, i, k, m, to
 
       m = 0
-      do k = 1, size(system%loose%sets)
-         associate (set => system%loose%sets(k)%set)
+      do k = 1, size(system%clearance_joints%sets)
+         associate (set => system%clearance_joints%sets(k)%set)
             do i = 1, set%n_contact
                m = m + 1
-               associate (target => whole%loose%sets(place%slot(m))%set, c => place%contact(m))
+               associate (target => whole%clearance_joints%sets(place%slot(m))%set, c => place%contact(m))
                   call target%adopt(c, set, i)
-                  if (set%grip%memory == memory_bristle) then
+                  if (set%stick_slip%memory == memory_bristle) then
                      from = system%bristle_place(k, i)
                      to = whole%bristle_place(place%slot(m), c)
-                     y(to + 1:to + set%grip%n_component) = own(from + 1:from + set%grip%n_component)
+                     y(to + 1:to + set%stick_slip%n_component) = own(from + 1:from + set%stick_slip%n_component)
                   end if
                   y(whole%place_of_impulse(target%before%contacts + c)) = own(system%place_of_impulse(m))
                   if (.not. system%ledger%is_kept) cycle
@@ -347,13 +348,13 @@ contains
       end do
       if (.not. system%ledger%is_kept) return
       if (system%friction%rubbing%n > 0) then
-         from = system%in_state(place_of_joint_loss(system%loose%n_contact))
-         to = whole%in_state(place_of_joint_loss(whole%loose%n_contact))
+         from = system%in_state(place_of_joint_loss(system%clearance_joints%n_contact))
+         to = whole%in_state(place_of_joint_loss(whole%clearance_joints%n_contact))
          y(to) = y(to) + own(from)
       end if
-      if (system%loose%has_films) then
-         from = system%in_state(place_of_film_loss(system%loose%n_contact, system%friction%rubbing%n > 0))
-         to = whole%in_state(place_of_film_loss(whole%loose%n_contact, whole%friction%rubbing%n > 0))
+      if (system%clearance_joints%has_films) then
+         from = system%in_state(place_of_film_loss(system%clearance_joints%n_contact, system%friction%rubbing%n > 0))
+         to = whole%in_state(place_of_film_loss(whole%clearance_joints%n_contact, whole%friction%rubbing%n > 0))
          y(to) = y(to) + own(from)
       end if
       from = system%in_state(0)

@@ -14,7 +14,7 @@ module kinematic
    use channel_peaks, only: channel_peaks_t, tell_between
    use cpu_budget, only: cpu_budget_t
    use errors, only: error_t, exit_integration, set_error
-   use instants, only: instants_t
+   use output_times, only: output_times_t
    use inverse_dynamics, only: find_reactions
    use kinds, only: i8, not_a_number, wp
    use linkage, only: linkage_t
@@ -26,7 +26,7 @@ module kinematic
    use prescribed_motion, only: newton_t, not_finite_rows, open_rows, singular, solve_positions, solve_rates, solved
    use recorder, only: recorder_t, status_complete, status_failed, status_stopped, summary_t
    use row_corrections, only: evaluate_rows
-   use saved_run, only: wish_stop
+   use saved_run, only: requested_action_stop
    use text, only: append_text, real_text
    use step_follower, only: find_off_branch, follow_motion, must_follow
    use time_plan, only: instant, last_instant, time_plan_t
@@ -36,7 +36,7 @@ module kinematic
 
    real(wp), parameter :: longest_turn = 0.3_wp        !! predicted turn of a body in one step [rad]
    real(wp), parameter :: longest_correction = 0.05_wp !! turn by which a prediction may be wrong [rad]
-   real(wp), parameter :: least_step = 1.0e-9_wp       !! shortest step, of the output interval [1]
+   real(wp), parameter :: min_step = 1.0e-9_wp       !! shortest step, of the output interval [1]
    integer(i8), parameter :: progress_every = 64_i8    !! instants between two reports of progress
 
    !> The motion at one instant.
@@ -111,13 +111,13 @@ contains
       type(error_t), allocatable, intent(out) :: error    !! a dead centre, or a file could not be written
 
       type(channel_peaks_t) :: peaks
-      type(instants_t) :: instants
+      type(output_times_t) :: output_times
       type(state_t) :: state
       integer(i8) :: k
       integer :: outcome
 
-      instants = plan%instants
-      if (instants%n > 0) call instants%begin(plan%end, system%linkage%piece)
+      output_times = plan%output_times
+      if (output_times%n > 0) call output_times%begin(plan%end, system%linkage%segment)
       if (allocated(recorder%located%place)) call peaks%begin(catalogue, recorder%located%place, recorder%located%from, 0)
       state%q = q
       allocate (state%v(size(system%linkage%mass)), state%a(size(system%linkage%mass)), source=0.0_wp)
@@ -127,11 +127,11 @@ contains
          return
       end if
       do k = 0, last_instant(plan)
-         do while (instants%next%at <= min(instant(plan, k), plan%end) .and. instants%next%at < plan%end)
-            call pass_instant(system, state, plan, newton, instants, peaks, recorder, catalogue, summary, error)
+         do while (output_times%next%at <= min(instant(plan, k), plan%end) .and. output_times%next%at < plan%end)
+            call pass_instant(system, state, plan, newton, output_times, peaks, recorder, catalogue, summary, error)
             if (allocated(error)) return
          end do
-         call move_to(system, instant(plan, k), least_step*plan%every, newton, state, summary, error)
+         call move_to(system, instant(plan, k), min_step*plan%every, newton, state, summary, error)
          if (allocated(error)) return
          call report(system, state, catalogue, summary)
          call recorder%sample(state%t, catalogue, error)
@@ -139,7 +139,7 @@ contains
          if (allocated(peaks%place)) call find_extremes(system, state, .true., newton, peaks, recorder, catalogue, summary)
          summary%count%samples = summary%count%samples + 1
          if (mod(k, progress_every) == 0_i8) call recorder%progress(state%t/plan%end)
-         if (recorder%wish(.false.) == wish_stop .and. k < last_instant(plan)) then
+         if (recorder%requested_action(.false.) == requested_action_stop .and. k < last_instant(plan)) then
             summary%status = status_stopped
             call set_error(error, exit_integration, "interrupted by a signal at t = "//real_text(state%t, 9)// &
                            " s; the results written so far are readable")
@@ -153,12 +153,12 @@ contains
    end subroutine follow
 
    !> Pass an instant at which functions of time are not smooth: values before and behind it count among the extremes.
-   subroutine pass_instant(system, state, plan, newton, instants, peaks, recorder, catalogue, summary, error)
+   subroutine pass_instant(system, state, plan, newton, output_times, peaks, recorder, catalogue, summary, error)
       type(mechanism_t), intent(inout) :: system      !! the system
       type(state_t), intent(inout) :: state               !! the motion, moved to the instant
       type(time_plan_t), intent(in) :: plan               !! times
       type(newton_t), intent(inout) :: newton             !! controls and cost
-      type(instants_t), intent(inout) :: instants         !! the next one is passed
+      type(output_times_t), intent(inout) :: output_times         !! the next one is passed
       type(channel_peaks_t), intent(inout) :: peaks       !! begin anew
       class(recorder_t), intent(inout) :: recorder        !! keeps the results
       type(catalogue_t), intent(inout) :: catalogue       !! what is reported
@@ -168,10 +168,10 @@ contains
       type(state_t) :: behind
       integer :: outcome
 
-      call move_to(system, instants%next%at, least_step*plan%every, newton, state, summary, error)
+      call move_to(system, output_times%next%at, min_step*plan%every, newton, state, summary, error)
       if (allocated(error)) return
       call tell_side(state)
-      call instants%pass(system%linkage%piece)
+      call output_times%pass(system%linkage%segment)
       call peaks%forget()
       behind = state
       call try(system, newton, behind, outcome)
@@ -288,7 +288,7 @@ contains
       type(state_t), intent(in) :: state       !! the motion
       real(wp), intent(in) :: h                !! the step [s]
 
-      turn = linkage%coordinates%greatest_turn(linkage%bodies%n, abs(h*state%v) + abs(0.5_wp*h*h*state%a))
+      turn = linkage%coordinates%max_turn(linkage%bodies%n, abs(h*state%v) + abs(0.5_wp*h*h*state%a))
    end function turn_in
 
    !> Solve a predicted instant; a correction that turns a body by much is not trusted.
@@ -305,7 +305,7 @@ contains
       if (outcome /= solved) return
       associate (coordinates => system%linkage%coordinates, n => system%linkage%bodies%n)
          call coordinates%difference(n, predicted, next%q, correction)
-         if (coordinates%greatest_turn(n, correction) > longest_correction) outcome = open_rows
+         if (coordinates%max_turn(n, correction) > longest_correction) outcome = open_rows
       end associate
    end subroutine try
 
@@ -334,10 +334,10 @@ contains
       integer :: turn
 
       call evaluate_rows(system%linkage, state%t, state%q, state%v)
-      call system%evaluate_loads(system%linkage%piece%inside(state%t))
+      call system%evaluate_loads(system%linkage%segment%inside(state%t))
       call find_reactions(system%linkage, system%loading%g, state%a, unbalanced)
       do turn = 1, merge(most_turns, 0, system%friction%rubbing%n > 0)  ! friction in joints, by the reactions that it gives
-         call system%rub_by_multipliers(.true., turn > 1, change)
+         call system%friction_by_multipliers(.true., turn > 1, change)
          call find_reactions(system%linkage, system%loading%g, state%a, unbalanced)
          if (change <= same) exit
       end do

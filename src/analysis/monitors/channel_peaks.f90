@@ -16,14 +16,14 @@
 !> (`contact_peaks`).
 module channel_peaks
    use catalogue, only: catalogue_t
-   use catalogue_rooms, only: room_contacts, room_energy
+   use groups_of_catalogue, only: group_contacts, group_energy
    use channel_noise, only: noise_of_channels
    use, intrinsic :: ieee_arithmetic, only: ieee_is_finite
    use interpolation, only: step_t
    use kinds, only: i8, not_a_number, wp
-   use peak_bracket, only: bracket_t, find_bends, most_instants
+   use peak_bracket, only: bracket_t, find_bends, most_output_times
    use recorder, only: recorder_t
-   use tape, only: tape_t
+   use archive, only: archive_t
    use text, only: text_t
    implicit none (type, external)
    private
@@ -47,7 +47,7 @@ module channel_peaks
       type(text_t), allocatable, private :: units(:)  !! (n) SI
       real(wp), allocatable, private :: noise(:)      !! (n) what of them is round-off, by the rows so far [any]
       integer(i8), private :: n_written = 0           !! written rows so far
-      real(wp), allocatable, private :: least(:)      !! (n) the least so far [any]
+      real(wp), allocatable, private :: minimum(:)      !! (n) the least so far [any]
       real(wp), allocatable, private :: most(:)       !! (n) the greatest so far [any]
       type(bracket_t), private :: search              !! what is looked for
       type(step_t) :: pair                            !! the two rows around the instant that is asked for
@@ -85,8 +85,8 @@ contains
          associate (group => catalogue%groups(g), first => catalogue%groups(g)%before + 1)
             associate (last => group%before + group%channel%components*size(group%has), name => group%channel%name)
                group_of(first:last) = g
-               if (group%room == room_contacts) is_searched(first:last) = name /= "normal_force" .and. name /= "penetration"
-               if (group%room == room_energy) is_searched(first:last) = name /= "residual"
+               if (group%room == group_contacts) is_searched(first:last) = name /= "normal_force" .and. name /= "penetration"
+               if (group%room == group_energy) is_searched(first:last) = name /= "residual"
             end associate
          end associate
       end do
@@ -101,7 +101,7 @@ contains
       allocate (self%pair%y0(m), self%pair%y1(m), self%pair%f0(m), self%pair%f1(m), self%pair%inner(m, 2), source=0.0_wp)
       allocate (self%is_known(n), source=.false.)
       allocate (self%bends(n), source=0)
-      allocate (self%least(n), source=huge(1.0_wp))
+      allocate (self%minimum(n), source=huge(1.0_wp))
       allocate (self%most(n), source=-huge(1.0_wp))
    end subroutine begin_peaks
 
@@ -127,7 +127,7 @@ contains
          if (t <= self%t(3)) self%n_row = 0
          if (self%from > self%t(3) .and. self%from <= t) then
             self%n_row = 0
-            self%least = huge(1.0_wp)
+            self%minimum = huge(1.0_wp)
             self%most = -huge(1.0_wp)
          end if
       end if
@@ -146,7 +146,7 @@ contains
             if (.not. is_written) cycle
             self%is_known(k) = ieee_is_finite(x)
             if (.not. self%is_known(k)) cycle
-            if (x < self%least(k)) self%least(k) = x
+            if (x < self%minimum(k)) self%minimum(k) = x
             if (x > self%most(k)) self%most(k) = x
          end associate
       end do
@@ -163,7 +163,7 @@ contains
 
       self%n_written = self%n_written + 1
       if (popcnt(self%n_written) /= 1) return
-      self%noise = noise_of_channels(self%units, merge(max(abs(self%least), abs(self%most)), 0.0_wp, self%least <= self%most), &
+      self%noise = noise_of_channels(self%units, merge(max(abs(self%minimum), abs(self%most)), 0.0_wp, self%minimum <= self%most), &
                                      max(self%t(3), 0.0_wp))
    end subroutine count_row
 
@@ -180,7 +180,7 @@ contains
       if (self%n_row < 3) return
       associate (search => self%search)
          do
-            if (search%n > 0 .and. search%n < most_instants) then
+            if (search%n > 0 .and. search%n < most_output_times) then
                call search%propose(best_of(self), self%noise(search%of()), is_there)
                if (is_there) exit
             end if
@@ -204,7 +204,7 @@ contains
       class(channel_peaks_t), intent(in) :: self  !! the peaks
 
       associate (k => self%search%of())
-         best = merge(self%most(k), -self%least(k), self%search%sign() == 1)
+         best = merge(self%most(k), -self%minimum(k), self%search%sign() == 1)
       end associate
    end function best_of
 
@@ -232,11 +232,11 @@ contains
          if (counts) counts = abs(f - rough) <= max(doubt*(maxval(x) - minval(x)), same*maxval(abs(x)))
          search%n = search%n + 1
          if (.not. counts) then
-            search%n = most_instants
+            search%n = most_output_times
             return
          end if
          f = search%sign()*f
-         self%least(k) = min(self%least(k), values(self%place(k)))
+         self%minimum(k) = min(self%minimum(k), values(self%place(k)))
          self%most(k) = max(self%most(k), values(self%place(k)))
          call search%narrow(f)
       end associate
@@ -309,7 +309,7 @@ contains
          associate (x => catalogue%values(peaks%place(k)))
             if (.not. peaks%is_known(k)) x = not_a_number()
             if (.not. ieee_is_finite(x)) cycle
-            if (x < peaks%least(k)) peaks%least(k) = x
+            if (x < peaks%minimum(k)) peaks%minimum(k) = x
             if (x > peaks%most(k)) peaks%most(k) = x
          end associate
       end do
@@ -318,43 +318,43 @@ contains
    end subroutine tell_sample
 
    !> Write what is remembered.
-   subroutine save_peaks(self, tape)
+   subroutine save_peaks(self, archive)
       class(channel_peaks_t), intent(in) :: self  !! the peaks
-      type(tape_t), intent(inout) :: tape         !! receives it
+      type(archive_t), intent(inout) :: archive         !! receives it
 
       integer :: k
 
       if (.not. allocated(self%place)) return
-      call tape%put(self%n_row)
-      call tape%put(self%n_written)
-      call tape%put(self%noise)
-      call tape%put([self%t, self%least, self%most])
-      call tape%put(merge(1, 0, self%is_known))
+      call archive%put(self%n_row)
+      call archive%put(self%n_written)
+      call archive%put(self%noise)
+      call archive%put([self%t, self%minimum, self%most])
+      call archive%put(merge(1, 0, self%is_known))
       do k = 1, 3
-         call tape%put([self%y(:, k), self%ydot(:, k), self%x(:, k)])
+         call archive%put([self%y(:, k), self%ydot(:, k), self%x(:, k)])
       end do
    end subroutine save_peaks
 
    !> Take it back.
-   subroutine load_peaks(self, tape)
+   subroutine load_peaks(self, archive)
       class(channel_peaks_t), intent(inout) :: self  !! the peaks, begun
-      type(tape_t), intent(inout) :: tape            !! holds it
+      type(archive_t), intent(inout) :: archive            !! holds it
 
       integer :: known(size(self%place)), k
 
       if (.not. allocated(self%place)) return
-      call tape%get(self%n_row)
-      call tape%get(self%n_written)
-      call tape%get(self%noise)
-      call tape%get(self%t)
-      call tape%get(self%least)
-      call tape%get(self%most)
-      call tape%get(known)
+      call archive%get(self%n_row)
+      call archive%get(self%n_written)
+      call archive%get(self%noise)
+      call archive%get(self%t)
+      call archive%get(self%minimum)
+      call archive%get(self%most)
+      call archive%get(known)
       self%is_known = known == 1
       do k = 1, 3
-         call tape%get(self%y(:, k))
-         call tape%get(self%ydot(:, k))
-         call tape%get(self%x(:, k))
+         call archive%get(self%y(:, k))
+         call archive%get(self%ydot(:, k))
+         call archive%get(self%x(:, k))
       end do
    end subroutine load_peaks
 

@@ -50,14 +50,14 @@ contains
       type(trend_t), intent(out) :: force             !! normal force
       type(trend_t), intent(out) :: penetration       !! penetration
 
-      call system%loose%sets(slot)%set%watch(item, system%linkage%motion, penetration%value, penetration%rate, &
+      call system%clearance_joints%sets(slot)%set%monitor(item, system%linkage%motion, penetration%value, penetration%rate, &
                                              force%value, force%rate)
    end subroutine look
 
    !> Maximum of the penetration within the last step: the place is found on its interpolant, the value is that of a row there.
    !> Where it is far above the ends the step is long for the contact, as steps of stiff methods are at rest, and the interpolant
    !> may be poor: then the value is that of a state that the method itself reaches.
-   subroutine find_penetration_peak(system, method, slot, item, left, right, y, greatest, peak)
+   subroutine find_penetration_peak(system, method, slot, item, left, right, y, maximum, peak)
       type(mechanism_t), intent(inout) :: system    !! the system
       class(integrator_t), intent(inout) :: method      !! the integrator, after a step
       integer, intent(in) :: slot                       !! set of the contact
@@ -65,7 +65,7 @@ contains
       type(trend_t), intent(in) :: left                 !! penetration at the start of the step
       type(trend_t), intent(in) :: right                !! penetration at its end
       real(wp), intent(inout), contiguous :: y(:)       !! (n) scratch state [any]
-      real(wp), intent(out) :: greatest                 !! the greatest penetration found; 0: none [m]
+      real(wp), intent(out) :: maximum                 !! the greatest penetration found; 0: none [m]
       type(peak_t), intent(inout) :: peak               !! time and state there, with the force
 
       type(bracket_t) :: bracket
@@ -74,7 +74,7 @@ contains
       integer(i8) :: n_output
       integer :: k, status
 
-      greatest = 0.0_wp
+      maximum = 0.0_wp
       peak%t = method%step%t0
       bracket = bracket_t(h=method%step%h, a=left, b=right)
       do k = 1, n_search
@@ -82,25 +82,25 @@ contains
          call method%within(system, place, y)
          call system%linkage%set_motion(method%step%t0 + place*method%step%h, y)
          call look(system, slot, item, force, here)
-         if (here%value > greatest) then
-            greatest = here%value
+         if (here%value > maximum) then
+            maximum = here%value
             peak%t = method%step%t0 + place*method%step%h
          end if
          if (missing(here, bracket) <= near_depth*abs(here%value)) exit
          call narrow(place, here, bracket)
       end do
-      if (greatest <= (1.0_wp + close_by)*max(left%value, right%value)) then
+      if (maximum <= (1.0_wp + close_by)*max(left%value, right%value)) then
          n_output = method%count%n_output_evaluations  ! these are made whether there is output or not
          call method%reach(system, peak%t, y)
          method%count%n_output_evaluations = n_output
       else
-         greatest = 0.0_wp
+         maximum = 0.0_wp
          call method%refine(system, (peak%t - method%step%t0)/method%step%h, y, status)
          if (status /= 0) return
       end if
       call system%linkage%set_motion(peak%t, y)
       call look(system, slot, item, force, here)
-      greatest = here%value
+      maximum = here%value
       peak%force = force%value
       peak%y = y
    end subroutine find_penetration_peak
@@ -249,12 +249,12 @@ contains
       type(peak_t), intent(inout) :: list(:)     !! (n or more) peaks by time
       integer, intent(inout) :: n                !! how many
 
-      integer :: k, n_told
+      integer :: k, n_reported
 
-      n_told = count(list(:n)%t <= t)
-      n = n - n_told
+      n_reported = count(list(:n)%t <= t)
+      n = n - n_reported
       do k = 1, n
-         list(k) = list(k + n_told)
+         list(k) = list(k + n_reported)
       end do
    end subroutine drop_peaks
 

@@ -25,9 +25,9 @@ contains
 
       words = ""
       do k = 1, method%events%n_happened
-         if (system%loose%functions%kind_of(method%events%happened(k)) /= touch_function) cycle
+         if (system%clearance_joints%functions%kind_of(method%events%happened(k)) /= touch_function) cycle
          call system%find_contact(method%events%happened(k), slot, contact)
-         associate (set => system%loose%sets(slot)%set)
+         associate (set => system%clearance_joints%sets(slot)%set)
             if (.not. allocated(set%laws%films)) cycle
             if (.not. set%laws%films%is_alone) cycle
             item = set%item_of(contact)

@@ -3,12 +3,12 @@
 !> Pressures are found at these moments only. For the least film the motion of the bearing is looked at on the ends of steps, and
 !> that of the least film kept.
 module film_moments
-   use film_fields, only: field_request_t, film_field_t, moment_at, moment_end, moment_least
-   use film_law, only: film_motion_t, greatest_eccentricity
+   use film_fields, only: field_request_t, film_field_t, moment_at, moment_end, moment_min
+   use film_law, only: film_motion_t, max_eccentricity
    use kinds, only: wp
    use mechanism, only: mechanism_t
    use recorder, only: recorder_t
-   use tape, only: tape_t
+   use archive, only: archive_t
    implicit none (type, external)
    private
    public :: film_moments_t
@@ -26,7 +26,7 @@ module film_moments
    !> All that are asked for.
    type :: film_moments_t
       type(wanted_film_t), allocatable, private :: films(:)  !! (any) films
-      logical :: has_least = .false.                         !! least films are asked for
+      logical :: has_min = .false.                         !! least films are asked for
    contains
       procedure :: begin => moments_begin
       procedure :: look => moments_look
@@ -52,7 +52,7 @@ contains
       do k = 1, size(self%films)
          self%films(k)%request = recorder%wants_fields(k)
          call find_film(system, self%films(k)%request%joint, self%films(k)%slot, self%films(k)%item)
-         if (self%films(k)%slot > 0 .and. self%films(k)%request%moment == moment_least) self%has_least = .true.
+         if (self%films(k)%slot > 0 .and. self%films(k)%request%moment == moment_min) self%has_min = .true.
       end do
    end subroutine moments_begin
 
@@ -63,8 +63,8 @@ contains
       integer, intent(out) :: slot             !! its set; 0: there is no such film
       integer, intent(out) :: item             !! the joint within the set
 
-      do slot = 1, size(system%loose%sets)
-         associate (set => system%loose%sets(slot)%set)
+      do slot = 1, size(system%clearance_joints%sets)
+         associate (set => system%clearance_joints%sets(slot)%set)
             if (.not. allocated(set%laws%films)) cycle
             if (.not. set%laws%films%acts) cycle
             do item = 1, set%n
@@ -82,7 +82,7 @@ contains
       integer, intent(in) :: slot              !! set of the joint
       integer, intent(in) :: item              !! the joint within the set
 
-      associate (set => system%loose%sets(slot)%set)
+      associate (set => system%clearance_joints%sets(slot)%set)
          motion_of = set%laws%films%motion_of(item, set%items%body(:, item), set%items%s_i(:, item), set%items%s_j(:, item), &
                                               system%linkage%motion)
       end associate
@@ -99,11 +99,11 @@ contains
       integer :: item, k, slot
 
       do k = 1, size(self%films)
-         if (self%films(k)%slot == 0 .or. self%films(k)%request%moment /= moment_least) cycle
+         if (self%films(k)%slot == 0 .or. self%films(k)%request%moment /= moment_min) cycle
          call find_film(part, self%films(k)%request%joint, slot, item)
          if (slot == 0) cycle
          motion = motion_of(part, slot, item)
-         distance = greatest_eccentricity(motion)
+         distance = max_eccentricity(motion)
          if (distance <= self%films(k)%distance) cycle
          self%films(k)%distance = distance
          self%films(k)%t = t
@@ -172,40 +172,40 @@ contains
 
       field%request = film%request
       field%t = film%t
-      call system%loose%sets(film%slot)%set%laws%films%unwrap(film%item, film%motion, field)
+      call system%clearance_joints%sets(film%slot)%set%laws%films%unwrap(film%item, film%motion, field)
       call recorder%field(field)
       film%slot = 0
    end subroutine tell
 
    !> Write what is remembered of the least films, and which were told.
-   subroutine moments_save(self, tape)
+   subroutine moments_save(self, archive)
       class(film_moments_t), intent(in) :: self  !! the films
-      type(tape_t), intent(inout) :: tape        !! what is remembered
+      type(archive_t), intent(inout) :: archive        !! what is remembered
 
       integer :: k
 
       if (.not. allocated(self%films)) return
       do k = 1, size(self%films)
-         call tape%put(self%films(k)%slot)
-         call tape%put([self%films(k)%distance, self%films(k)%t])
-         call tape%put(transfer(self%films(k)%motion, [0.0_wp]))
+         call archive%put(self%films(k)%slot)
+         call archive%put([self%films(k)%distance, self%films(k)%t])
+         call archive%put(transfer(self%films(k)%motion, [0.0_wp]))
       end do
    end subroutine moments_save
 
    !> Take it back.
-   subroutine moments_load(self, tape)
+   subroutine moments_load(self, archive)
       class(film_moments_t), intent(inout) :: self  !! the films, begun
-      type(tape_t), intent(inout) :: tape           !! what was remembered
+      type(archive_t), intent(inout) :: archive           !! what was remembered
 
       real(wp) :: numbers(size(transfer(film_motion_t(), [0.0_wp])))
       integer :: k
 
       if (.not. allocated(self%films)) return
       do k = 1, size(self%films)
-         call tape%get(self%films(k)%slot)
-         call tape%get(self%films(k)%distance)
-         call tape%get(self%films(k)%t)
-         call tape%get(numbers)
+         call archive%get(self%films(k)%slot)
+         call archive%get(self%films(k)%distance)
+         call archive%get(self%films(k)%t)
+         call archive%get(numbers)
          self%films(k)%motion = transfer(numbers, self%films(k)%motion)
       end do
    end subroutine moments_load

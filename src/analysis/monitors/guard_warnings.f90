@@ -56,13 +56,13 @@ contains
 
       if (.not. allocated(self%breach)) return
       call self%films%warn(system, warnings)
-      do k = 1, size(system%loose%sets)
-         associate (set => system%loose%sets(k)%set)
+      do k = 1, size(system%clearance_joints%sets)
+         associate (set => system%clearance_joints%sets(k)%set)
             do i = 1, set%n
                words = ""
                do g = 1, n_contact_guard
                   if (self%stops(g)) cycle
-                  c = greatest_of(self%breach(g, set%before%contacts + (i - 1)*set%n_contact_item + 1: &
+                  c = max_of(self%breach(g, set%before%contacts + (i - 1)*set%n_contact_item + 1: &
                                               set%before%contacts + i*set%n_contact_item))
                   if (c == 0) cycle
                   c = (i - 1)*set%n_contact_item + c
@@ -77,7 +77,7 @@ contains
             end do
          end associate
       end do
-      k = greatest_of(self%travel)
+      k = max_of(self%travel)
       if (k == 0) return
       call append_text(warnings, "body '"//system%linkage%bodies%names(k)%s//"' is "//real_text(self%travel(k)%value, 3)// &
                        " m from its initial position at t = "//real_text(self%travel(k)%time, 6)//" s, "// &
@@ -86,7 +86,7 @@ contains
    end procedure guards_warn
 
    !> The breach with the greatest value, 0: none.
-   pure integer function greatest_of(breaches) result(k)
+   pure integer function max_of(breaches) result(k)
       type(breach_t), intent(in) :: breaches(:)   !! (any) breaches
 
       integer :: i
@@ -99,6 +99,6 @@ contains
          end if
          k = i
       end do
-   end function greatest_of
+   end function max_of
 
 end submodule guard_warnings

@@ -2,7 +2,7 @@
 !>
 !> of a contact: a penetration beyond the clearance, the range of its law or a part of the surfaces' size; an impact too
 !> fast for a quasi-static law; a force at which the pressure is beyond the strength of the material;
-!> of a film: how thin it becomes (`film_watch`);
+!> of a film: how thin it becomes (`film_monitor`);
 !> of a body: its speed, its way from the start in sizes of the scene; of the ledger: energy made of nothing.
 !>
 !> Sources: of the limits of laws see `surfaces` and `normal_law`, of the pressure `contact_pressure`. Limits: peaks are those of
@@ -11,14 +11,14 @@ module guards
    use clearance_set, only: clearance_set_t
    use contact_memory, only: contact_memory_t
    use contact_pressure, only: force_at_pressure
-   use film_watch, only: film_watch_t
+   use film_monitor, only: film_monitor_t
    use kinds, only: eps, wp
    use normal_law, only: parameter_deepest
    use mechanism, only: mechanism_t
    use scene, only: scene_t
    use scene_size, only: extent_of_scene
    use surfaces, only: shape_plane
-   use tape, only: tape_t
+   use archive, only: archive_t
    use text, only: real_text, text_t
    implicit none (type, external)
    private
@@ -60,7 +60,7 @@ module guards
       real(wp) :: size = 0.0_wp                  !! of the scene [m]
       real(wp), allocatable :: start(:, :)       !! (2, bodies) centres at the start [m]
       type(breach_t), allocatable :: travel(:)   !! (bodies) ways beyond
-      type(film_watch_t) :: films                !! how thin films become
+      type(film_monitor_t) :: films                !! how thin films become
       character(:), allocatable :: reason        !! why the run must end; unallocated: it need not
    contains
       procedure :: share => guards_share
@@ -94,17 +94,17 @@ module guards
       end function joint_words
 
       !> Write what was seen.
-      module subroutine guards_save(self, tape)
+      module subroutine guards_save(self, archive)
          implicit none (type, external)
          class(guards_t), intent(in) :: self     !! the guards of a run that need not end
-         type(tape_t), intent(inout) :: tape     !! receives it
+         type(archive_t), intent(inout) :: archive     !! receives it
       end subroutine guards_save
 
       !> Take it back.
-      module subroutine guards_load(self, tape)
+      module subroutine guards_load(self, archive)
          implicit none (type, external)
          class(guards_t), intent(inout) :: self  !! the guards, begun
-         type(tape_t), intent(inout) :: tape     !! holds it
+         type(archive_t), intent(inout) :: archive     !! holds it
       end subroutine guards_load
 
       !> What was passed, in words.
@@ -138,9 +138,9 @@ contains
          guards%size = extent_of_scene(scene)
          travel = settings%number("travel")
          if (travel*guards%size > 0.0_wp) guards%way = travel*guards%size
-         allocate (guards%limit(n_contact_guard, system%loose%n_contact), source=huge(1.0_wp))
-         do k = 1, system%loose%n_set
-            call set_limits(system%loose%sets(k)%set, guards)
+         allocate (guards%limit(n_contact_guard, system%clearance_joints%n_contact), source=huge(1.0_wp))
+         do k = 1, system%clearance_joints%n_set
+            call set_limits(system%clearance_joints%sets(k)%set, guards)
          end do
          guards%stops(guard_penetration) = .true.
          do g = 2, n_contact_guard
@@ -213,7 +213,7 @@ contains
 
       call self%films%begin(system)
       if (.not. self%is_set) return
-      allocate (self%breach(n_contact_guard, system%loose%n_contact), self%travel(system%linkage%bodies%n))
+      allocate (self%breach(n_contact_guard, system%clearance_joints%n_contact), self%travel(system%linkage%bodies%n))
       self%start = system%linkage%motion%r(1:2, 1:system%linkage%bodies%n)
    end subroutine guards_begin
 
@@ -227,9 +227,9 @@ contains
       integer :: k
 
       if (.not. self%is_set) return
-      if (system%loose%has_films) call self%films%look(system, t)
-      do k = 1, system%loose%n_set
-         associate (set => system%loose%sets(k)%set)
+      if (system%clearance_joints%has_films) call self%films%look(system, t)
+      do k = 1, system%clearance_joints%n_set
+         associate (set => system%clearance_joints%sets(k)%set)
             if (set%n_touching == 0) cycle
             associate (first => set%before%contacts + 1)
                if (are_within(set%n_contact, set%contact, self%limit(1, first), self%breach(1, first))) cycle

@@ -22,8 +22,8 @@ contains
       integer :: i, k
 
       if (method%controls%onset == onset_located) return
-      do k = 1, size(system%loose%sets)
-         do i = 1, system%loose%sets(k)%set%n
+      do k = 1, size(system%clearance_joints%sets)
+         do i = 1, system%clearance_joints%sets(k)%set%n
             call warn_of_joint(k, i)
          end do
       end do
@@ -38,10 +38,10 @@ contains
          real(wp) :: first
          integer :: c, deepest, n, place
 
-         associate (set => system%loose%sets(slot)%set, passed => method%onset%passed)
+         associate (set => system%clearance_joints%sets(slot)%set, passed => method%onset%passed)
             n = 0
             do c = (item - 1)*set%n_contact_item + 1, item*set%n_contact_item
-               place = system%loose%functions%place(touch_function, set%before%contacts + c)
+               place = system%clearance_joints%functions%place(touch_function, set%before%contacts + c)
                if (passed%n(place) == 0) cycle
                if (n == 0) then
                   deepest = c
@@ -52,7 +52,7 @@ contains
                if (passed%deepest(place) > passed%deepest(place - c + deepest)) deepest = c
             end do
             if (n == 0) return
-            place = system%loose%functions%place(touch_function, set%before%contacts + deepest)
+            place = system%clearance_joints%functions%place(touch_function, set%before%contacts + deepest)
             call append_text(warnings, joint_words(set, deepest)//": "//to_text(n)// &
                              trim(merge(" contact was  ", " contacts were", n == 1))//" missed, with onset and separation "// &
                                 "within one "// &

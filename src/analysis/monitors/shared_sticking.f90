@@ -1,6 +1,7 @@
 !> Contacts that stick whose friction forces are not unique, as those of a block that rests on two feet.
 !>
-!> Forces of several contacts may hold one another and change no acceleration. Those of least norm are taken (`grip_forces`), so
+!> Forces of several contacts may hold one another and change no acceleration. Those of least norm are taken (`stick_slip_forces`),
+!> so
 !> the accelerations are exact; the force of a single contact, and which of them slips first, is a matter of that choice.
 !>
 !> Source: F. Pfeiffer and C. Glocker, Multibody Dynamics with Unilateral Contacts (1996), section 5.3. Limits: judged where
@@ -26,9 +27,9 @@ contains
 
       names = ""
       first = huge(1.0_wp)
-      do k = 1, size(system%loose%sets)
-         if (.not. allocated(system%loose%sets(k)%set%grip%shared_from)) cycle
-         do i = 1, system%loose%sets(k)%set%n
+      do k = 1, size(system%clearance_joints%sets)
+         if (.not. allocated(system%clearance_joints%sets(k)%set%stick_slip%shared_from)) cycle
+         do i = 1, system%clearance_joints%sets(k)%set%n
             call add_joint(i)
          end do
       end do
@@ -48,13 +49,13 @@ contains
          logical :: is_named
 
          is_named = .false.
-         associate (set => system%loose%sets(k)%set)
+         associate (set => system%clearance_joints%sets(k)%set)
             do c = (item - 1)*set%n_contact_item + 1, item*set%n_contact_item
-               if (.not. set%grip%shared_from(c) < huge(1.0_wp)) cycle
+               if (.not. set%stick_slip%shared_from(c) < huge(1.0_wp)) cycle
                if (.not. is_named) names = names//" '"//set%names(item)%s//"'"
                is_named = .true.
                if (set%label_of(c) /= "") names = names//" "//set%label_of(c)
-               first = min(first, set%grip%shared_from(c))
+               first = min(first, set%stick_slip%shared_from(c))
             end do
          end associate
       end subroutine add_joint

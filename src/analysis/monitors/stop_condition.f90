@@ -13,7 +13,7 @@ module stop_condition
    use kinds, only: wp
    use mechanism_report, only: report_state
    use mechanism, only: mechanism_t
-   use tape, only: tape_t
+   use archive, only: archive_t
    use text, only: real_text
    implicit none (type, external)
    private
@@ -22,7 +22,7 @@ module stop_condition
    integer, parameter :: n_halving = 50        !! halvings of a step
    real(wp), parameter :: most_turn = 0.2_wp   !! of a body between places that are looked at [rad]
    real(wp), parameter :: most_parts = 1.0e4_wp  !! of a step that are looked at for turning bodies [1]
-   real(wp), parameter :: greatest = 1.0e150_wp  !! numbers beyond it have no square [any]
+   real(wp), parameter :: maximum = 1.0e150_wp  !! numbers beyond it have no square [any]
 
    !> One condition.
    type :: condition_t
@@ -102,7 +102,7 @@ contains
       if (.not. allocated(self%before)) then
          call values_at(1.0_wp, before, status)
          self%before = before
-         self%turning = greatest_turning()
+         self%turning = max_turning()
          if (.not. any(before > 0.0_wp)) return
          self%met = maxloc(before, dim=1)
          self%t = method%t
@@ -111,8 +111,8 @@ contains
       call method%prepare_output(system, status)
       if (status == 0) call values_at(1.0_wp, at_end, status)
       if (status /= 0) return
-      turning = max(self%turning, greatest_turning())
-      self%turning = greatest_turning()
+      turning = max(self%turning, max_turning())
+      self%turning = max_turning()
       before = self%before
       left = 0.0_wp
       do while (left < 1.0_wp)
@@ -129,9 +129,9 @@ contains
    contains
 
       !> Greatest angular speed of a body at the motion that is set [rad/s].
-      pure real(wp) function greatest_turning()
-         greatest_turning = sqrt(maxval(sum(system%linkage%motion%omega**2, dim=1)))
-      end function greatest_turning
+      pure real(wp) function max_turning()
+         max_turning = sqrt(maxval(sum(system%linkage%motion%omega**2, dim=1)))
+      end function max_turning
 
       !> Place of the first output instant after another place.
       pure real(wp) function next_row(place)
@@ -240,7 +240,7 @@ contains
             values(k) = -1.0_wp
             associate (x => catalogue%values(catalogue%place(condition%group, condition%component, condition%item)))
                if (ieee_is_nan(x)) cycle
-               values(k) = min(max(x, -greatest), greatest) - condition%limit
+               values(k) = min(max(x, -maximum), maximum) - condition%limit
             end associate
             if (.not. condition%is_above) values(k) = -values(k)
          end associate
@@ -256,21 +256,21 @@ contains
    end function stop_message
 
    !> Write how far each condition is from being met.
-   subroutine stop_save(self, tape)
+   subroutine stop_save(self, archive)
       class(stop_t), intent(in) :: self     !! the conditions, none of them met
-      type(tape_t), intent(inout) :: tape   !! what is remembered
+      type(archive_t), intent(inout) :: archive   !! what is remembered
 
-      if (self%n > 0) call tape%put([self%turning, self%before])
+      if (self%n > 0) call archive%put([self%turning, self%before])
    end subroutine stop_save
 
    !> Take it back.
-   subroutine stop_load(self, tape)
+   subroutine stop_load(self, archive)
       class(stop_t), intent(inout) :: self  !! the conditions, looked at at the start
-      type(tape_t), intent(inout) :: tape   !! what was remembered
+      type(archive_t), intent(inout) :: archive   !! what was remembered
 
       if (self%n == 0) return
-      call tape%get(self%turning)
-      call tape%get(self%before)
+      call archive%get(self%turning)
+      call archive%get(self%before)
    end subroutine stop_load
 
 end module stop_condition

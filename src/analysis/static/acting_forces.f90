@@ -14,12 +14,12 @@ module acting_forces
    use motion, only: cross
    implicit none (type, external)
    private
-   public :: greatest_acting, has_films
+   public :: max_acting, has_films
 
 contains
 
    !> The greatest of the sums of all bodies, after an evaluation of loads and rows and with the multipliers set [N.m].
-   real(wp) function greatest_acting(system)
+   real(wp) function max_acting(system)
       class(mechanism_t), intent(in) :: system   !! the system
 
       real(wp) :: acting(0:system%linkage%bodies%n)
@@ -30,12 +30,12 @@ contains
          acting(k) = norm2(system%loading%weight(:, k))*system%linkage%scales%length
       end do
       call add_elements(system, acting)
-      do k = 1, size(system%loose%sets)
-         call add_contacts(system, system%loose%sets(k)%set, acting)
+      do k = 1, size(system%clearance_joints%sets)
+         call add_contacts(system, system%clearance_joints%sets(k)%set, acting)
       end do
       call add_rows(system, acting)
-      greatest_acting = maxval([0.0_wp, acting(1:)])
-   end function greatest_acting
+      max_acting = maxval([0.0_wp, acting(1:)])
+   end function max_acting
 
    !> Add the loads of force elements.
    subroutine add_elements(system, acting)
@@ -75,7 +75,8 @@ contains
          do i = 1, set%n_contact
             item = set%item_of(i)
             associate (bodies => items%body(:, item))
-               acting(bodies) = acting(bodies) + length*abs(system%loose%integrands(normal_impulse, set%before%contacts + i))
+               acting(bodies) = acting(bodies) + length*abs(system%clearance_joints%integrands(normal_impulse, &
+                                                                                               set%before%contacts + i))
             end associate
          end do
          if (.not. has_films(set)) return

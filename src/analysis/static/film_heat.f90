@@ -69,8 +69,8 @@ contains
 
       missing = 0.0_wp
       worst = ""
-      do k = 1, size(system%loose%sets)
-         associate (set => system%loose%sets(k)%set)
+      do k = 1, size(system%clearance_joints%sets)
+         associate (set => system%clearance_joints%sets(k)%set)
             if (.not. allocated(set%laws%films)) cycle
             associate (films => set%laws%films, items => set%items)
                do i = 1, set%n

@@ -93,7 +93,7 @@ contains
       call look_at(system, q)
       call check_loads(system, error)
       if (allocated(error)) return
-      if (system%loose%has_films) then
+      if (system%clearance_joints%has_films) then
          call settle_in_films(system, to_round_off, most, q, balance, equilibrium%steps, is_exact)
          is_settled = is_balanced(system, balance, equilibrium%tolerance)
          if (is_settled .and. is_full) call balance_heat(system, to_round_off, equilibrium%tolerance, most, q, balance, &
@@ -110,7 +110,7 @@ contains
          return
       end if
       equilibrium%q = q
-      if (system%loose%has_films) then
+      if (system%clearance_joints%has_films) then
          call judge_steady(scene, is_full, system, balance, equilibrium)
       else
          call classify(system, balance, equilibrium)

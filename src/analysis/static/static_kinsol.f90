@@ -22,7 +22,7 @@ module static_kinsol
    private
    public :: polish
 
-   real(wp), parameter :: least_step = 1.0e-15_wp  !! shortest step, scaled [1]
+   real(wp), parameter :: min_step = 1.0e-15_wp  !! shortest step, scaled [1]
 
    !> What the library hands back to the equations.
    type :: problem_t
@@ -115,7 +115,7 @@ contains
       if (status == 0) status = int(fkinsetlinearsolver(memory, solver, matrix))
       if (status == 0) status = int(fkinsetnummaxiters(memory, int(most, c_long)))
       if (status == 0) status = int(fkinsetfuncnormtol(memory, tolerance))
-      if (status == 0) status = int(fkinsetscaledsteptol(memory, least_step))
+      if (status == 0) status = int(fkinsetscaledsteptol(memory, min_step))
       if (status == 0) status = int(fkinsol(memory, unknowns, int(kin_linesearch, c_int), scale, scale))
       is_solved = status >= 0 .or. status == kin_linesearch_nonconv  ! stopped by round-off
       if (is_solved) then

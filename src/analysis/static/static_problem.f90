@@ -12,7 +12,7 @@
 !> Optimization (2006), section 12.5 (second-order conditions). Limits: dense; friction and damping give no
 !> force at rest.
 module static_problem
-   use acting_forces, only: greatest_acting
+   use acting_forces, only: max_acting
    use inverse_dynamics, only: find_reactions
    use kinds, only: eps, i8, wp
    use lapack, only: dsyev, dsygv
@@ -59,16 +59,16 @@ contains
 
       type(newton_t) :: newton
       real(wp), dimension(size(system%linkage%mass)) :: rates, accelerations
-      real(wp), dimension(system%loose%n_contact) :: delta, rate
+      real(wp), dimension(system%clearance_joints%n_contact) :: delta, rate
       integer :: k, outcome
 
       rates = 0.0_wp
-      if (system%loose%has_films) call solve_rates(system%linkage, 0.0_wp, newton, q, rates, accelerations, outcome)
+      if (system%clearance_joints%has_films) call solve_rates(system%linkage, 0.0_wp, newton, q, rates, accelerations, outcome)
       if (present(speed)) rates = speed*rates
       if (present(push)) rates = rates + push
       call evaluate_rows(system%linkage, 0.0_wp, q, rates)
-      do k = 1, size(system%loose%sets)
-         associate (set => system%loose%sets(k)%set)
+      do k = 1, size(system%clearance_joints%sets)
+         associate (set => system%clearance_joints%sets(k)%set)
             call set%gaps(system%linkage%motion, delta, rate)
             call set%touch_where(delta)
          end associate
@@ -102,7 +102,7 @@ contains
    real(wp) function load_scale(system)
       class(mechanism_t), intent(in) :: system   !! the system, rows and loads evaluated, lambda set
 
-      load_scale = max(net_load(system), greatest_acting(system))
+      load_scale = max(net_load(system), max_acting(system))
    end function load_scale
 
    !> What the rounding of the positions puts out of balance: some roundings of stiffness times length, the greater of the size of

@@ -22,7 +22,7 @@ module static_relaxation
 
    real(wp), parameter :: longest_step = 0.3_wp    !! turn of a body, or motion over the extent [1]
    real(wp), parameter :: sizes = 10.0_wp          !! sizes of the bodies that count as extent at least [1]
-   real(wp), parameter :: least_part = 1.0e-13_wp  !! stiffness that counts, of the largest [1]
+   real(wp), parameter :: min_part = 1.0e-13_wp  !! stiffness that counts, of the largest [1]
    integer, parameter :: n_search = 60             !! lengths of a step tried
 
 contains
@@ -72,7 +72,7 @@ contains
       integer :: k
 
       direction = 0.0_wp
-      floor_stiffness = max(least_part*maxval(abs(balance%stiffness)), norm2(balance%load)*least_part, tiny(1.0_wp))
+      floor_stiffness = max(min_part*maxval(abs(balance%stiffness)), norm2(balance%load)*min_part, tiny(1.0_wp))
       do k = 1, size(balance%stiffness)
          force = dot_product(balance%modes(:, k), balance%load)
          part = balance%modes(:, k)*(force/max(abs(balance%stiffness(k)), floor_stiffness))
@@ -90,7 +90,7 @@ contains
 
       real(wp) :: length
 
-      length = coordinates%greatest_rate(size(step)/coordinates%n_v, step, extent)
+      length = coordinates%max_rate(size(step)/coordinates%n_v, step, extent)
       short = step*(longest_step/max(length, longest_step))
    end function shortened
 

@@ -19,7 +19,7 @@ module steady_stability
    use linearised, only: film_coefficients_t, linearised_t
    use mechanism, only: mechanism_t
    use prescribed_motion, only: newton_t, solve_rates
-   use row_corrections, only: least_correction
+   use row_corrections, only: min_correction
    use static_problem, only: balance_t, load_scale, look_at, position_scale, unbalanced_load
    use text, only: real_text
    implicit none (type, external)
@@ -41,7 +41,7 @@ contains
       integer :: rank
 
       ease = 1.0_wp
-      call least_correction(system%linkage, system%linkage%rows%gam, ease, acceleration, rank)
+      call min_correction(system%linkage, system%linkage%rows%gam, ease, acceleration, rank)
       is_steady = norm2(acceleration*position_scale(system)*reshape(system%linkage%mass, [size(acceleration)])) &
                   <= no_load*load_scale(system)
    end function is_steady
@@ -54,13 +54,13 @@ contains
       integer :: i, k, n
 
       n = 0
-      do k = 1, size(system%loose%sets)
-         if (has_films(system%loose%sets(k)%set)) n = n + system%loose%sets(k)%set%n
+      do k = 1, size(system%clearance_joints%sets)
+         if (has_films(system%clearance_joints%sets(k)%set)) n = n + system%clearance_joints%sets(k)%set%n
       end do
       allocate (films(n))
       n = 0
-      do k = 1, size(system%loose%sets)
-         associate (set => system%loose%sets(k)%set)
+      do k = 1, size(system%clearance_joints%sets)
+         associate (set => system%clearance_joints%sets(k)%set)
             if (.not. has_films(set)) cycle
             do i = 1, set%n
                n = n + 1
@@ -187,9 +187,9 @@ contains
       n = size(balance%free, 2)
       scale = position_scale(system)
       call solve_rates(system%linkage, 0.0_wp, newton, q, rates, accelerations, outcome)
-      speed = balance%speed*system%linkage%coordinates%greatest_turn(system%linkage%bodies%n, rates)
+      speed = balance%speed*system%linkage%coordinates%max_turn(system%linkage%bodies%n, rates)
       if (.not. speed > 0.0_wp) speed = 1.0_wp  ! 1/s where nothing turns
-      step = part*least_gap(system)/system%linkage%scales%length
+      step = part*min_gap(system)/system%linkage%scales%length
       step_v = step*speed
       allocate (stiffness(size(scale), n), damping(size(scale), n), source=0.0_wp)
       do k = 1, n
@@ -209,14 +209,14 @@ contains
    end subroutine free_slopes
 
    !> What is left of the gap of the journal that is nearest to its bearing, at least a thousandth of a clearance [m].
-   real(wp) function least_gap(system) result(gap)
+   real(wp) function min_gap(system) result(gap)
       type(mechanism_t), intent(in) :: system  !! the system at the equilibrium
 
       integer :: i, k
 
       gap = huge(gap)
-      do k = 1, size(system%loose%sets)
-         associate (set => system%loose%sets(k)%set)
+      do k = 1, size(system%clearance_joints%sets)
+         associate (set => system%clearance_joints%sets(k)%set)
             if (.not. has_films(set)) cycle
             do i = 1, set%n
                associate (film => set%laws%films%motion_of(i, set%items%body(:, i), set%items%s_i(:, i), set%items%s_j(:, i), &
@@ -226,7 +226,7 @@ contains
             end do
          end associate
       end do
-   end function least_gap
+   end function min_gap
 
    !> Growth that counts as none: what the differences and the eigenvalues lose.
    pure real(wp) function no_growth(eigenvalues)

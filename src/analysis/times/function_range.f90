@@ -46,7 +46,7 @@ contains
          if (table%info%columns(c)%cell /= cell_expression .or. table%info%columns(c)%variable /= "t") cycle
          do i = 1, size(table%items)
             associate (value => table%items(i)%values(c))
-               if (.not. allocated(value%expression%curves) .or. allocated(value%expression%sights)) cycle
+               if (.not. allocated(value%expression%curves) .or. allocated(value%expression%observables)) cycle
                if (.not. any(value%expression%curves%beyond == beyond_error)) cycle
                t = first_gap(value%expression, end)
                if (t > end) cycle

@@ -17,12 +17,12 @@ contains
       type(mechanism_t), intent(in) :: system  !! its system
 
       has_rows = .false.
-      if (scene%analysis /= analysis_dynamic .or. system%loose%n_contact == 0) return
+      if (scene%analysis /= analysis_dynamic .or. system%clearance_joints%n_contact == 0) return
       select case (scene%settings%output%word("contact_rows"))
       case ("on")
          has_rows = .true.
       case ("auto")
-         has_rows = system%loose%n_contact <= most_row_contacts
+         has_rows = system%clearance_joints%n_contact <= most_row_contacts
       end select
    end function has_contact_rows
 
@@ -33,13 +33,13 @@ contains
       character(:), allocatable :: words           !! as `rows at the onset, peak and end of every contact (contact_rows = auto)`
 
       words = ""
-      if (scene%analysis /= analysis_dynamic .or. system%loose%n_contact == 0) return
+      if (scene%analysis /= analysis_dynamic .or. system%clearance_joints%n_contact == 0) return
       associate (word => scene%settings%output%values(place_of(scene%settings%output, "contact_rows"))%text)
          words = "output rows at onset, peak and separation of every contact"
          if (.not. has_contact_rows(scene, system)) words = "no "//words
          words = words//" (contact_rows = "//word
          if (word == "auto") words = words//": up to "//to_text(most_row_contacts)//" contacts, here "// &
-                                 to_text(system%loose%n_contact)
+                                 to_text(system%clearance_joints%n_contact)
       end associate
       words = words//")"
    end function contact_rows_text

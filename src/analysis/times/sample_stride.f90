@@ -7,7 +7,7 @@
 !> Limits: at most `longest` steps.
 module sample_stride
    use kinds, only: wp
-   use tape, only: tape_t
+   use archive, only: archive_t
    implicit none (type, external)
    private
    public :: sample_stride_t
@@ -105,35 +105,35 @@ contains
    end subroutine add_sample
 
    !> Write what is remembered.
-   subroutine save_stride(self, tape)
+   subroutine save_stride(self, archive)
       class(sample_stride_t), intent(in) :: self  !! the stride
-      type(tape_t), intent(inout) :: tape         !! receives it
+      type(archive_t), intent(inout) :: archive         !! receives it
 
       integer :: k
 
       if (.not. allocated(self%a)) return
-      call tape%put([self%length, self%n_step, self%n])
-      call tape%put([self%t, self%most])
+      call archive%put([self%length, self%n_step, self%n])
+      call archive%put([self%t, self%most])
       do k = 1, 3
-         call tape%put(self%a(:, k))
+         call archive%put(self%a(:, k))
       end do
    end subroutine save_stride
 
    !> Take it back.
-   subroutine load_stride(self, tape)
+   subroutine load_stride(self, archive)
       class(sample_stride_t), intent(inout) :: self  !! the stride, begun
-      type(tape_t), intent(inout) :: tape            !! holds it
+      type(archive_t), intent(inout) :: archive            !! holds it
 
       integer :: k
 
       if (.not. allocated(self%a)) return
-      call tape%get(self%length)
-      call tape%get(self%n_step)
-      call tape%get(self%n)
-      call tape%get(self%t)
-      call tape%get(self%most)
+      call archive%get(self%length)
+      call archive%get(self%n_step)
+      call archive%get(self%n)
+      call archive%get(self%t)
+      call archive%get(self%most)
       do k = 1, 3
-         call tape%get(self%a(:, k))
+         call archive%get(self%a(:, k))
       end do
    end subroutine load_stride
 

@@ -1,7 +1,7 @@
 !> The times of a motion and of its output, from settings such as `end = 2 turns of motor`.
 module time_plan
    use diagnostics, only: diagnostics_t
-   use instants, only: instants_t, new_instants
+   use output_times, only: output_times_t, new_output_times
    use item, only: place_of, value_t
    use kinds, only: i8, wp
    use mechanism, only: mechanism_t
@@ -29,8 +29,8 @@ module time_plan
       real(wp) :: after = 0.0_wp            !! end of the transient, for the statistics [s]
       real(wp) :: checkpoint = 0.0_wp       !! interval of the instants at which the run is saved; 0: none is set [s]
       real(wp) :: period = 0.0_wp           !! of the drive, on average in the window of the statistics; 0: none [s]
-      real(wp), allocatable :: strobes(:)   !! (n) multiples of the period from `after` to `end` [s]
-      type(instants_t) :: instants          !! when functions of time are not smooth
+      real(wp), allocatable :: poincare_samples(:)   !! (n) multiples of the period from `after` to `end` [s]
+      type(output_times_t) :: output_times          !! when functions of time are not smooth
    end type time_plan_t
 
 contains
@@ -45,7 +45,7 @@ contains
       type(value_t) :: end
       real(wp) :: last
 
-      allocate (plan%strobes(0))
+      allocate (plan%poincare_samples(0))
       if (scene%analysis == analysis_static) return
       end = scene%settings%dynamic%values(place_of(scene%settings%dynamic, "end"))
       if (scene%analysis == analysis_kinematic) end = scene%settings%kinematic%values(place_of(scene%settings%kinematic, "end"))
@@ -90,7 +90,7 @@ contains
       if (scene%settings%statistics%is_present .and. scene%analysis /= analysis_kinematic .and. diagnostics%count() == 0) then
          call plan_statistics(scene, system, plan, diagnostics)
       end if
-      if (diagnostics%count() == 0) call new_instants(scene, plan%end, system%loose%n > 0, plan%instants)
+      if (diagnostics%count() == 0) call new_output_times(scene, plan%end, system%clearance_joints%n > 0, plan%output_times)
    end subroutine new_time_plan
 
    !> A number of instants, all its digits where a real has them.
@@ -157,26 +157,26 @@ contains
             return
          end if
          n = 0
-         deallocate (plan%strobes)
-         allocate (plan%strobes(64), source=0.0_wp)
+         deallocate (plan%poincare_samples)
+         allocate (plan%poincare_samples(64), source=0.0_wp)
          do k = 0, most
             t = period_start(period, k, system, slot, item)
             if (t < 0.0_wp .and. k < 2) call report_turns(period, diagnostics)
             if (t < 0.0_wp .and. k < 2) return
             if (t < 0.0_wp .or. t > plan%end*(1.0_wp + 1.0e-12_wp)) exit  ! a driver that turns back never makes more
             if (t >= plan%after*(1.0_wp - 1.0e-12_wp)) then
-               if (n == size(plan%strobes)) then
+               if (n == size(plan%poincare_samples)) then
                   allocate (longer(2*n), source=0.0_wp)
-                  longer(:n) = plan%strobes
-                  call move_alloc(longer, plan%strobes)
+                  longer(:n) = plan%poincare_samples
+                  call move_alloc(longer, plan%poincare_samples)
                end if
                n = n + 1
-               plan%strobes(n) = min(t, plan%end)
+               plan%poincare_samples(n) = min(t, plan%end)
             end if
          end do
-         plan%strobes = plan%strobes(:n)
+         plan%poincare_samples = plan%poincare_samples(:n)
          if (n > 1) then
-            plan%period = (plan%strobes(n) - plan%strobes(1))/real(n - 1, wp)
+            plan%period = (plan%poincare_samples(n) - plan%poincare_samples(1))/real(n - 1, wp)
             return
          end if
          call diagnostics%add(period%location, "less than one period remains between 'after' and the end", "too long")

@@ -3,11 +3,11 @@ module options
    use command_words, only: find_option, options_of, option_info => option_t, takers_of, verb_names, words_of_value
    use errors, only: error_t, exit_usage, set_error
    use kind_info, only: dim_time, same_dimension
-   use kinds, only: i8, least_tolerance, wp
+   use kinds, only: i8, min_tolerance, wp
    use numbers, only: number_length, read_number
    use processes, only: clock_ms
    use spelling, only: nearest_word
-   use text, only: append_text, join, piece, split_blank, starts_with, text_t, to_text
+   use text, only: append_text, join, segment, split_blank, starts_with, text_t, to_text
    use units, only: parse_unit, read_quantity, unit_t
    implicit none (type, external)
    private
@@ -131,7 +131,7 @@ contains
          sign = index(word, "=")
          if (sign > 0) then
             value = word(sign + 1:)
-            word = piece(word, 1, sign - 1)
+            word = segment(word, 1, sign - 1)
          else if (allocated(value)) then
             deallocate (value)
          end if
@@ -308,8 +308,8 @@ contains
       x = 0.0_wp
       is_good = number_length(value) == len(value) .and. len(value) > 0
       if (is_good) call read_number(value, 0, x, is_good)
-      if (is_good .and. x >= least_tolerance .and. x <= 1.0_wp) return
-      call set_error(error, exit_usage, "option "//word//" needs a number from "//to_text(least_tolerance)//" to 1, got '"// &
+      if (is_good .and. x >= min_tolerance .and. x <= 1.0_wp) return
+      call set_error(error, exit_usage, "option "//word//" needs a number from "//to_text(min_tolerance)//" to 1, got '"// &
                      value//"'")
    end subroutine take_accuracy
 

@@ -51,9 +51,9 @@ contains
 
       call say("")
       call say("Adams: F = IMPACT(x, x', x1, k, e, c_max, d), penetration x1 - x")
-      if (loaded%system%loose%n == 0) call say("the deck has no joint with clearance", 2)
-      do k = 1, size(loaded%system%loose%sets)
-         associate (set => loaded%system%loose%sets(k)%set)
+      if (loaded%system%clearance_joints%n == 0) call say("the deck has no joint with clearance", 2)
+      do k = 1, size(loaded%system%clearance_joints%sets)
+         associate (set => loaded%system%clearance_joints%sets(k)%set)
             do i = 1, set%n
                call explain_item(set, i, loaded%system%linkage%inverse_mass(1, :))
             end do
@@ -214,10 +214,10 @@ contains
 
       type(impact_function_t) :: trial
       real(wp), allocatable :: base(:), left(:), u(:)
-      real(wp) :: least, square
+      real(wp) :: minimum, square
       integer :: k
 
-      least = huge(least)
+      minimum = huge(minimum)
       left = course%force - fit%k*course%p**fit%e
       trial = fit
       do k = 0, n_depth
@@ -226,8 +226,8 @@ contains
          base = u*u*(3.0_wp - 2.0_wp*u)*course%rate
          trial%c = max(0.0_wp, sum(base*left)/sum(base*base))
          square = sum((force_of(trial, course%p, course%rate) - course%force)**2)
-         if (square >= least) cycle
-         least = square
+         if (square >= minimum) cycle
+         minimum = square
          fit = trial
       end do
    end subroutine fit_damping

@@ -30,7 +30,7 @@ contains
       real(wp), allocatable :: q(:), v(:)
       integer :: i, k
 
-      if (.not. loaded%system%loose%has_films) return
+      if (.not. loaded%system%clearance_joints%has_films) return
       if (loaded%system%linkage%bodies%n > most_bodies) then
          call say("")
          call say("steady state of the films: omitted for more than "//to_text(most_bodies)// &

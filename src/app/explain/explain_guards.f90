@@ -61,8 +61,8 @@ contains
 
       integer :: i, k, m
 
-      do k = 1, size(system%loose%sets)
-         associate (set => system%loose%sets(k)%set)
+      do k = 1, size(system%clearance_joints%sets)
+         associate (set => system%clearance_joints%sets(k)%set)
             do i = 1, set%n
                m = set%before%contacts + (i - 1)*set%n_contact_item + 1
                associate (limit => guards%limit(:, m), name => set%names(i)%s)
@@ -82,7 +82,7 @@ contains
             end do
          end associate
       end do
-      if (system%loose%n_contact == 0) return
+      if (system%clearance_joints%n_contact == 0) return
       call say(verb_of(scene, "law_range")//" if a penetration leaves the valid range of its law (law_range)", 2)
       call say(verb_of(scene, "impact_speed")// &
                " if elastic waves take more than 10 % of the impact energy (impact_speed)", 2)

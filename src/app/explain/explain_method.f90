@@ -51,7 +51,7 @@ contains
          call say(fixed, 2)
          call say("solver "//solver, 2)
          hold = loaded%system%way%words()
-         if (settings%word("stabilise") == "auto") hold = hold//" (auto: "//reason_of_hold(loaded%system)//")"
+         if (settings%word("stabilise") == "auto") hold = hold//" (auto: "//reason_of_stabilisation(loaded%system)//")"
          call say("stabilisation "//hold, 2)
       end associate
       call explain_times(loaded)
@@ -103,7 +103,7 @@ contains
    end function reason_of_solver
 
    !> Why `auto` has chosen the stabilisation.
-   function reason_of_hold(system) result(words)
+   function reason_of_stabilisation(system) result(words)
       type(mechanism_t), intent(in) :: system   !! the system
       character(:), allocatable :: words            !! the reason
 
@@ -115,6 +115,6 @@ contains
       case default
          words = "removes all constraint violation without adding gains"
       end select
-   end function reason_of_hold
+   end function reason_of_stabilisation
 
 end module explain_method

@@ -37,9 +37,9 @@ contains
          do k = 1, linkage%reduced%known%n
             call say("'"//names(linkage%reduced%known%held(k)%body)%s//"': prescribed motion", 2)
          end do
-         do k = 1, linkage%reduced%guided%n
-            call say("'"//names(linkage%reduced%guided%held(k)%body)%s//"': reduced to one generalised coordinate, that of '"// &
-                     linkage%row_name(linkage%reduced%guided%held(k)%row(1))//"'", 2)
+         do k = 1, linkage%reduced%one_dof%n
+            call say("'"//names(linkage%reduced%one_dof%held(k)%body)%s//"': reduced to one generalised coordinate, that of '"// &
+                     linkage%row_name(linkage%reduced%one_dof%held(k)%row(1))//"'", 2)
          end do
       end associate
       if (system%linkage%rows%n > system%linkage%rows%n_solve) then

@@ -11,8 +11,8 @@ module verb_explain
    use explain_floors, only: floors_of_scene
    use explain_friction, only: explain_rubbing_joints
    use explain_guards, only: say_guards
-   use explain_instants, only: explain_instants_of
-   use explain_loose, only: explain_loose_joints
+   use explain_output_times, only: explain_output_times_of
+   use explain_clearances, only: explain_clearance_joints
    use explain_method, only: explain_method_and_times
    use explain_model, only: explain_size, explain_start
    use imsl_names, only: is_imsl_name
@@ -49,7 +49,7 @@ contains
       if (allocated(error)) return
       call say(loaded%path//": no errors; "//counted(loaded%system%linkage%bodies%n, "body", "bodies")//", "// &
                counted(loaded%system%linkage%rows%n, "constraint row", "constraint rows")//", "// &
-               counted(loaded%system%loose%n, "joint with clearance", "joints with clearance")//"; assembled to "// &
+               counted(loaded%system%clearance_joints%n, "joint with clearance", "joints with clearance")//"; assembled to "// &
                real_text(assembly%residual, 2)//" m or rad, maximum displacement of a body "//real_text(assembly%moved, 3)//" m"// &
                sweep_text(loaded)//comparison_text(loaded))
    end subroutine check_deck
@@ -129,12 +129,12 @@ contains
       call explain_start(loaded, assembly, allocated(start_error))
       if (allocated(start_error) .and. allocated(y)) deallocate (y)
       call explain_rubbing_joints(loaded%scene, loaded%system)
-      call explain_loose_joints(loaded, y)
+      call explain_clearance_joints(loaded, y)
       if (options%legacy%with_adams) call explain_adams_parameters(loaded)
       call explain_steady_films(loaded)
       call say_dropped(loaded%scene, loaded%system)
       call explain_method_and_times(loaded)
-      call explain_instants_of(loaded)
+      call explain_output_times_of(loaded)
       call say_guards(loaded)
       if (allocated(y) .and. loaded%scene%analysis == analysis_dynamic) call floors_of_scene(loaded%system, y, loaded%plan%end)
       if (len(sweep_text(loaded)) > 0) call say("'gudgeon sweep' runs"//replace(sweep_text(loaded), ";", ""))

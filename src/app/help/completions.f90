@@ -7,7 +7,7 @@ module completions
    use command_words, only: command_t, find_option, known_options, known_verbs, option_t, verb_names, words_of_value
    use console, only: say
    use kind_info, only: kind_info_t
-   use text, only: piece, split_blank, text_t
+   use text, only: segment, split_blank, text_t
    implicit none (type, external)
    private
    public :: write_completion
@@ -41,7 +41,7 @@ contains
       do k = 1, size(kinds)
          words = words//" "//kinds(k)%name
       end do
-      words = piece(words, 2)
+      words = segment(words, 2)
    end function kind_words
 
    !> For bash.

@@ -1,7 +1,7 @@
 !> From a deck on disk to a scene, its system and its times; every mistake of the deck in one error.
 module load
    use build_clearances, only: has_ideal
-   use build_system, only: levels_as_written, levels_ideal, levels_loose, new_system
+   use build_system, only: levels_as_written, levels_ideal, levels_clearance_joints, new_system
    use catalogue, only: catalogue_t
    use change_scene, only: scene_with_changes
    use columns, only: column_of, find_column
@@ -177,14 +177,14 @@ contains
       type(catalogue_t), intent(out) :: catalogue     !! all that it can report
       type(diagnostics_t), intent(inout) :: mistakes  !! mistakes found
 
-      type(mechanism_t) :: loose
+      type(mechanism_t) :: clearance_joints
 
-      call new_system(scene, levels_loose, loose)
-      call build_catalogue(loose, catalogue)
+      call new_system(scene, levels_clearance_joints, clearance_joints)
+      call build_catalogue(clearance_joints, catalogue)
       if (size(scene%tables%requests(table_formulas)%items) == 0) return
       call read_formulas(deck, catalogue, scene, mistakes)
-      loose%requests%formulas = scene%requests%formulas
-      call build_catalogue(loose, catalogue)
+      clearance_joints%requests%formulas = scene%requests%formulas
+      call build_catalogue(clearance_joints, catalogue)
    end subroutine list_words
 
    !> Every word that a sweep gives to a parameter must make a deck without mistakes, the other parameters being the deck's own.

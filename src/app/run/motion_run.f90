@@ -34,7 +34,7 @@ module motion_run
    use setting_run, only: first_line, job_t
    use start_state, only: find_start, ideal_start_t
    use subsystems, only: new_subsystems, subsystem_t
-   use tape, only: tape_t
+   use archive, only: archive_t
    use text, only: to_text
    use twin_run, only: run_twin
    implicit none (type, external)
@@ -125,14 +125,14 @@ contains
       type(horizon_t), intent(out) :: horizon                      !! what was known of it; no instants: nothing
       type(error_t), allocatable, intent(out) :: error             !! it cannot be read, or is of another run
 
-      type(tape_t) :: tape
+      type(archive_t) :: archive
 
       allocate (saved)
       call read_checkpoint(plan, saved, error)
       if (allocated(error)) return
       plan%life%resumed_from = saved%t
-      tape = saved%output  ! which the recorder reads from its beginning
-      call load_horizon(tape, horizon)
+      archive = saved%output  ! which the recorder reads from its beginning
+      call load_horizon(archive, horizon)
    end subroutine take_up
 
    !> The start of a motion, perturbed if it is one of an ensemble.
@@ -211,7 +211,7 @@ contains
       logical :: has_twin
 
       warning = ""
-      has_twin = size(keeper%plan%figures) > 0 .and. keeper%plan%with%figures .and. loaded%system%loose%n > 0 .and. &
+      has_twin = size(keeper%plan%figures) > 0 .and. keeper%plan%with%figures .and. loaded%system%clearance_joints%n > 0 .and. &
                  summary%status /= status_stopped
       if (has_twin .and. allocated(error)) has_twin = error%code /= exit_file
       if (has_twin) then

@@ -8,19 +8,19 @@ module checkpoint
    use text, only: counted, to_text
    implicit none (type, external)
    private
-   public :: add_piece, checkpoint_t, piece_t, size_of_pieces
+   public :: add_segment, checkpoint_t, segment_t, size_of_segments
 
    !> A stretch of the row.
-   type :: piece_t
+   type :: segment_t
       character(:), allocatable :: name   !! what remembers it, as `clearance.revolute 'gudgeon'`
       integer :: version = 1              !! of its form: raised where what is saved, or its order, changes
       integer :: size = 0                 !! how many numbers
       logical :: is_fixed = .true.        !! their number does not change while a run goes on
-   end type piece_t
+   end type segment_t
 
    !> A checkpoint.
    type :: checkpoint_t
-      type(piece_t), allocatable :: pieces(:)   !! (any) in the order of the row
+      type(segment_t), allocatable :: segments(:)   !! (any) in the order of the row
       real(wp), allocatable :: row(:)           !! (their numbers) what is remembered [any]
    contains
       procedure :: begin => checkpoint_begin
@@ -30,54 +30,54 @@ module checkpoint
 contains
 
    !> Append a piece to a list.
-   subroutine add_piece(pieces, name, version, n, is_fixed)
-      type(piece_t), allocatable, intent(inout) :: pieces(:)  !! (any) the list, may be unallocated
+   subroutine add_segment(segments, name, version, n, is_fixed)
+      type(segment_t), allocatable, intent(inout) :: segments(:)  !! (any) the list, may be unallocated
       character(*), intent(in) :: name                        !! what remembers it
       integer, intent(in) :: version                          !! of its form
       integer, intent(in) :: n                                !! how many numbers
       logical, intent(in), optional :: is_fixed               !! their number does not change; absent: it does not
 
-      type(piece_t), allocatable :: grown(:)
+      type(segment_t), allocatable :: grown(:)
       integer :: last
 
       last = 0
-      if (allocated(pieces)) last = size(pieces)
+      if (allocated(segments)) last = size(segments)
       allocate (grown(last + 1))
-      if (last > 0) grown(:last) = pieces
+      if (last > 0) grown(:last) = segments
       grown(last + 1)%name = name
       grown(last + 1)%version = version
       grown(last + 1)%size = n
       if (present(is_fixed)) grown(last + 1)%is_fixed = is_fixed
-      call move_alloc(grown, pieces)
-   end subroutine add_piece
+      call move_alloc(grown, segments)
+   end subroutine add_segment
 
    !> How many numbers the pieces of a list have together.
-   pure integer function size_of_pieces(pieces) result(n)
-      type(piece_t), intent(in) :: pieces(:)  !! (any) the list
+   pure integer function size_of_segments(segments) result(n)
+      type(segment_t), intent(in) :: segments(:)  !! (any) the list
 
-      n = sum(pieces%size)
-   end function size_of_pieces
+      n = sum(segments%size)
+   end function size_of_segments
 
    !> Room for the pieces of a list.
-   subroutine checkpoint_begin(self, pieces)
+   subroutine checkpoint_begin(self, segments)
       class(checkpoint_t), intent(inout) :: self   !! the checkpoint, without numbers
-      type(piece_t), intent(in) :: pieces(:)       !! (any) what will be saved
+      type(segment_t), intent(in) :: segments(:)       !! (any) what will be saved
 
-      self%pieces = pieces
+      self%segments = segments
       if (allocated(self%row)) deallocate (self%row)
-      allocate (self%row(size_of_pieces(pieces)), source=0.0_wp)
+      allocate (self%row(size_of_segments(segments)), source=0.0_wp)
    end subroutine checkpoint_begin
 
    !> Whether those who remember these pieces can read the checkpoint; the first that differs is named.
-   subroutine checkpoint_compare(self, pieces, error)
+   subroutine checkpoint_compare(self, segments, error)
       class(checkpoint_t), intent(in) :: self              !! the checkpoint
-      type(piece_t), intent(in) :: pieces(:)               !! (any) what those who would read it remember
+      type(segment_t), intent(in) :: segments(:)               !! (any) what those who would read it remember
       type(error_t), allocatable, intent(out) :: error     !! what differs: name, version or size
 
       integer :: k
 
-      do k = 1, min(size(pieces), size(self%pieces))
-         associate (here => pieces(k), there => self%pieces(k))
+      do k = 1, min(size(segments), size(self%segments))
+         associate (here => segments(k), there => self%segments(k))
             if (there%name /= here%name) then
                call refuse("it contains the state of "//there%name//" instead of that of "//here%name)
             else if (there%version /= here%version) then
@@ -90,13 +90,13 @@ contains
          end associate
          if (allocated(error)) return
       end do
-      if (size(self%pieces) > size(pieces)) then
-         call refuse("it contains the state of "//self%pieces(size(pieces) + 1)%name//", which is not part of this run")
-      else if (size(pieces) > size(self%pieces)) then
-         call refuse("the state of "//pieces(size(self%pieces) + 1)%name//" is missing")
-      else if (size(self%row) /= size_of_pieces(self%pieces)) then
+      if (size(self%segments) > size(segments)) then
+         call refuse("it contains the state of "//self%segments(size(segments) + 1)%name//", which is not part of this run")
+      else if (size(segments) > size(self%segments)) then
+         call refuse("the state of "//segments(size(self%segments) + 1)%name//" is missing")
+      else if (size(self%row) /= size_of_segments(self%segments)) then
          call refuse("it has "//counted(size(self%row), "number", "numbers")//", but its segments describe "// &
-                     to_text(size_of_pieces(self%pieces)))
+                     to_text(size_of_segments(self%segments)))
       end if
 
    contains

@@ -2,22 +2,22 @@
 module saved_run
    use checkpoint, only: checkpoint_t
    use kinds, only: wp
-   use tape, only: tape_t
+   use archive, only: archive_t
    implicit none (type, external)
    private
    public :: saved_run_t
-   public :: wish_checkpoint, wish_nothing, wish_stop
+   public :: requested_action_checkpoint, action_none, requested_action_stop
 
-   integer, parameter :: wish_nothing = 0     !! go on
-   integer, parameter :: wish_checkpoint = 1  !! save what is remembered as soon as it can be, and go on
-   integer, parameter :: wish_stop = 2        !! save it as soon as it can be, and end
+   integer, parameter :: action_none = 0     !! go on
+   integer, parameter :: requested_action_checkpoint = 1  !! save what is remembered as soon as it can be, and go on
+   integer, parameter :: requested_action_stop = 2        !! save it as soon as it can be, and end
 
    !> What is remembered.
    type :: saved_run_t
       real(wp) :: t = 0.0_wp                        !! time of the motion [s]
       type(checkpoint_t), allocatable :: parts(:)   !! (parts) of each part; of several, one more: of the whole
-      type(tape_t) :: motion                        !! of the whole motion, its samples and sums
-      type(tape_t) :: output                        !! of what keeps the results
+      type(archive_t) :: motion                        !! of the whole motion, its samples and sums
+      type(archive_t) :: output                        !! of what keeps the results
    end type saved_run_t
 
 end module saved_run

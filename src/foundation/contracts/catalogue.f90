@@ -6,7 +6,8 @@
 module catalogue
    use, intrinsic :: ieee_exceptions, only: ieee_get_status, ieee_set_halting_mode, ieee_set_status, ieee_status_type, ieee_usual
    use catalogue_groups, only: group_t, resize_groups
-   use catalogue_rooms, only: add_to_room, has_channel, n_rooms, resize_room, room_clearances, room_contacts, room_paths, room_t
+   use groups_of_catalogue, only: add_to_group, has_channel, n_groups, resize_storage, group_clearances, group_contacts, &
+        group_paths, room_t
    use expression, only: expression_t, most_seen
    use kind_info, only: channel_t, kind_info_t
    use kinds, only: not_a_number, wp
@@ -25,7 +26,7 @@ module catalogue
    !> Everything a scene can report.
    type :: catalogue_t
       integer :: n_coordinates = 2                !! of a point: 2 in the plane, 3 in space
-      type(room_t) :: rooms(n_rooms)              !! (n_rooms) items
+      type(room_t) :: rooms(n_groups)              !! (n_rooms) items
       integer :: n_group = 0                      !! quantities so far
       type(group_t), allocatable :: groups(:)     !! (groups) quantities; while some are added with places for more
       real(wp), allocatable :: values(:)          !! (any) current values of all, SI; NaN: the item has no such channel [any]
@@ -117,7 +118,7 @@ contains
       real(wp), intent(in), optional :: radius         !! of a clearance joint: radial clearance [m]
       character(*), intent(in), optional :: channels   !! present: it has only these, see `names_of_channels`
 
-      call add_to_room(self%rooms(room), name, label, radius, channels)
+      call add_to_group(self%rooms(room), name, label, radius, channels)
    end subroutine catalogue_add_item
 
    !> The channels of a kind, each between blanks.
@@ -177,7 +178,7 @@ contains
       call offer%start(count_channels(info))
       do k = 1, count_channels(info)
          group = self%find_group(room, info%channels(k)%name)
-         if (group == 0 .and. room == room_clearances) group = self%find_group(room_contacts, info%channels(k)%name)
+         if (group == 0 .and. room == group_clearances) group = self%find_group(group_contacts, info%channels(k)%name)
          if (group > 0) call offer%add(info%channels(k)%code, group, 0, 0, info%channels(k)%components)
       end do
    end subroutine catalogue_list
@@ -280,9 +281,9 @@ contains
       character(:), allocatable :: word
       integer :: item, k, n
 
-      do k = 1, n_rooms
-         self%rooms(k)%name = trim(room_paths(k))
-         call resize_room(self%rooms(k), self%rooms(k)%n)
+      do k = 1, n_groups
+         self%rooms(k)%name = trim(group_paths(k))
+         call resize_storage(self%rooms(k), self%rooms(k)%n)
       end do
       call resize_groups(self%groups, self%n_group, self%n_group)
       if (.not. allocated(self%formulas)) allocate (self%formulas(0))

@@ -19,29 +19,29 @@ module channel_noise
 contains
 
    !> The noise of channels by the greatest magnitudes of all.
-   pure function noise_of_channels(units, greatest, duration) result(noise)
+   pure function noise_of_channels(units, maximum, duration) result(noise)
       type(text_t), intent(in) :: units(:)                 !! (n) SI
-      real(wp), intent(in) :: greatest(:)                  !! (n) greatest magnitudes; none is a number: 0 [any]
+      real(wp), intent(in) :: maximum(:)                  !! (n) greatest magnitudes; none is a number: 0 [any]
       real(wp), intent(in) :: duration                     !! of the run [s]
       real(wp) :: noise(size(units))                       !! (n) less is round-off [any]
 
-      real(wp) :: energy, force, length, moment, power, rate, speed, swing, thrust
+      real(wp) :: energy, force, length, moment, power, rate, speed, contact_rate, thrust
       integer :: k
 
-      length = greatest_of("m")
+      length = max_of("m")
       rate = 0.0_wp
       if (duration > 0.0_wp) rate = 1.0_wp/duration
-      speed = max(greatest_of("m/s"), length*rate)
+      speed = max(max_of("m/s"), length*rate)
       if (length > 0.0_wp) rate = max(rate, speed/length)
-      rate = max(rate, greatest_of("rad/s"))
-      thrust = max(greatest_of("m/s^2"), speed*rate)
-      swing = max(greatest_of("rad/s^2"), rate**2)
-      moment = greatest_of("N.m")
-      force = greatest_of("N")
+      rate = max(rate, max_of("rad/s"))
+      thrust = max(max_of("m/s^2"), speed*rate)
+      contact_rate = max(max_of("rad/s^2"), rate**2)
+      moment = max_of("N.m")
+      force = max_of("N")
       if (length > 0.0_wp) force = max(force, moment/length)
       moment = max(moment, force*length)
-      energy = greatest_of("J")
-      power = max(greatest_of("W"), force*speed)
+      energy = max_of("J")
+      power = max(max_of("W"), force*speed)
       do k = 1, size(units)
          select case (units(k)%s)
          case ("m"); noise(k) = of_length*length
@@ -49,7 +49,7 @@ contains
          case ("m/s"); noise(k) = of_rate*speed
          case ("rad/s"); noise(k) = of_rate*rate
          case ("m/s^2"); noise(k) = of_load*thrust
-         case ("rad/s^2"); noise(k) = of_load*swing
+         case ("rad/s^2"); noise(k) = of_load*contact_rate
          case ("N"); noise(k) = of_load*force
          case ("N.m"); noise(k) = of_load*moment
          case ("J"); noise(k) = of_rate*energy
@@ -61,16 +61,16 @@ contains
    contains
 
       !> The greatest magnitude of all channels of a unit.
-      pure real(wp) function greatest_of(unit) result(most)
+      pure real(wp) function max_of(unit) result(most)
          character(*), intent(in) :: unit   !! the unit
 
          integer :: i
 
          most = 0.0_wp
          do i = 1, size(units)
-            if (units(i)%s == unit .and. ieee_is_finite(greatest(i))) most = max(most, greatest(i))
+            if (units(i)%s == unit .and. ieee_is_finite(maximum(i))) most = max(most, maximum(i))
          end do
-      end function greatest_of
+      end function max_of
 
    end function noise_of_channels
 

@@ -4,13 +4,13 @@
 !> fixed in the bearing, stay where they are from moment to moment.
 module film_fields
    use kinds, only: wp
-   use tape, only: tape_t
+   use archive, only: archive_t
    implicit none (type, external)
    private
-   public :: append_field, field_request_t, film_field_t, load_fields, save_fields, moment_at, moment_end, moment_least
+   public :: append_field, field_request_t, film_field_t, load_fields, save_fields, moment_at, moment_end, moment_min
 
    integer, parameter :: moment_end = 1    !! the end of the run
-   integer, parameter :: moment_least = 2  !! the end of the step with the least film
+   integer, parameter :: moment_min = 2  !! the end of the step with the least film
    integer, parameter :: moment_at = 3     !! a time
 
    !> A film that is asked for.
@@ -54,31 +54,31 @@ contains
    end subroutine append_field
 
    !> Write films.
-   subroutine save_fields(list, tape)
+   subroutine save_fields(list, archive)
       type(film_field_t), intent(in) :: list(:)  !! (any) the films
-      type(tape_t), intent(inout) :: tape        !! receives them
+      type(archive_t), intent(inout) :: archive        !! receives them
 
       integer :: k
 
-      call tape%put(size(list))
+      call archive%put(size(list))
       do k = 1, size(list)
          associate (this => list(k))
-            call tape%put(this%request%name)
-            call tape%put(this%request%joint)
-            call tape%put(this%request%moment)
-            call tape%put(this%film)
-            call tape%put([this%request%t, this%t, this%e, this%clearance, this%angle])
-            call tape%put_list(this%theta)
-            call tape%put_list(this%y)
-            call tape%put_list(reshape(this%pressure, [size(this%pressure)]))
-            call tape%put_list(reshape(this%gap, [size(this%gap)]))
+            call archive%put(this%request%name)
+            call archive%put(this%request%joint)
+            call archive%put(this%request%moment)
+            call archive%put(this%film)
+            call archive%put([this%request%t, this%t, this%e, this%clearance, this%angle])
+            call archive%put_list(this%theta)
+            call archive%put_list(this%y)
+            call archive%put_list(reshape(this%pressure, [size(this%pressure)]))
+            call archive%put_list(reshape(this%gap, [size(this%gap)]))
          end associate
       end do
    end subroutine save_fields
 
    !> Take them back.
-   subroutine load_fields(tape, list)
-      type(tape_t), intent(inout) :: tape                      !! holds them
+   subroutine load_fields(archive, list)
+      type(archive_t), intent(inout) :: archive                      !! holds them
       type(film_field_t), allocatable, intent(out) :: list(:)  !! (any) the films
 
       type(film_field_t) :: field
@@ -86,24 +86,24 @@ contains
       integer :: k, n
 
       allocate (list(0))
-      call tape%get(n)
+      call archive%get(n)
       do k = 1, n
-         call tape%get_text(field%request%name)
-         call tape%get_text(field%request%joint)
-         call tape%get(field%request%moment)
-         call tape%get_text(field%film)
-         call tape%get(field%request%t)
-         call tape%get(field%t)
-         call tape%get(field%e)
-         call tape%get(field%clearance)
-         call tape%get(field%angle)
-         call tape%get_list(field%theta)
-         call tape%get_list(field%y)
-         call tape%get_list(numbers)
+         call archive%get_text(field%request%name)
+         call archive%get_text(field%request%joint)
+         call archive%get(field%request%moment)
+         call archive%get_text(field%film)
+         call archive%get(field%request%t)
+         call archive%get(field%t)
+         call archive%get(field%e)
+         call archive%get(field%clearance)
+         call archive%get(field%angle)
+         call archive%get_list(field%theta)
+         call archive%get_list(field%y)
+         call archive%get_list(numbers)
          field%pressure = reshape(numbers, [size(field%y), size(field%theta)])
-         call tape%get_list(numbers)
+         call archive%get_list(numbers)
          field%gap = reshape(numbers, [size(field%y), size(field%theta)])
-         if (.not. tape%is_good) return
+         if (.not. archive%is_good) return
          call append_field(list, field)
       end do
    end subroutine load_fields

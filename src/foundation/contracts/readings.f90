@@ -30,8 +30,8 @@ module readings
    !> Of the rows that are not solved for: those that reports want, and what these hang on.
    type :: wanted_rows_t
       integer, allocatable :: sets(:)      !! (any) sets of joints and drivers whose rows are evaluated
-      integer, allocatable :: guided(:)    !! (any) guided bodies whose multipliers are found
-      logical :: has_known = .false.       !! whether those of the known bodies are
+      integer, allocatable :: one_dof(:)    !! (any) guided bodies whose multipliers are found
+      logical :: has_prescribed = .false.       !! whether those of the known bodies are
    end type wanted_rows_t
 
    !> Channels of all sets of a system: those that these tell, each for all items.
@@ -40,7 +40,7 @@ module readings
       type(readings_t) :: energy                   !! of the ledger
       type(readings_t), allocatable :: joints(:)   !! (sets) of joints and drivers
       type(readings_t), allocatable :: ideal(:)    !! (sets) of joints with clearance taken as ideal
-      type(readings_t), allocatable :: loose(:)    !! (sets) of joints with clearance
+      type(readings_t), allocatable :: clearance_joints(:)    !! (sets) of joints with clearance
       type(readings_t), allocatable :: forces(:)   !! (sets) of force elements
       type(readings_t) :: points                   !! of points, point by point
       type(readings_t) :: motions                  !! of points as seen from elsewhere, one by one
@@ -54,7 +54,7 @@ module readings
       type(readings_t), allocatable :: others(:)   !! (sets) of joints and drivers: what does not follow from it
       integer, allocatable :: of_others(:)         !! (any) sets of them of which something is read that does not
       integer, allocatable :: of_joints(:)         !! (any) sets of joints and drivers of which something is read
-      integer, allocatable :: of_loose(:)          !! (any) sets of joints with clearance of which something is read
+      integer, allocatable :: of_clearance_joints(:)          !! (any) sets of joints with clearance of which something is read
    end type reading_plan_t
 
 contains

@@ -1,6 +1,6 @@
 !> The contract between an analysis and whatever keeps its results.
 !>
-!> The order of calls is `start`, then any number of `sample`, `further_row`, `strobe`, `field`, `event` and `progress`, then
+!> The order of calls is `start`, then any number of `sample`, `further_row`, `poincare`, `field`, `event` and `progress`, then
 !> `finish`, which is also called when the analysis failed: nothing already recorded may be lost.
 module recorder
    use catalogue, only: catalogue_t
@@ -8,7 +8,7 @@ module recorder
    use film_fields, only: field_request_t, film_field_t
    use kinds, only: i8, wp
    use linearised, only: linearised_t
-   use saved_run, only: saved_run_t, wish_nothing
+   use saved_run, only: saved_run_t, action_none
    use text, only: text_t
    implicit none (type, external)
    private
@@ -114,11 +114,11 @@ module recorder
       procedure :: wants => wants_all
       procedure :: further_row => skip_further_row
       procedure :: between => skip_between
-      procedure :: strobe => skip_strobe
+      procedure :: poincare => skip_poincare
       procedure :: field => skip_field
       procedure(event_interface), deferred :: event
       procedure(progress_interface), deferred :: progress
-      procedure :: wish => wish_for_nothing
+      procedure :: requested_action => action_for_none
       procedure :: save => skip_checkpoint
       procedure :: go_on => skip_going_on
       procedure(finish_interface), deferred :: finish
@@ -203,20 +203,20 @@ contains
 
    !> Keep the catalogue's current values as those of an instant once per period of the drive: unless a recorder asks for
    !> them, nothing.
-   subroutine skip_strobe(self, t, catalogue)
+   subroutine skip_poincare(self, t, catalogue)
       class(recorder_t), intent(inout) :: self           !! the recorder
       real(wp), intent(in) :: t                          !! time [s]
       type(catalogue_t), intent(in) :: catalogue         !! values at t
-   end subroutine skip_strobe
+   end subroutine skip_poincare
 
    !> Whether the run is to be saved, or to end: asked after every step, so it must be cheap. Nothing, unless a recorder knows
    !> better; `can_save` tells it whether the run could be saved just now.
-   integer function wish_for_nothing(self, can_save) result(wish)
+   integer function action_for_none(self, can_save) result(requested_action)
       class(recorder_t), intent(inout) :: self           !! the recorder
       logical, intent(in) :: can_save                    !! the run can be saved after this step
 
-      wish = wish_nothing
-   end function wish_for_nothing
+      requested_action = action_none
+   end function action_for_none
 
    !> Keep what a run remembers, with what the recorder remembers itself: unless it keeps such, nothing.
    subroutine skip_checkpoint(self, saved, error)

@@ -6,13 +6,13 @@
 module requests
    use expression, only: expression_t
    use kind_info, only: add_channel, add_formula, add_reference, add_word, dim_none, dim_t, in_plane, in_space, kind_info_t
-   use sight, only: place_t, sees_acceleration, sees_distance, sees_distance_rate, sees_position, sees_velocity
+   use observable, only: place_t, sees_acceleration, sees_distance, sees_distance_rate, sees_position, sees_velocity
    use text, only: text_t
    implicit none (type, external)
    private
    public :: formula_t, motion_request_info, motion_request_t, of_reaction_force, of_reaction_moment, point_channels, &
       reaction_info, reaction_request_t, request_info, requests_t, source_t
-   public :: source_force, source_ideal, source_joint, source_loose, source_none
+   public :: source_force, source_ideal, source_joint, source_clearance_joints, source_none
 
    integer, parameter :: of_reaction_force = 1   !! channel of a reaction
    integer, parameter :: of_reaction_moment = 2  !! channel of a reaction
@@ -20,7 +20,7 @@ module requests
    integer, parameter :: source_none = 0   !! a reaction of a joint that the system does not have
    integer, parameter :: source_joint = 1  !! of an ideal joint or a driver
    integer, parameter :: source_ideal = 2  !! of a joint with clearance that is taken as ideal
-   integer, parameter :: source_loose = 3  !! of a joint with clearance
+   integer, parameter :: source_clearance_joints = 3  !! of a joint with clearance
    integer, parameter :: source_force = 4  !! of a spring, damper or actuator between two bodies
 
    !> A channel by its names, so that it can be found in any catalogue.
@@ -104,7 +104,7 @@ contains
       call add_channel(info, "distance_rate", "m/s", "none", 1, "its rate", sees_distance_rate)
    end function motion_request_info
 
-   !> The channels of the deck's points; codes are those of `sight`.
+   !> The channels of the deck's points; codes are those of `observable`.
    function point_channels() result(info)
       type(kind_info_t) :: info  !! channels
 

@@ -10,7 +10,7 @@ module floors
    private
    public :: all_floors, floor_t
    public :: of_acceleration, of_contact, of_mobility, of_pace, of_run, of_speed, of_step, of_time, of_tolerance
-   public :: at_rest, captured, chatter_time, contact_lever, gentle, idle_part, late, least_band, least_hold, least_mobility, &
+   public :: at_rest, captured, chatter_time, contact_lever, gentle, idle_part, late, min_band, min_stabilisation, min_mobility, &
       look_ahead, no_acceleration, remembered, settling, shortest_difference, standstill, torn, widest_band
 
    integer, parameter :: of_speed = 1         !! of the mechanism's own speed, pace times size
@@ -31,20 +31,20 @@ module floors
    real(wp), parameter :: idle_part = 1.0e-6_wp           !! way in a run at least, for the pace, of the size [1]
    real(wp), parameter :: shortest_difference = 1.0e4_wp  !! time of a difference at least, of the spacing of time [1]
    ! holding the constraints
-   real(wp), parameter :: least_hold = 0.1_wp             !! gain that follows the violation at least, of the pace [1]
+   real(wp), parameter :: min_stabilisation = 0.1_wp             !! gain that follows the violation at least, of the pace [1]
    ! friction that sticks
    real(wp), parameter :: at_rest = 1.0e-9_wp             !! sliding velocity that is none, of the speed [1]
    real(wp), parameter :: standstill = 1.0e-15_wp         !! sliding velocity at which slip ends, of the speed [1]
    real(wp), parameter :: captured = 2.0_wp               !! in space: the same, of the tolerance times the speed [1]
    real(wp), parameter :: contact_lever = 2.0_wp          !! in space: lever within a contact, of its penetration [1]
    real(wp), parameter :: torn = 1.0e-4_wp                !! sliding velocity that ends sticking, of the speed [1]
-   real(wp), parameter :: least_band = 1.0e-12_wp         !! first velocity the wrong way after a chatter, of the speed [1]
+   real(wp), parameter :: min_band = 1.0e-12_wp         !! first velocity the wrong way after a chatter, of the speed [1]
    real(wp), parameter :: widest_band = 1.0e-5_wp         !! last one, of the speed [1]
    real(wp), parameter :: settling = 5.0_wp               !! decay of a sliding velocity left over, of the pace [1]
    real(wp), parameter :: chatter_time = 1.0e-2_wp        !! time between decisions that is chatter, of the contact's own [1]
    real(wp), parameter :: look_ahead = 1.0e-2_wp          !! how far ahead a driven contact at rest is looked at, of the step [1]
    real(wp), parameter :: no_acceleration = 1.0e-12_wp    !! sliding acceleration that is none, of what F_N would give [1]
-   real(wp), parameter :: least_mobility = 1.0e-11_wp     !! mobility that is none: of that of free bodies [1]
+   real(wp), parameter :: min_mobility = 1.0e-11_wp     !! mobility that is none: of that of free bodies [1]
 
    !> One of them.
    type :: floor_t
@@ -63,20 +63,20 @@ contains
               floor_t(remembered, of_speed, "minimum speed for error control during slow motion"), &
               floor_t(late, of_run, "minimum speed for error control, from rest"), &
               floor_t(idle_part, of_run, "characteristic speed of a mechanism that never moves"), &
-              floor_t(least_hold, of_pace, "minimum gain of baumgarte_adaptive"), &
+              floor_t(min_stabilisation, of_pace, "minimum gain of baumgarte_adaptive"), &
               floor_t(at_rest, of_speed, "negligible sliding speed, at onset and where drivers prescribe it"), &
               floor_t(standstill, of_speed, "sliding speed at the slip-to-stick transition"), &
               floor_t(captured, of_tolerance, "sliding speed at the slip-to-stick transition, in space"), &
               floor_t(contact_lever, of_contact, "lever arm of spin without friction torque, in space, over the penetration"), &
               floor_t(torn, of_speed, "sliding speed that ends sticking by drift"), &
-              floor_t(least_band, of_speed, "reverse-slip tolerance after stick-slip chatter, initial"), &
+              floor_t(min_band, of_speed, "reverse-slip tolerance after stick-slip chatter, initial"), &
               floor_t(widest_band, of_speed, "reverse-slip tolerance after stick-slip chatter, final"), &
               floor_t(settling, of_pace, "decay rate of residual sliding while sticking"), &
               floor_t(chatter_time, of_contact, &
                       "stick-slip interval that counts as chatter, over sqrt(penetration m/F_N)"), &
               floor_t(look_ahead, of_step, "look-ahead time for driver motion of a contact at rest"), &
               floor_t(no_acceleration, of_acceleration, "negligible sliding acceleration"), &
-              floor_t(least_mobility, of_mobility, "negligible compliance"), &
+              floor_t(min_mobility, of_mobility, "negligible compliance"), &
               floor_t(shortest_difference, of_time, "time for the rates of event functions")]
    end function all_floors
 

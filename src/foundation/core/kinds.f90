@@ -3,14 +3,14 @@ module kinds
    use, intrinsic :: iso_fortran_env, only: int64, real64
    implicit none (type, external)
    private
-   public :: eps, i8, least_tolerance, not_a_number, pi, two_pi, wp
+   public :: eps, i8, min_tolerance, not_a_number, pi, two_pi, wp
 
    integer, parameter :: wp = real64  !! working precision: IEEE double
    integer, parameter :: i8 = int64   !! counters that may exceed two thousand million
    real(wp), parameter :: pi = 3.14159265358979323846_wp  !! half a turn [rad]
    real(wp), parameter :: two_pi = 2.0_wp*pi              !! one turn [rad]
    real(wp), parameter :: eps = epsilon(1.0_wp)           !! distance from 1 to the next number [1]
-   real(wp), parameter :: least_tolerance = 1.0e-14_wp    !! less than this part of a number is its round-off [1]
+   real(wp), parameter :: min_tolerance = 1.0e-14_wp    !! less than this part of a number is its round-off [1]
 
 contains
 

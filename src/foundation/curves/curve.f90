@@ -12,12 +12,12 @@ module curve
    use rise_laws, only: rise_values
    implicit none (type, external)
    private
-   public :: beyond_error, beyond_hold, beyond_linear, beyond_periodic, beyond_same
+   public :: beyond_error, beyond_stabilisation, beyond_linear, beyond_periodic, beyond_same
    public :: curve_t, curve_values, jet_of_curve, rise_t
 
    integer, parameter :: beyond_same = 0      !! beyond its places the first and the last piece go on
    integer, parameter :: beyond_error = 1     !! it does not exist there
-   integer, parameter :: beyond_hold = 2      !! the value of the end
+   integer, parameter :: beyond_stabilisation = 2      !! the value of the end
    integer, parameter :: beyond_linear = 3    !! the tangent of the end
    integer, parameter :: beyond_periodic = 4  !! it repeats itself
 
@@ -81,7 +81,7 @@ contains
          place = merge(first, last, x < first)
          call values_at(curve, place, f)
          f(3) = 0.0_wp
-         if (curve%beyond == beyond_hold) f(2) = 0.0_wp
+         if (curve%beyond == beyond_stabilisation) f(2) = 0.0_wp
          f(1) = f(1) + f(2)*(x - place)
       end if
       if (.not. abs(curve%amplitude) > 0.0_wp) return
@@ -100,7 +100,7 @@ contains
 
       integer :: m
 
-      call piece_values(size(curve%x), curve%x, curve%c, x, f)
+      call segment_values(size(curve%x), curve%x, curve%c, x, f)
       if (.not. allocated(curve%rises)) return
       do m = 1, size(curve%rises)
          associate (rise => curve%rises(m))
@@ -110,7 +110,7 @@ contains
    end subroutine values_at
 
    !> The polynomial of the piece that holds a place: the last one that begins before it, or the first.
-   pure subroutine piece_values(n, place, c, x, f)
+   pure subroutine segment_values(n, place, c, x, f)
       integer, intent(in) :: n            !! number of places
       real(wp), intent(in) :: place(n)    !! (n) places [any]
       real(wp), intent(in) :: c(0:, :)    !! (0:degree, pieces) coefficients [any]
@@ -137,6 +137,6 @@ contains
          f(2) = f(2)*h + f(1)
          f(1) = f(1)*h + c(i, low)
       end do
-   end subroutine piece_values
+   end subroutine segment_values
 
 end module curve

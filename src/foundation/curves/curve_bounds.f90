@@ -1,6 +1,6 @@
 !> Bounds of a curve and its derivatives over an interval of its argument.
 module curve_bounds
-   use curve, only: beyond_error, beyond_hold, beyond_periodic, beyond_same, curve_t, curve_values
+   use curve, only: beyond_error, beyond_stabilisation, beyond_periodic, beyond_same, curve_t, curve_values
    use intervals, only: hull, line, product_of, sine_of, sum_of, times
    use kinds, only: two_pi, wp
    use rise_laws, only: bound_rise
@@ -30,17 +30,17 @@ contains
          return
       end if
       if (curve%beyond == beyond_same) then
-         call take_pieces(x)
+         call take_segments(x)
       else if (curve%beyond == beyond_periodic) then
          if (x(2) - x(1) >= last - first) then
-            call take_pieces([first, last])
+            call take_segments([first, last])
          else
             start = first + modulo(x(1) - first, last - first)
-            call take_pieces([start, min(start + (x(2) - x(1)), last)])
-            if (start + (x(2) - x(1)) > last) call take_pieces([first, start + (x(2) - x(1)) - (last - first)])
+            call take_segments([start, min(start + (x(2) - x(1)), last)])
+            if (start + (x(2) - x(1)) > last) call take_segments([first, start + (x(2) - x(1)) - (last - first)])
          end if
       else
-         if (x(1) <= last .and. x(2) >= first) call take_pieces([max(x(1), first), min(x(2), last)])
+         if (x(1) <= last .and. x(2) >= first) call take_segments([max(x(1), first), min(x(2), last)])
          if (x(1) < first) call take_outside(x(1), min(x(2), first))
          if (x(2) > last) call take_outside(max(x(1), last), x(2))
       end if
@@ -70,21 +70,21 @@ contains
       end subroutine take
 
       !> The pieces over an interval; the first and the last go on beyond their ends.
-      subroutine take_pieces(range)
+      subroutine take_segments(range)
          real(wp), intent(in) :: range(2)  !! (2) the interval [any]
 
          real(wp) :: part(2)
          integer :: high, k, low
 
-         low = piece_of(curve, range(1))
-         high = piece_of(curve, range(2))
+         low = segment_of(curve, range(1))
+         high = segment_of(curve, range(2))
          do k = low, high
             part = range
             if (k > low) part(1) = curve%x(k)
             if (k < high) part(2) = curve%x(k + 1)
-            call take(bounds_of_piece(curve, k, part))
+            call take(bounds_of_segment(curve, k, part))
          end do
-      end subroutine take_pieces
+      end subroutine take_segments
 
       !> A part on one side of the places: constant, or straight.
       subroutine take_outside(a, b)
@@ -98,7 +98,7 @@ contains
          call polynomial_values(a, at_a)
          call polynomial_values(b, at_b)
          part(:, 1) = [min(at_a(1), at_b(1)), max(at_a(1), at_b(1))]
-         part(:, 2) = merge(0.0_wp, at_a(2), curve%beyond == beyond_hold)
+         part(:, 2) = merge(0.0_wp, at_a(2), curve%beyond == beyond_stabilisation)
          part(:, 3) = 0.0_wp
          call take(part)
       end subroutine take_outside
@@ -120,7 +120,7 @@ contains
    end subroutine bound_curve
 
    !> The piece that holds a place: the last one that begins before it, or the first.
-   pure integer function piece_of(curve, x) result(low)
+   pure integer function segment_of(curve, x) result(low)
       type(curve_t), intent(in) :: curve  !! the curve
       real(wp), intent(in) :: x           !! the place [any]
 
@@ -136,24 +136,24 @@ contains
             high = middle
          end if
       end do
-   end function piece_of
+   end function segment_of
 
    !> Bounds of one polynomial over an interval, by Horner's rule.
-   pure function bounds_of_piece(curve, piece, x) result(f)
+   pure function bounds_of_segment(curve, segment, x) result(f)
       type(curve_t), intent(in) :: curve  !! the curve
-      integer, intent(in) :: piece        !! number of the piece
+      integer, intent(in) :: segment        !! number of the piece
       real(wp), intent(in) :: x(2)        !! (2) the interval [any]
       real(wp) :: f(2, 3)                 !! (2, 3) bounds of p, p', p'' [any]
 
       real(wp) :: h(2), s(2, 3)
       integer :: i, m
 
-      h = x - curve%x(piece)
+      h = x - curve%x(segment)
       f = 0.0_wp
       do i = ubound(curve%c, 1), 0, -1
-         f(:, 1) = sum_of(product_of(f(:, 1), h), [curve%c(i, piece), curve%c(i, piece)])
-         if (i > 0) f(:, 2) = sum_of(product_of(f(:, 2), h), i*[curve%c(i, piece), curve%c(i, piece)])
-         if (i > 1) f(:, 3) = sum_of(product_of(f(:, 3), h), i*(i - 1)*[curve%c(i, piece), curve%c(i, piece)])
+         f(:, 1) = sum_of(product_of(f(:, 1), h), [curve%c(i, segment), curve%c(i, segment)])
+         if (i > 0) f(:, 2) = sum_of(product_of(f(:, 2), h), i*[curve%c(i, segment), curve%c(i, segment)])
+         if (i > 1) f(:, 3) = sum_of(product_of(f(:, 3), h), i*(i - 1)*[curve%c(i, segment), curve%c(i, segment)])
       end do
       if (.not. allocated(curve%rises)) return
       do m = 1, size(curve%rises)
@@ -164,6 +164,6 @@ contains
             end do
          end associate
       end do
-   end function bounds_of_piece
+   end function bounds_of_segment
 
 end module curve_bounds

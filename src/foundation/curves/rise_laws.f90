@@ -127,7 +127,7 @@ contains
       real(wp) :: places(7), s(3)
       integer :: i, k
 
-      places = [u(1), u(2), 0.0_wp, greatest_of(law), 0.5_wp, 1.0_wp - greatest_of(law), last]
+      places = [u(1), u(2), 0.0_wp, max_of(law), 0.5_wp, 1.0_wp - max_of(law), last]
       f(:, 1) = [1.0_wp, 0.0_wp]
       f(:, 2) = f(:, 1)
       f(:, 3) = f(:, 1)
@@ -149,7 +149,7 @@ contains
    end function bound_rise
 
    !> Place in the first half where the acceleration of a law has its extremum; 0: at its beginning.
-   pure real(wp) function greatest_of(law) result(u)
+   pure real(wp) function max_of(law) result(u)
       integer, intent(in) :: law   !! number of the law
 
       select case (law)
@@ -164,6 +164,6 @@ contains
       case default
          u = 0.0_wp
       end select
-   end function greatest_of
+   end function max_of
 
 end module rise_laws

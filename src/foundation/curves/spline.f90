@@ -16,20 +16,20 @@ module spline
    use kinds, only: wp
    implicit none (type, external)
    private
-   public :: ends_clamped, ends_fmm, ends_natural, ends_not_a_knot, ends_periodic, least_samples, new_spline
+   public :: ends_clamped, ends_fmm, ends_natural, ends_not_a_knot, ends_periodic, min_samples, new_spline
 
    integer, parameter :: ends_not_a_knot = 1  !! one cubic over the two first and the two last intervals
    integer, parameter :: ends_natural = 2     !! no curvature at the ends
    integer, parameter :: ends_clamped = 3     !! no slope at the ends
    integer, parameter :: ends_periodic = 4    !! the last sample is the first one again
    integer, parameter :: ends_fmm = 5         !! third derivatives of cubics through four samples
-   integer, parameter :: least_samples = 4    !! samples that a spline needs
+   integer, parameter :: min_samples = 4    !! samples that a spline needs
 
 contains
 
    !> The spline through samples, with any behaviour beyond them.
    subroutine new_spline(x, y, ends, beyond, curve)
-      real(wp), intent(in) :: x(:)         !! (n) places, increasing, at least `least_samples` [any]
+      real(wp), intent(in) :: x(:)         !! (n) places, increasing, at least `min_samples` [any]
       real(wp), intent(in) :: y(:)         !! (n) values [any]
       integer, intent(in) :: ends          !! how it is closed, one of the above
       integer, intent(in) :: beyond        !! what the curve is beyond the samples, as of `curve`

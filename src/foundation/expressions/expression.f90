@@ -6,13 +6,13 @@
 !> squares of which nothing can be computed; no exception but `overflow` is raised for it.
 module expression
    use, intrinsic :: ieee_arithmetic, only: ieee_is_finite
-   use curve, only: beyond_hold, beyond_linear, curve_t, jet_of_curve
+   use curve, only: beyond_stabilisation, beyond_linear, curve_t, jet_of_curve
    use jets, only: jet_acos, jet_asin, jet_atan, jet_atan2, jet_chain, jet_cosh, jet_exp, jet_integer_power, jet_log, &
                  & jet_power, jet_product, jet_quotient, jet_real_power, jet_sinh, jet_sqrt, jet_tan, jet_tanh
    use kind_info, only: dim_none, dim_t
    use kinds, only: not_a_number, wp
    use rise_laws, only: is_smooth_rise, jet_of_rise
-   use sight, only: sight_t
+   use observable, only: observable_t
    implicit none (type, external)
    private
    public :: constant_expression, evaluate, evaluate_code, expression_t
@@ -70,7 +70,8 @@ module expression
       logical :: is_soft = .false.           !! its radians may be taken or left, see expression_compile
       logical :: is_constant = .true.        !! no variable occurs
       real(wp) :: others(2:n_variable) = 0.0_wp  !! (2:3) values of the variables but the first in `evaluate` [any]
-      type(sight_t), allocatable :: sights(:) !! (any) channels that it uses, its variables behind the first; unallocated: none
+      type(observable_t), allocatable :: observables(:)  !! (any) channels that it uses, its variables behind the first;
+                                                         !! unallocated: none
       character(:), allocatable :: source    !! text it was compiled from, with the values of parameters put in
    contains
       procedure :: evaluate
@@ -100,7 +101,7 @@ contains
       if (.not. allocated(self%curves)) return
       do k = 1, size(self%curves)
          if (allocated(self%curves(k)%rises)) cycle  ! these are smooth wherever they end
-         is_smooth = is_smooth .and. self%curves(k)%beyond /= beyond_hold .and. self%curves(k)%beyond /= beyond_linear
+         is_smooth = is_smooth .and. self%curves(k)%beyond /= beyond_stabilisation .and. self%curves(k)%beyond /= beyond_linear
       end do
    end function is_smooth
 
@@ -126,8 +127,8 @@ contains
 
       real(wp) :: jet(3)
 
-      if (allocated(self%sights)) then
-         call self%evaluate_seeing([t, spread(0.0_wp, 1, size(self%sights))], 1, value, d1)
+      if (allocated(self%observables)) then
+         call self%evaluate_seeing([t, spread(0.0_wp, 1, size(self%observables))], 1, value, d1)
          d2 = 0.0_wp
          return
       end if

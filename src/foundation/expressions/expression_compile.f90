@@ -63,9 +63,9 @@ contains
       compiled%operand(:) = parser%operand(1:parser%n_code)
       if (allocated(parser%curves)) call move_alloc(parser%curves, compiled%curves)
       if (parser%n_seen == 0) return
-      allocate (compiled%sights(parser%n_seen))
+      allocate (compiled%observables(parser%n_seen))
       do k = 1, parser%n_seen
-         compiled%sights(k) = parser%sights(k)
+         compiled%observables(k) = parser%observables(k)
       end do
    end subroutine compile_expression
 

@@ -6,7 +6,7 @@ module expression_state
    use expression_symbols, only: symbol_function, symbols_t
    use kind_info, only: dim_none, dim_t
    use kinds, only: wp
-   use sight, only: sight_t
+   use observable, only: observable_t
    use spelling, only: nearest_word
    use text, only: exact_text, join, split_blank, text_t
    implicit none (type, external)
@@ -63,8 +63,8 @@ module expression_state
       type(curve_t), allocatable :: curves(:)       !! (any) their curves; unallocated: it calls none
       class(channel_finder_t), pointer :: finder => null()  !! knows channels; not associated: there are none here
       integer :: n_seen = 0                         !! channels that it uses
-      type(sight_t) :: sights(most_seen)            !! (most_seen) these
-      type(dim_t) :: seen_dimensions(most_seen) = dim_none  !! (most_seen) their dimensions
+      type(observable_t) :: observables(most_seen)            !! (most_seen) these
+      type(dim_t) :: observed_dimensions(most_seen) = dim_none  !! (most_seen) their dimensions
       type(fault_t), allocatable :: fault           !! the first mistake
    end type parser_t
 

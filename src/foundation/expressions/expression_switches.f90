@@ -16,7 +16,7 @@
 !> An expression may see a motion too: its parts that do not are functions of the time (`time_parts`), and only these have switches.
 !> Limits: a cubic spline is twice continuously differentiable; its knots are no such places.
 module expression_switches
-   use curve, only: beyond_hold, beyond_linear, beyond_periodic, curve_t
+   use curve, only: beyond_stabilisation, beyond_linear, beyond_periodic, curve_t
    use expression, only: expression_t, op_abs, op_acos, op_add, op_asin, op_atan2, op_curve, op_integer_power, op_max, op_min, &
       op_multiply, op_number, op_real_power, op_rise, op_sin, op_sqrt, op_step, op_subtract, op_time
    use kinds, only: pi, wp
@@ -125,7 +125,7 @@ contains
                end do
             else if (curve%bends) then
                call add_places(curve%x, argument)
-            else if (curve%beyond == beyond_hold .or. curve%beyond == beyond_linear) then
+            else if (curve%beyond == beyond_stabilisation .or. curve%beyond == beyond_linear) then
                call add_places(curve%x([1, n]), argument)
             end if
          end associate
@@ -164,7 +164,7 @@ contains
       type(expression_t) :: one
       integer :: first, k
 
-      if (.not. allocated(expression%sights)) then
+      if (.not. allocated(expression%observables)) then
          parts = [expression]
          return
       end if

@@ -170,7 +170,7 @@ contains
          return
       end if
       do k = 1, parser%n_seen
-         if (parser%sights(k)%word == word) exit
+         if (parser%observables(k)%word == word) exit
       end do
       if (k > parser%n_seen) then
          if (k > most_seen) then
@@ -178,17 +178,17 @@ contains
                     & "split it into requests")
             return
          end if
-         call parser%finder%find(word, parser%seen_dimensions(k), message, help)
+         call parser%finder%find(word, parser%observed_dimensions(k), message, help)
          if (.not. allocated(message)) then
             call fail(parser, term%first, parser%last, "")
          else if (len(message) > 0) then
             call fail(parser, term%first, parser%last, message, help)
          end if
-         parser%sights(k)%word = word
-         parser%sights(k)%first = term%first
+         parser%observables(k)%word = word
+         parser%observables(k)%first = term%first
          parser%n_seen = k
       end if
-      term%dimension = parser%seen_dimensions(k)
+      term%dimension = parser%observed_dimensions(k)
       term%is_constant = .false.
       call emit(parser, op_time, real(1 + k, wp))
    end subroutine parse_channel

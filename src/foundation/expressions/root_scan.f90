@@ -19,7 +19,7 @@ module root_scan
 
    integer, parameter :: deepest = 80               !! intervals on the stack
    integer, parameter :: patience = 20              !! undecided intervals before they may be longer
-   real(wp), parameter :: least = 1.0e-18_wp        !! shortest interval, of the range [1]
+   real(wp), parameter :: minimum = 1.0e-18_wp        !! shortest interval, of the range [1]
    real(wp), parameter :: touching = 1.0e-11_wp     !! of the function's size at the ends: counts as zero [1]
 
    !> A place between two neighbouring numbers.
@@ -56,7 +56,7 @@ contains
       scan%left = first
       scan%right(1) = last
       scan%depth = 1
-      scan%shortest = least*(last - first)
+      scan%shortest = minimum*(last - first)
    end subroutine new_root_scan
 
    !> The next place; beyond all numbers if there is none.
@@ -122,7 +122,7 @@ contains
          self%left = b
          self%depth = self%depth - 1
          self%n_undecided = 0
-         self%shortest = least*abs(self%right(1))
+         self%shortest = minimum*abs(self%right(1))
       end subroutine drop
 
       !> A place between two numbers if the signs there differ.

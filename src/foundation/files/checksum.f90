@@ -15,9 +15,9 @@ module checksum
    integer, parameter :: seal_wrong = 2    !! it was changed after it was written
    integer, parameter :: seal_unread = 3   !! it cannot be read
 
-   integer(c_int), parameter :: least_seconds = 20_c_int           !! of processor time for an attempt
+   integer(c_int), parameter :: min_seconds = 20_c_int           !! of processor time for an attempt
    integer(i8), parameter :: bytes_per_second = 10000000_i8        !! of the file, for longer ones
-   integer(i8), parameter :: least_bytes = 1000000000_i8           !! of memory for an attempt
+   integer(i8), parameter :: min_bytes = 1000000000_i8           !! of memory for an attempt
    integer(i8), parameter :: bytes_per_byte = 16_i8                !! of the file, for larger ones
 
    abstract interface
@@ -122,8 +122,8 @@ contains
       integer(c_int) :: process
 
       bytes = max(0_i8, c_size_of(path//c_null_char))
-      process = c_begin_attempt(max(least_seconds, int(min(100000_i8, bytes/bytes_per_second), c_int)), &
-                                max(least_bytes, bytes_per_byte*bytes))
+      process = c_begin_attempt(max(min_seconds, int(min(100000_i8, bytes/bytes_per_second), c_int)), &
+                                max(min_bytes, bytes_per_byte*bytes))
       if (process == 0) call end_process(merge(0, 1, attempt(path)))
       survives = .true.  ! no copy can be made: it is done here
       if (process > 0) survives = c_end_attempt(process) == 0

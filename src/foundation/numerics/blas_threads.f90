@@ -17,7 +17,7 @@ module blas_threads
 
    integer(i8), parameter :: megabyte = 1048576_i8                  !! bytes
    integer(i8), parameter :: buffer_of_blas = 128_i8*megabyte       !! largest of OpenBLAS 0.3, BUFFER_SIZE of its param.h [byte]
-   integer(i8), parameter :: room_of_program = 32_i8*megabyte       !! for a small mechanism [byte]
+   integer(i8), parameter :: group_of_program = 32_i8*megabyte       !! for a small mechanism [byte]
    character(*), parameter :: threads_variable = "OPENBLAS_NUM_THREADS"  !! read by OpenBLAS as it is loaded
 
    interface
@@ -30,11 +30,11 @@ module blas_threads
          type(c_funptr) :: address                           !! null if there is none
       end function dlsym
 
-      integer(c_int) function c_has_room(bytes) bind(c, name="gudgeon_has_room")
+      integer(c_int) function c_has_capacity(bytes) bind(c, name="gudgeon_has_room")
          import :: c_int, c_int64_t
          implicit none (type, external)
          integer(c_int64_t), value :: bytes  !! that are wanted at once
-      end function c_has_room
+      end function c_has_capacity
 
       integer(c_int) function c_is_limited() bind(c, name="gudgeon_is_limited")
          import :: c_int
@@ -95,12 +95,12 @@ contains
 
       address = dlsym(c_null_ptr, "openblas_set_num_threads"//c_null_char)
       if (.not. c_associated(address)) return
-      if (c_is_limited() /= 0 .or. c_has_room(buffer_of_blas + room_of_program) == 0) then
+      if (c_is_limited() /= 0 .or. c_has_capacity(buffer_of_blas + group_of_program) == 0) then
          call get_environment_variable(threads_variable, threads, status=status)
          if (status /= 0 .or. threads /= "1") call begin_anew()
-         if (c_has_room(buffer_of_blas + room_of_program) == 0) then
+         if (c_has_capacity(buffer_of_blas + group_of_program) == 0) then
             call set_error(error, exit_file, "the memory limit is too low: OpenBLAS and the program need "// &
-                           to_text((buffer_of_blas + room_of_program)/megabyte)//" MB more than available (ulimit -v limits "// &
+                           to_text((buffer_of_blas + group_of_program)/megabyte)//" MB more than available (ulimit -v limits "// &
                               "the "// &
                            "address space)")
             return

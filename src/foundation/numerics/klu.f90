@@ -9,7 +9,7 @@ module klu
    private
    public :: sparse_lu_t
 
-   real(wp), parameter :: least_rcond = 1.0e-13_wp  !! ratio of pivots that is too small: new pivots, or singular [1]
+   real(wp), parameter :: min_rcond = 1.0e-13_wp  !! ratio of pivots that is too small: new pivots, or singular [1]
    integer(c_int), parameter :: amd = 0_c_int       !! KLU's number of the minimum degree ordering
    integer(c_int), parameter :: colamd = 1_c_int    !! and of that for matrices whose pivots are not on the diagonal
    integer(c_int), parameter :: no_scaling = -1_c_int  !! KLU's number for none: the caller scales
@@ -192,14 +192,14 @@ contains
       if (c_associated(self%numeric)) then
          done = klu_refactor(self%column, self%row, self%a, self%symbolic, self%numeric, self%common)
          if (done /= 0_c_int) done = klu_rcond(self%symbolic, self%numeric, self%common)
-         if (done /= 0_c_int .and. self%common%rcond > least_rcond) return
+         if (done /= 0_c_int .and. self%common%rcond > min_rcond) return
          call self%forget()
       end if
       self%chosen_for(:) = self%a
       self%numeric = klu_factor(self%column, self%row, self%a, self%symbolic, self%common)
       if (c_associated(self%numeric)) then
          done = klu_rcond(self%symbolic, self%numeric, self%common)
-         if (self%common%rcond > least_rcond) return
+         if (self%common%rcond > min_rcond) return
          call self%forget()
       end if
       bad = modulo(int(self%common%singular_col), self%n) + 1

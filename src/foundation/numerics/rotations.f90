@@ -192,14 +192,14 @@ contains
       real(wp), intent(in) :: second(3)   !! (3) direction near the second axis [1]
       real(wp) :: a(3, 3)                 !! (3, 3) the rotation [1]
 
-      real(wp), parameter :: least = 1.0e-6_wp  ! sine of the angle between them, at least [1]
+      real(wp), parameter :: minimum = 1.0e-6_wp  ! sine of the angle between them, at least [1]
 
       a = 0.0_wp
       if (.not. (norm2(first) > 0.0_wp .and. norm2(second) > 0.0_wp)) return
       a(:, 1) = first/norm2(first)
       a(:, 2) = second/norm2(second)
       a(:, 2) = a(:, 2) - dot_product(a(:, 1), a(:, 2))*a(:, 1)
-      if (norm2(a(:, 2)) < least) then
+      if (norm2(a(:, 2)) < minimum) then
          a = 0.0_wp
          return
       end if

@@ -16,7 +16,7 @@ module decimal_text
    character(*), parameter :: plain_format = "(es24.16e3, 1x)"    !! the same by the run-time library
    integer, parameter :: digits_after = 16                        !! after the first digit
    integer, parameter :: most = 300                               !! greatest power of ten in the table
-   real(wp), parameter :: greatest = 1.0e280_wp, least = 1.0e-280_wp  !! beyond them products may leave the range [any]
+   real(wp), parameter :: maximum = 1.0e280_wp, minimum = 1.0e-280_wp  !! beyond them products may leave the range [any]
    integer(i8), parameter :: upper_half = -134217728_i8           !! bits of sign, exponent and the first 26 of the digits
    real(wp), parameter :: doubt = 1.0e-6_wp                       !! fractions so near one half are not decided here
    integer(i8), parameter :: whole = 10_i8**digits_after          !! least number of 17 digits
@@ -39,7 +39,7 @@ contains
       k = 0
       is_sure = ieee_is_finite(x)
       if (is_sure) then
-         if (abs(x) > least .and. abs(x) < greatest) then
+         if (abs(x) > minimum .and. abs(x) < maximum) then
             call find_digits(abs(x), n, k, is_sure)
          else
             is_sure = abs(x) <= 0.0_wp

@@ -9,7 +9,8 @@ module text
    use text_buffer, only: buffer_t
    implicit none (type, external)
    private
-  public :: append_text, counted, exact_text, join, lower, piece, printable, real_text, replace, split_blank, starts_with, text_t, &
+  public :: append_text, counted, exact_text, join, lower, segment, printable, real_text, replace, split_blank, starts_with, &
+       text_t, &
       to_text
 
    !> A string of any length, so that lists of strings may be ragged.
@@ -142,7 +143,7 @@ contains
       integer :: k
 
       tail = figures(digits + 1:)
-      figures = piece(figures, 1, digits)
+      figures = segment(figures, 1, digits)
       if (tail == "5"//repeat("0", len(tail) - 1)) then
          figures = ""
          return
@@ -155,7 +156,7 @@ contains
          end if
          figures(k:k) = "0"
       end do
-      figures = "1"//piece(figures, 1, digits - 1)
+      figures = "1"//segment(figures, 1, digits - 1)
       power = power + 1
    end subroutine round_figures
 
@@ -244,7 +245,7 @@ contains
 
    !> A piece of a string, for the string itself to become it: `s = s(2:)` as it stands makes the room of `s` smaller before it is
    !> read (gfortran), and where the room moves reads what is no longer there.
-   pure function piece(string, first, last) result(s)
+   pure function segment(string, first, last) result(s)
       character(*), intent(in) :: string       !! the string
       integer, intent(in) :: first             !! first character of the piece
       integer, intent(in), optional :: last    !! last one; absent: that of the string
@@ -255,7 +256,7 @@ contains
       else
          s = string(first:)
       end if
-   end function piece
+   end function segment
 
    !> All strings of a list in one, with a separator between them.
    pure function join(list, separator) result(s)

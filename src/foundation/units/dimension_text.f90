@@ -8,47 +8,47 @@ module dimension_text
    public :: base_text, dimension_name, unit_text
 
    !> A unit and the quantity that it usually measures.
-   type :: known_t
+   type :: prescribed_t
       type(dim_t) :: dimension     !! exponents
       character(14) :: unit = ""   !! SI, of factor 1
       character(24) :: name = ""   !! the quantity
-   end type known_t
+   end type prescribed_t
 
    integer, parameter :: n_known = 33
-   type(known_t), parameter :: known(n_known) = [ &
-      & known_t(dim_t(), "1", "a dimensionless number"), &
-      & known_t(dim_t(kg=1), "kg", "a mass"), &
-      & known_t(dim_t(m=1), "m", "a length"), &
-      & known_t(dim_t(m=2), "m^2", "an area"), &
-      & known_t(dim_t(m=3), "m^3", "a volume"), &
-      & known_t(dim_t(s=1), "s", "a time"), &
-      & known_t(dim_t(s=-1), "s^-1", "a frequency"), &
-      & known_t(dim_t(rad=1), "rad", "an angle"), &
-      & known_t(dim_t(rad=1, s=-1), "rad/s", "an angular speed"), &
-      & known_t(dim_t(rad=1, s=-2), "rad/s^2", "an angular acceleration"), &
-      & known_t(dim_t(k=1), "K", "a temperature"), &
-      & known_t(dim_t(m=1, s=-1), "m/s", "a speed"), &
-      & known_t(dim_t(m=1, s=-2), "m/s^2", "an acceleration"), &
-      & known_t(dim_t(kg=1, m=1, s=-2), "N", "a force"), &
-      & known_t(dim_t(kg=1, m=2, s=-2), "N.m", "a moment"), &
-      & known_t(dim_t(kg=1, m=2, s=-3), "W", "a power"), &
-      & known_t(dim_t(kg=1, m=-1, s=-2), "Pa", "a pressure"), &
-      & known_t(dim_t(kg=1, m=-1, s=-1), "Pa.s", "a viscosity"), &
-      & known_t(dim_t(kg=1, m=2), "kg.m^2", "a moment of inertia"), &
-      & known_t(dim_t(kg=1, m=-3), "kg/m^3", "a density"), &
-      & known_t(dim_t(kg=1, s=-2), "N/m", "a stiffness"), &
-      & known_t(dim_t(kg=1, s=-1), "N.s/m", "a damping"), &
-      & known_t(dim_t(kg=1, m=-0.5_wp, s=-2), "N/m^1.5", "a contact stiffness"), &
-      & known_t(dim_t(kg=1, m=-0.5_wp, s=-1), "N.s/m^1.5", "a contact damping"), &
-      & known_t(dim_t(kg=1, m=2, s=-2, rad=-1), "N.m/rad", "an angular stiffness"), &
-      & known_t(dim_t(kg=1, m=2, s=-1, rad=-1), "N.m.s/rad", "an angular damping"), &
-      & known_t(dim_t(kg=1, m=2, s=-1), "N.m.s", "an angular momentum"), &
-      & known_t(dim_t(kg=1, m=1, s=-1), "N.s", "a momentum"), &
-      & known_t(dim_t(kg=1, m=1, s=-3, k=-1), "W/(m.K)", "a conductivity"), &
-      & known_t(dim_t(m=2, s=-2, k=-1), "J/(kg.K)", "a specific heat"), &
-      & known_t(dim_t(k=-1), "K^-1", "an inverse temperature"), &
-      & known_t(dim_t(m=-1, s=1), "s/m", "an inverse speed"), &
-      & known_t(dim_t(kg=-1, m=1, s=2), "Pa^-1", "an inverse pressure")]
+   type(prescribed_t), parameter :: known(n_known) = [ &
+      & prescribed_t(dim_t(), "1", "a dimensionless number"), &
+      & prescribed_t(dim_t(kg=1), "kg", "a mass"), &
+      & prescribed_t(dim_t(m=1), "m", "a length"), &
+      & prescribed_t(dim_t(m=2), "m^2", "an area"), &
+      & prescribed_t(dim_t(m=3), "m^3", "a volume"), &
+      & prescribed_t(dim_t(s=1), "s", "a time"), &
+      & prescribed_t(dim_t(s=-1), "s^-1", "a frequency"), &
+      & prescribed_t(dim_t(rad=1), "rad", "an angle"), &
+      & prescribed_t(dim_t(rad=1, s=-1), "rad/s", "an angular speed"), &
+      & prescribed_t(dim_t(rad=1, s=-2), "rad/s^2", "an angular acceleration"), &
+      & prescribed_t(dim_t(k=1), "K", "a temperature"), &
+      & prescribed_t(dim_t(m=1, s=-1), "m/s", "a speed"), &
+      & prescribed_t(dim_t(m=1, s=-2), "m/s^2", "an acceleration"), &
+      & prescribed_t(dim_t(kg=1, m=1, s=-2), "N", "a force"), &
+      & prescribed_t(dim_t(kg=1, m=2, s=-2), "N.m", "a moment"), &
+      & prescribed_t(dim_t(kg=1, m=2, s=-3), "W", "a power"), &
+      & prescribed_t(dim_t(kg=1, m=-1, s=-2), "Pa", "a pressure"), &
+      & prescribed_t(dim_t(kg=1, m=-1, s=-1), "Pa.s", "a viscosity"), &
+      & prescribed_t(dim_t(kg=1, m=2), "kg.m^2", "a moment of inertia"), &
+      & prescribed_t(dim_t(kg=1, m=-3), "kg/m^3", "a density"), &
+      & prescribed_t(dim_t(kg=1, s=-2), "N/m", "a stiffness"), &
+      & prescribed_t(dim_t(kg=1, s=-1), "N.s/m", "a damping"), &
+      & prescribed_t(dim_t(kg=1, m=-0.5_wp, s=-2), "N/m^1.5", "a contact stiffness"), &
+      & prescribed_t(dim_t(kg=1, m=-0.5_wp, s=-1), "N.s/m^1.5", "a contact damping"), &
+      & prescribed_t(dim_t(kg=1, m=2, s=-2, rad=-1), "N.m/rad", "an angular stiffness"), &
+      & prescribed_t(dim_t(kg=1, m=2, s=-1, rad=-1), "N.m.s/rad", "an angular damping"), &
+      & prescribed_t(dim_t(kg=1, m=2, s=-1), "N.m.s", "an angular momentum"), &
+      & prescribed_t(dim_t(kg=1, m=1, s=-1), "N.s", "a momentum"), &
+      & prescribed_t(dim_t(kg=1, m=1, s=-3, k=-1), "W/(m.K)", "a conductivity"), &
+      & prescribed_t(dim_t(m=2, s=-2, k=-1), "J/(kg.K)", "a specific heat"), &
+      & prescribed_t(dim_t(k=-1), "K^-1", "an inverse temperature"), &
+      & prescribed_t(dim_t(m=-1, s=1), "s/m", "an inverse speed"), &
+      & prescribed_t(dim_t(kg=-1, m=1, s=2), "Pa^-1", "an inverse pressure")]
 
 contains
 

@@ -92,13 +92,13 @@ contains
    contains
 
       !> A number of the statement; 0 if it is not there.
-      real(wp) function number(name, least) result(value)
+      real(wp) function number(name, minimum) result(value)
          character(*), intent(in) :: name   !! of the argument
-         integer, intent(in) :: least       !! letters that do for it
+         integer, intent(in) :: minimum       !! letters that do for it
 
          real(wp), allocatable :: numbers(:)
 
-         call argument_numbers(statement, name, numbers, mistakes, least)
+         call argument_numbers(statement, name, numbers, mistakes, minimum)
          value = 0.0_wp
          if (size(numbers) > 0) value = numbers(1)
       end function number
@@ -233,13 +233,13 @@ contains
       integer, parameter :: n = 2000       ! places looked at, and halvings of the last one
       type(expression_t) :: compiled
       type(fault_t), allocatable :: fault
-      real(wp) :: force, high, least, low, previous, step, stored, x
+      real(wp) :: force, high, minimum, low, previous, step, stored, x
       integer :: k, side
 
       rest = start
       call compile_expression(law(2:len(law) - 1), functions, .true., compiled, fault, "x", [merge(dim_angle, dim_length, turns)])
       if (allocated(fault)) return
-      least = 0.0_wp
+      minimum = 0.0_wp
       do side = -1, 1, 2
          step = pi/real(n, wp)
          if (.not. turns) step = start*merge(1.0_wp, 2.0_wp, side < 0)/real(n, wp)
@@ -250,8 +250,8 @@ contains
             force = force_at(x)
             stored = stored + 0.5_wp*side*step*(previous + force)
             previous = force
-            if (.not. stored < least - 1.0e-12_wp*abs(least)) cycle
-            least = stored
+            if (.not. stored < minimum - 1.0e-12_wp*abs(minimum)) cycle
+            minimum = stored
             rest = merge(x, max(x, 0.0_wp), turns)
          end do
       end do

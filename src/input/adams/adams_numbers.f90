@@ -26,12 +26,12 @@ contains
    end subroutine mistake
 
    !> Numbers of an argument; angles in degrees become radians.
-   subroutine argument_numbers(statement, name, numbers, mistakes, least, wanted)
+   subroutine argument_numbers(statement, name, numbers, mistakes, minimum, wanted)
       type(statement_t), intent(in) :: statement            !! the statement
       character(*), intent(in) :: name                      !! of the argument
       real(wp), allocatable, intent(out) :: numbers(:)      !! (n) none: there is no such argument [any]
       type(diagnostics_t), intent(inout) :: mistakes        !! collects what is no number
-      integer, intent(in), optional :: least                !! letters that do for the name
+      integer, intent(in), optional :: minimum                !! letters that do for the name
       integer, intent(in), optional :: wanted               !! how many there must be; left out: any number
 
       character(*), parameter :: counts(3) = [character(5) :: "one", "two", "three"]
@@ -41,7 +41,7 @@ contains
       logical :: is_finite
 
       allocate (numbers(0))
-      k = find_argument(statement, name, least)
+      k = find_argument(statement, name, minimum)
       if (k == 0) return
       do i = 1, size(statement%arguments(k)%values)
          word = statement%arguments(k)%values(i)%s
@@ -79,15 +79,15 @@ contains
    end subroutine vector_numbers
 
    !> The number of a statement that an argument names; 0: there is no such argument.
-   integer function id_of(statement, name, mistakes, least) result(id)
+   integer function id_of(statement, name, mistakes, minimum) result(id)
       type(statement_t), intent(in) :: statement            !! the statement
       character(*), intent(in) :: name                      !! of the argument
       type(diagnostics_t), intent(inout) :: mistakes        !! collects what is no number
-      integer, intent(in), optional :: least                !! letters that do for the name
+      integer, intent(in), optional :: minimum                !! letters that do for the name
 
       real(wp), allocatable :: numbers(:)
 
-      call argument_numbers(statement, name, numbers, mistakes, least, wanted=1)
+      call argument_numbers(statement, name, numbers, mistakes, minimum, wanted=1)
       id = 0
       if (size(numbers) > 0) id = nint(min(abs(numbers(1)), 1.0e9_wp))
    end function id_of

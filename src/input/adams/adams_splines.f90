@@ -19,7 +19,7 @@ module adams_splines
    use diagnostics, only: diagnostics_t
    use expression_symbols, only: symbol_function, symbol_t
    use kinds, only: wp
-   use spline, only: ends_fmm, least_samples, new_spline
+   use spline, only: ends_fmm, min_samples, new_spline
    use text, only: exact_text, to_text
    implicit none (type, external)
    private
@@ -120,8 +120,8 @@ contains
          message = "one of its samples is not a number"
       else if (size(x) /= size(y)) then
          message = "it has "//to_text(size(y))//" values at "//to_text(size(x))//" places"
-      else if (size(x) < least_samples) then
-         message = "it has fewer than "//to_text(least_samples)//" samples"
+      else if (size(x) < min_samples) then
+         message = "it has fewer than "//to_text(min_samples)//" samples"
       else if (any(x(2:) <= x(:size(x) - 1))) then
          message = "its abscissas do not increase"
       end if

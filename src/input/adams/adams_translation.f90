@@ -147,7 +147,7 @@ contains
             call deck_text(tree, it%arguments(k), words, a(k)%s, message)
          end do
          if (message /= "") return
-         if (n < least_arguments(it%name)) then
+         if (n < min_arguments(it%name)) then
             message = it%name//" has too few arguments"
             return
          end if
@@ -188,7 +188,7 @@ contains
             end do
             text = text//")"
          case ("IMPACT", "BISTOP")
-            if (.not. is_undamped(tree, node) .and. is_zero(tree, it%arguments(least_arguments(it%name)))) then
+            if (.not. is_undamped(tree, node) .and. is_zero(tree, it%arguments(min_arguments(it%name)))) then
                message = it%name//" with a damping that starts abruptly"
                return
             end if
@@ -232,13 +232,13 @@ contains
       is_undamped = .false.
       associate (it => tree%nodes(node))
          if (it%name /= "IMPACT" .and. it%name /= "BISTOP") return
-         if (size(it%arguments) < least_arguments(it%name)) return
-         is_undamped = is_zero(tree, it%arguments(least_arguments(it%name) - 1))
+         if (size(it%arguments) < min_arguments(it%name)) return
+         is_undamped = is_zero(tree, it%arguments(min_arguments(it%name) - 1))
       end associate
    end function is_undamped
 
    !> Arguments that a function has at least.
-   pure integer function least_arguments(name) result(n)
+   pure integer function min_arguments(name) result(n)
       character(*), intent(in) :: name  !! of the function
 
       select case (name)
@@ -250,7 +250,7 @@ contains
       case ("SIGN", "DIM", "ATAN2", "MIN", "MAX"); n = 2
       case default; n = 1
       end select
-   end function least_arguments
+   end function min_arguments
 
    !> Whether a node is the number zero.
    pure logical function is_zero(tree, node)

@@ -119,7 +119,7 @@ contains
             if (depth > 0 .or. scan(now%text(at:at), ",\") == 0) cycle
          end if
          head = min(first + verify(now%text(first:at - 1)//"x", " ") - 1, n)
-         call take_piece(trim(adjustl(now%text(first:at - 1))), now, head, cutting)
+         call take_segment(trim(adjustl(now%text(first:at - 1))), now, head, cutting)
          first = at + 1
       end do
       call end_argument(cutting)
@@ -127,27 +127,27 @@ contains
    end subroutine cut_arguments
 
    !> What stands between two commas: a new argument, or one more value of the last.
-   subroutine take_piece(piece, now, place, cutting)
-      character(*), intent(in) :: piece              !! without blanks around it
+   subroutine take_segment(segment, now, place, cutting)
+      character(*), intent(in) :: segment              !! without blanks around it
       type(gathered_t), intent(in) :: now            !! the statement
       integer, intent(in) :: place                   !! where it begins in its text
       type(cutting_t), intent(inout) :: cutting      !! changed or appended to
 
       integer :: at
 
-      if (len(piece) == 0) return
-      at = index(piece, "=")
+      if (len(segment) == 0) return
+      at = index(segment, "=")
       if (at > 0) then
-         call begin_argument(cutting, upper_case(trim(piece(:at - 1))), now, place)
-         call cutting%values%add(trim(adjustl(piece(at + 1:))))
-      else if (number_length(piece) == 0) then
-         call begin_argument(cutting, upper_case(piece), now, place)
+         call begin_argument(cutting, upper_case(trim(segment(:at - 1))), now, place)
+         call cutting%values%add(trim(adjustl(segment(at + 1:))))
+      else if (number_length(segment) == 0) then
+         call begin_argument(cutting, upper_case(segment), now, place)
       else if (cutting%values%n > 0) then
-         call cutting%values%add(piece)
+         call cutting%values%add(segment)
       else
-         call begin_argument(cutting, piece, now, place)
+         call begin_argument(cutting, segment, now, place)
       end if
-   end subroutine take_piece
+   end subroutine take_segment
 
    !> Begin an argument.
    subroutine begin_argument(cutting, name, now, place)
@@ -178,15 +178,15 @@ contains
    end subroutine end_argument
 
    !> The argument of some name; names may be abbreviated, down to some number of letters.
-   pure integer function find_argument(statement, name, least) result(k)
+   pure integer function find_argument(statement, name, minimum) result(k)
       type(statement_t), intent(in) :: statement   !! the statement
       character(*), intent(in) :: name             !! in capitals, in full
-      integer, intent(in), optional :: least       !! letters that do for it; left out: all
+      integer, intent(in), optional :: minimum       !! letters that do for it; left out: all
 
       integer :: i, n
 
       n = len(name)
-      if (present(least)) n = least
+      if (present(minimum)) n = minimum
       k = 0
       do i = 1, size(statement%arguments)
          associate (word => statement%arguments(i)%name)
@@ -197,27 +197,27 @@ contains
    end function find_argument
 
    !> The expression of an argument; blank: there is no such argument, or nothing behind it.
-   pure function expression_of(statement, name, least) result(text)
+   pure function expression_of(statement, name, minimum) result(text)
       type(statement_t), intent(in) :: statement   !! the statement
       character(*), intent(in) :: name             !! in capitals, in full
-      integer, intent(in), optional :: least       !! letters that do for it; left out: all
+      integer, intent(in), optional :: minimum       !! letters that do for it; left out: all
       character(:), allocatable :: text            !! as written
 
       integer :: k
 
       text = ""
-      k = find_argument(statement, name, least)
+      k = find_argument(statement, name, minimum)
       if (k == 0) return
       if (size(statement%arguments(k)%values) > 0) text = statement%arguments(k)%values(1)%s
    end function expression_of
 
    !> Whether a statement has a word.
-   pure logical function has_word(statement, name, least)
+   pure logical function has_word(statement, name, minimum)
       type(statement_t), intent(in) :: statement   !! the statement
       character(*), intent(in) :: name             !! in capitals, in full
-      integer, intent(in), optional :: least       !! letters that do for it; left out: all
+      integer, intent(in), optional :: minimum       !! letters that do for it; left out: all
 
-      has_word = find_argument(statement, name, least) > 0
+      has_word = find_argument(statement, name, minimum) > 0
    end function has_word
 
    !> The beginning of what is said of a place.

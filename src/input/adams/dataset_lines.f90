@@ -8,7 +8,7 @@
 module dataset_lines
    use item, only: location_t
    use source_text, only: line_of, n_line_of, source_t
-   use text, only: lower, piece
+   use text, only: lower, segment
    implicit none (type, external)
    private
    public :: gathered_t, next_statement, reader_t, start_reader, upper_case
@@ -53,7 +53,7 @@ contains
       reader%rest = ""
       reader%view_name = ""
       at = verify(title, "! ")
-      title = piece(title, merge(at, len(title) + 1, at > 0))
+      title = segment(title, merge(at, len(title) + 1, at > 0))
    end subroutine start_reader
 
    !> The next statement; one without text: there is none.

@@ -94,7 +94,7 @@ contains
       character(:), allocatable :: whole            !! without VARVAL, if all of them are expressions
 
       integer, parameter :: deepest = 8, longest = 20000
-      character(:), allocatable :: digits, piece
+      character(:), allocatable :: digits, segment
       integer :: at, id, k, last, level, next
 
       level = 0
@@ -110,26 +110,26 @@ contains
          k = find_statement(model, "VARIABLE", id)
          if (k == 0) return
          associate (variable => model%statements(k))
-            piece = expression_of(variable, "FUNCTION", 3)
+            segment = expression_of(variable, "FUNCTION", 3)
          end associate
-         if (piece == "") return
-         piece = "("//with_variables(model, piece, level + 1)//")"
-         whole = replaced(whole, at, last, piece)
-         at = at + len(piece)      ! what one within it left is not looked at again
+         if (segment == "") return
+         segment = "("//with_variables(model, segment, level + 1)//")"
+         whole = replaced(whole, at, last, segment)
+         at = at + len(segment)      ! what one within it left is not looked at again
          next = index(upper_case(whole(at:)), "VARVAL(")
          at = merge(at - 1 + next, 0, next > 0)
       end do
    end function with_variables
 
    !> A text with a piece of it replaced.
-   pure function replaced(text, first, last, piece) result(whole)
+   pure function replaced(text, first, last, segment) result(whole)
       character(*), intent(in) :: text        !! the text
       integer, intent(in) :: first            !! where the piece begins
       integer, intent(in) :: last             !! where it ends
-      character(*), intent(in) :: piece       !! what takes its place
+      character(*), intent(in) :: segment       !! what takes its place
       character(:), allocatable :: whole      !! the new text
 
-      whole = text(:first - 1)//piece//text(last + 1:)
+      whole = text(:first - 1)//segment//text(last + 1:)
    end function replaced
 
    !> Add the terms of a sum to the parts of a force.

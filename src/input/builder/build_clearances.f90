@@ -24,11 +24,11 @@ module build_clearances
    use ties, only: find_joint, kind_number, tie_of, tie_set, tie_t
    implicit none (type, external)
    private
-   public :: add_clearances, has_ideal, is_ideal, levels_as_written, levels_ideal, levels_loose
+   public :: add_clearances, has_ideal, is_ideal, levels_as_written, levels_ideal, levels_clearance_joints
 
    integer, parameter :: levels_as_written = 0  !! every joint with clearance as its row says
    integer, parameter :: levels_ideal = 1       !! every one ideal: the ideal twin
-   integer, parameter :: levels_loose = 2       !! every one loose: all that a deck can have words for
+   integer, parameter :: levels_clearance_joints = 2       !! every one loose: all that a deck can have words for
 
 contains
 
@@ -61,7 +61,7 @@ contains
                is_done(chosen) = .true.
                n = n + 1
                call take_items(items, chosen, some)
-               call add_loose_set(scene, k, some, is_driven, slots(n), system)
+               call add_clearance_set(scene, k, some, is_driven, slots(n), system)
             end do
             if (any(is_twin)) then
                chosen = pack([(i, i=1, size(items))], is_twin)
@@ -71,10 +71,10 @@ contains
             end if
          end associate
       end do
-      allocate (system%loose%sets(n), system%linkage%ideal(n_ideal))
-      system%loose%n_set = n
+      allocate (system%clearance_joints%sets(n), system%linkage%ideal(n_ideal))
+      system%clearance_joints%n_set = n
       do k = 1, n
-         call move_alloc(slots(k)%set, system%loose%sets(k)%set)
+         call move_alloc(slots(k)%set, system%clearance_joints%sets(k)%set)
       end do
       do k = 1, n_ideal
          call move_alloc(twins(k)%set, system%linkage%ideal(k)%set)
@@ -165,7 +165,7 @@ contains
    end function count_clearances
 
    !> One set of loose joints with its laws, fitted to the surfaces.
-   subroutine add_loose_set(scene, kind, items, is_driven, slot, system)
+   subroutine add_clearance_set(scene, kind, items, is_driven, slot, system)
       type(scene_t), intent(in) :: scene              !! the scene
       integer, intent(in) :: kind                     !! number of the geometry
       type(item_t), intent(in) :: items(:)            !! rows that share their laws
@@ -196,10 +196,10 @@ contains
          call make_joint(scene, ties(i)%joint(1), system%linkage%motion, joints(i)%set, slot%set%items%leaves(i))
          slot%set%items%way(:, i) = joints(i)%set%way_of(1)
       end do
-      slot%set%before%items = system%loose%n
-      slot%set%before%contacts = system%loose%n_contact
-      system%loose%n = system%loose%n + slot%set%n
-      system%loose%n_contact = system%loose%n_contact + slot%set%n_contact
+      slot%set%before%items = system%clearance_joints%n
+      slot%set%before%contacts = system%clearance_joints%n_contact
+      system%clearance_joints%n = system%clearance_joints%n + slot%set%n
+      system%clearance_joints%n_contact = system%clearance_joints%n_contact + slot%set%n_contact
       film = cell_index(scene%clearances(kind)%info, items(1), "film")
       if (film > 0) then
          if (scene%clearances(kind)%info%space == in_space) then
@@ -208,11 +208,11 @@ contains
             allocate (bearing_films_t :: slot%set%laws%films)
          end if
          call new_bearing_films(items, scene%lubrication%films(film)%law, scene%lubrication%oils, slot%set%laws%films)
-         system%loose%has_films = system%loose%has_films .or. slot%set%laws%films%acts
+         system%clearance_joints%has_films = system%clearance_joints%has_films .or. slot%set%laws%films%acts
       end if
       call slot%set%prepare(items)
       if (film > 0) then
-         if (slot%set%laws%films%acts) system%loose%film_clearance = min(system%loose%film_clearance, &
+         if (slot%set%laws%films%acts) system%clearance_joints%film_clearance = min(system%clearance_joints%film_clearance, &
                                                                          minval(slot%set%items%clearance))
       end if
       do i = 1, size(items)
@@ -220,7 +220,7 @@ contains
       end do
       call slot%set%set_start(system%linkage%motion)
       call slot%set%fit_law(items, scene%materials, scene%bodies%mass, is_driven)
-   end subroutine add_loose_set
+   end subroutine add_clearance_set
 
    !> The normal law of a row: none where a film alone holds the surfaces apart, or the row names none; half of one at each of two
    !> bases that carry together; one that comes in by degrees where a film goes out by degrees.

@@ -4,7 +4,7 @@
 !> Planar: or spatial, here the coordinates are chosen.
 module build_linkage
    use augmented_schur, only: schur_is_cheap
-   use build_known, only: choice_t, list_carried, start_angles
+   use build_prescribed, only: choice_t, list_carried, start_angles
    use columns, only: find_column
    use item, only: item_t, take_items
    use joint_friction, only: new_joint_friction
@@ -73,17 +73,17 @@ contains
       do k = 1, n_joint_kinds
          if (size(scene%joints(k)%items) == 0 .or. .not. is_taken(k)) cycle
          if (any(choices(k)%is_fixing)) n = n + 1
-         n = n + n_piece(count(.not. choices(k)%is_fixing))
+         n = n + n_segment(count(.not. choices(k)%is_fixing))
       end do
       allocate (linkage%joints(n))
    end subroutine count_sets
 
    !> Sets that the solved joints of a kind make.
-   pure integer function n_piece(n)
+   pure integer function n_segment(n)
       integer, intent(in) :: n   !! the joints
 
-      n_piece = (n + items_of_set - 1)/items_of_set
-   end function n_piece
+      n_segment = (n + items_of_set - 1)/items_of_set
+   end function n_segment
 
    !> Ideal joints and drivers that are solved for, or those that fix known bodies: one set per kind that has such rows. Of solved
    !> ones that are many, one for each `items_of_set`.
@@ -192,10 +192,10 @@ contains
          call linkage%ideal(k)%set%declare_rows(linkage%rows)
       end do
       is_reduced = linkage%reduced%is_known
-      is_reduced(linkage%reduced%guided%held%body) = .true.
+      is_reduced(linkage%reduced%one_dof%held%body) = .true.
       call list_sides(is_reduced, linkage%rows)
       call list_carried(linkage)
-      call linkage%make_room
+      call linkage%make_storage
    end subroutine declare_rows
 
    !> The solver the deck asks for; `auto` is the cheaper of the Schur complement and the sparse matrix.

@@ -2,17 +2,17 @@
 !>
 !> Bodies, ideal joints and drivers: see `build_linkage`; joints with clearance: see `build_clearances`.
 module build_system
-   use build_clearances, only: add_clearances, levels_as_written, levels_ideal, levels_loose
-   use build_known, only: choose_bodies, reduction_t, set_guided, set_known, start_angles
+   use build_clearances, only: add_clearances, levels_as_written, levels_ideal, levels_clearance_joints
+   use build_prescribed, only: choose_bodies, reduction_t, set_one_dof, set_prescribed, start_angles
    use build_linkage, only: add_joints, begin_linkage, choose_solver, count_sets, declare_rows
    use clearance_set, only: clearance_set_t, n_integrand
    use contact_places, only: place_of_film_loss, slip_function, touch_function, transition_function, turn_function
-   use find_known, only: has_smooth_cells
+   use find_prescribed, only: has_smooth_cells
    use force_registry, only: n_force_kinds, new_force_set
    use friction_law, only: memory_bristle, memory_slip
-   use grip_forces, only: new_grip_forces
-   use hold, only: hold_t
-   use hold_registry, only: n_hold_kinds, new_hold
+   use stick_slip_forces, only: new_stick_slip_forces
+   use stabilisation, only: stabilisation_t
+   use stabilisation_registry, only: n_stabilisation_kinds, new_stabilisation
    use item, only: option_t, place_of
    use joint_registry, only: n_joint_kinds
    use kinds, only: wp
@@ -24,10 +24,10 @@ module build_system
    use scene, only: analysis_dynamic, scene_t
    use scene_groups, only: sees_motion
    use scene_size, only: is_large
-   use start_piece, only: piece_at_start
+   use start_segment, only: segment_at_start
    implicit none (type, external)
    private
-   public :: levels_as_written, levels_ideal, levels_loose, new_system
+   public :: levels_as_written, levels_ideal, levels_clearance_joints, new_system
 
 contains
 
@@ -61,34 +61,35 @@ contains
          linkage%rows%n_solve = linkage%rows%n
          linkage%n_solved_set = count([(allocated(linkage%joints(k)%set), k=1, size(linkage%joints))])
          call add_joints(scene, choices, is_taken, .false., linkage)
-         call set_known(scene, reduction%links, choices, linkage)
-         call set_guided(scene, reduction%guides, choices, linkage)
-         linkage%piece = piece_at_start(scene)
+         call set_prescribed(scene, reduction%links, choices, linkage)
+         call set_one_dof(scene, reduction%guides, choices, linkage)
+         linkage%segment = segment_at_start(scene)
          call declare_rows(linkage)
          call new_rubbing(linkage%joints, linkage%n_solved_set, linkage%solution%a, linkage%rows%n, system%friction%rubbing)
          system%n_row = linkage%rows%n_solve
          system%n_position = linkage%n_position
          if (linkage%coordinates%turns_in_body) system%traits%n_turning = linkage%rows%n_unknown
-         call choose_hold(scene, system)
+         call choose_stabilisation(scene, system)
          call choose_solver(scene, system%way%name(), linkage)
       end associate
       call system%set_step(huge(1.0_wp))  ! gains and penalties that do not wait for a step
-      call add_loads(scene, system%linkage%coordinates%n_v, system%loose%n, system%linkage%motion, system%loading)
+      call add_loads(scene, system%linkage%coordinates%n_v, system%clearance_joints%n, system%linkage%motion, system%loading)
       system%loading%counts_turns = system%loading%counts_turns &
                                     .or. any([(scene%joints(k)%info%counts_turns .and. size(scene%joints(k)%items) > 0, &
                                                k=1, n_joint_kinds)])
-      allocate (system%loose%integrands(n_integrand, system%loose%n_contact), source=0.0_wp)
-      if (scene%analysis == analysis_dynamic) system%n_impulse = system%loose%n_contact
-      system%n_quadrature = merge(place_of_film_loss(system%loose%n_contact, system%friction%rubbing%n > 0) &
-                                  - merge(0, 1, system%loose%has_films), 0, &
+      allocate (system%clearance_joints%integrands(n_integrand, system%clearance_joints%n_contact), source=0.0_wp)
+      if (scene%analysis == analysis_dynamic) system%n_impulse = system%clearance_joints%n_contact
+      system%n_quadrature = merge(place_of_film_loss(system%clearance_joints%n_contact, system%friction%rubbing%n > 0) &
+                                  - merge(0, 1, system%clearance_joints%has_films), 0, &
                                   system%ledger%is_kept) + system%n_impulse
       system%n = system%linkage%n_position + system%linkage%n_rate + system%n_quadrature
-      call count_grips(system)
+      call count_stick_slips(system)
       call add_event_functions(system)
-      system%is_large = is_large(scene) .and. system%linkage%reduced%guided%n == 0 .and. system%friction%grips%n_bristle == 0 &
+      system%is_large = is_large(scene) .and. system%linkage%reduced%one_dof%n == 0 &
+           .and. system%friction%stick_slips%n_bristle == 0 &
                         .and. system%friction%rubbing%n == 0 .and. .not. sees_motion(scene)
       ! forces of contacts that stick hang on all that they are joined with, which the pattern of a Newton matrix does not know
-      if (system%friction%grips%n_slip > 0 .and. scene%settings%dynamic%word("method") == "ida") system%is_large = .false.
+      if (system%friction%stick_slips%n_slip > 0 .and. scene%settings%dynamic%word("method") == "ida") system%is_large = .false.
       call bind_reactions(system)
       call system%choose_form()
    end subroutine new_system
@@ -99,16 +100,16 @@ contains
 
       integer :: k
 
-      system%loose%functions%n_contact = system%loose%n_contact
-      call system%loose%functions%add(touch_function)
-      if (system%friction%grips%n_slip > 0) call system%loose%functions%add(slip_function)
-      if (any([(system%loose%sets(k)%set%laws%normal%jumps_at_turn, k=1, size(system%loose%sets))])) then
-         call system%loose%functions%add(turn_function)
+      system%clearance_joints%functions%n_contact = system%clearance_joints%n_contact
+      call system%clearance_joints%functions%add(touch_function)
+      if (system%friction%stick_slips%n_slip > 0) call system%clearance_joints%functions%add(slip_function)
+      if (any([(system%clearance_joints%sets(k)%set%laws%normal%jumps_at_turn, k=1, size(system%clearance_joints%sets))])) then
+         call system%clearance_joints%functions%add(turn_function)
       end if
-      if (any([(has_transition(system%loose%sets(k)%set), k=1, size(system%loose%sets))])) then
-         call system%loose%functions%add(transition_function)
+      if (any([(has_transition(system%clearance_joints%sets(k)%set), k=1, size(system%clearance_joints%sets))])) then
+         call system%clearance_joints%functions%add(transition_function)
       end if
-      system%n_event = system%loose%functions%n
+      system%n_event = system%clearance_joints%functions%n
    end subroutine add_event_functions
 
    !> Whether films of a set go out over a transition.
@@ -120,7 +121,7 @@ contains
    end function has_transition
 
    !> Room for friction that remembers: a state for each contact with bristles.
-   subroutine count_grips(system)
+   subroutine count_stick_slips(system)
       type(mechanism_t), intent(inout) :: system  !! the system, all else counted
 
       integer :: k, n_bristle, n_force, n_slip
@@ -128,27 +129,27 @@ contains
       n_bristle = 0
       n_force = 0
       n_slip = 0
-      do k = 1, size(system%loose%sets)
-         associate (set => system%loose%sets(k)%set)
+      do k = 1, size(system%clearance_joints%sets)
+         associate (set => system%clearance_joints%sets(k)%set)
             call set%place_bristles(n_bristle)
-            if (set%grip%memory == memory_bristle) n_bristle = n_bristle + set%grip%n_component*set%n_contact
-            if (set%grip%memory /= memory_slip) cycle
+            if (set%stick_slip%memory == memory_bristle) n_bristle = n_bristle + set%stick_slip%n_component*set%n_contact
+            if (set%stick_slip%memory /= memory_slip) cycle
             n_slip = n_slip + set%n_contact
-            n_force = n_force + set%grip%n_tangent*set%n_contact
+            n_force = n_force + set%stick_slip%n_tangent*set%n_contact
          end associate
       end do
       system%friction%rubbing%first_bristle = n_bristle
       n_bristle = n_bristle + system%friction%rubbing%n_bristle
       system%n = system%n + n_bristle
-      call new_grip_forces(n_slip, n_force, n_bristle, system%linkage%solution%a, system%linkage%rows%n, system%n, &
-                           system%friction%grips)
-   end subroutine count_grips
+      call new_stick_slip_forces(n_slip, n_force, n_bristle, system%linkage%solution%a, system%linkage%rows%n, system%n, &
+                           system%friction%stick_slips)
+   end subroutine count_stick_slips
 
    !> Gravity, and force elements: one set per kind that has rows.
-   subroutine add_loads(scene, n_v, n_loose, motion, loading)
+   subroutine add_loads(scene, n_v, n_clearance_joint, motion, loading)
       type(scene_t), intent(in) :: scene              !! the scene
       integer, intent(in) :: n_v                      !! rates of a body
-      integer, intent(in) :: n_loose                  !! loose joints
+      integer, intent(in) :: n_clearance_joint                  !! loose joints
       type(motion_t), intent(in) :: motion            !! bodies where the deck puts them
       type(loading_t), intent(inout) :: loading       !! gravity and forces are set
 
@@ -164,7 +165,7 @@ contains
       call start_loads(n, loading%weight, loading%loads%force, loading%loads%moment)
       allocate (loading%forces(count([(size(scene%forces(k)%items) > 0, k=1, n_force_kinds)])))
       loading%n_set = size(loading%forces)
-      loading%loads%is_weight = loading%n_set + n_loose == 0  ! and stays so
+      loading%loads%is_weight = loading%n_set + n_clearance_joint == 0  ! and stays so
       n = 0
       do k = 1, n_force_kinds
          if (size(scene%forces(k)%items) == 0) cycle
@@ -179,11 +180,11 @@ contains
    !> The way of holding the constraints that the deck asks for. `auto` is projection, which leaves neither violations nor the
    !> traces of gains in the motion; nothing where there is nothing to hold or the integrator holds by itself; Baumgarte's
    !> stabilisation where a driver jumps, because a jump cannot be projected.
-   subroutine choose_hold(scene, system)
+   subroutine choose_stabilisation(scene, system)
       type(scene_t), intent(in) :: scene              !! the scene
       type(mechanism_t), intent(inout) :: system  !! the way is set
 
-      class(hold_t), allocatable :: way
+      class(stabilisation_t), allocatable :: way
       character(:), allocatable :: word
       integer :: k
 
@@ -196,8 +197,8 @@ contains
             if (system%linkage%rows%n_solve == 0 .or. &
                 scene%settings%dynamic%word("method") == "ida") word = "none"
          end if
-         do k = 1, n_hold_kinds
-            call new_hold(k, way)
+         do k = 1, n_stabilisation_kinds
+            call new_stabilisation(k, way)
             if (way%name() == word) exit
          end do
          if (allocated(value%options)) then
@@ -207,7 +208,7 @@ contains
          end if
       end associate
       call system%take_way(way)
-   end subroutine choose_hold
+   end subroutine choose_stabilisation
 
    !> Whether no driver jumps.
    pure logical function all_smooth(scene)

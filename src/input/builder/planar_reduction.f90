@@ -4,8 +4,8 @@ module planar_reduction
    use driver_speed, only: driver_speed_t
    use joint_set, only: joint_set_t
    use kinds, only: wp
-   use planar_guided, only: planar_guide_t
-   use planar_known, only: planar_link_t
+   use planar_one_dof, only: planar_guide_t
+   use planar_prescribed, only: planar_link_t
    use reduced_bodies, only: held_t
    implicit none (type, external)
    private

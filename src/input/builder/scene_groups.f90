@@ -6,7 +6,7 @@
 module scene_groups
    use bodies, only: take_bodies
    use clearance_registry, only: n_clearance_kinds
-   use find_known, only: find_known_bodies, link_t, takes_work
+   use find_prescribed, only: find_prescribed_bodies, link_t, takes_work
    use force_registry, only: n_force_kinds
    use item, only: item_t
    use joint_registry, only: n_joint_kinds
@@ -119,7 +119,7 @@ contains
          do i = 1, size(scene%forces(k)%items)
             do c = 1, size(scene%forces(k)%items(i)%values)
                if (.not. allocated(scene%forces(k)%items(i)%values(c)%expression)) cycle
-               sees = sees .or. allocated(scene%forces(k)%items(i)%values(c)%expression%sights)
+               sees = sees .or. allocated(scene%forces(k)%items(i)%values(c)%expression%observables)
             end do
          end do
       end do
@@ -189,7 +189,7 @@ contains
       logical :: is_known(scene%bodies%n), moves(scene%bodies%n)
       integer :: k, first
 
-      call find_known_bodies(scene, links)
+      call find_prescribed_bodies(scene, links)
       is_known = .false.
       is_known(links%body) = .true.
       moves = .false.

@@ -8,22 +8,22 @@ module spatial_reduction
    use motion, only: cross
    use reduced_bodies, only: held_t
    use rotations, only: euler_parameters_of, product_of
-   use spatial_guided, only: spatial_guide_t
+   use spatial_one_dof, only: spatial_guide_t
    use spatial_joint, only: spatial_joint_t
-   use spatial_known, only: spatial_link_t
+   use spatial_prescribed, only: spatial_link_t
    implicit none (type, external)
    private
    public :: spatial_guide, spatial_link
 
    !> A joint as seen from the body that it holds.
-   type :: seen_joint_t
+   type :: observed_joint_t
       real(wp) :: in_body(3, 3)   !! (3, 3) its axes as columns, frame of the body [1]
       real(wp) :: in_base(3, 3)   !! (3, 3) the same, frame of the base [1]
       real(wp) :: s_body(3)       !! (3) its point, frame of the body [m]
       real(wp) :: s_base(3)       !! (3) the same, frame of the base [m]
       real(wp) :: q_0(4)          !! (4) Euler parameters of the body against the base at angle zero [1]
       real(wp) :: q_1(4)          !! (4) those at half a turn [1]
-   end type seen_joint_t
+   end type observed_joint_t
 
 contains
 
@@ -36,10 +36,10 @@ contains
       real(wp), intent(in) :: p(:, 0:)        !! (4, 0:bodies) Euler parameters where the deck puts the bodies [1]
       type(spatial_link_t) :: link            !! what the kernel needs
 
-      type(seen_joint_t) :: seen
+      type(observed_joint_t) :: seen
       real(wp) :: sense, sign
 
-      seen = seen_from(set, k, held%side)
+      seen = observed_from(set, k, held%side)
       link%s_body = seen%s_body
       link%s_base = seen%s_base
       sense = merge(1.0_wp, -1.0_wp, held%side == 2)
@@ -60,10 +60,10 @@ contains
       real(wp), intent(in) :: p(:, 0:)        !! (4, 0:bodies) Euler parameters where the deck puts the bodies [1]
       type(spatial_guide_t) :: guide          !! what the kernel needs
 
-      type(seen_joint_t) :: seen
+      type(observed_joint_t) :: seen
       real(wp) :: sign
 
-      seen = seen_from(set, k, held%side)
+      seen = observed_from(set, k, held%side)
       sign = sign_of(seen%q_0, p(:, held%base), p(:, held%body))  ! the coordinate begins within half a turn of zero
       guide%mass = mass
       guide%q_0 = sign*seen%q_0
@@ -90,11 +90,11 @@ contains
    end function sign_of
 
    !> A joint as seen from one of its bodies.
-   function seen_from(set, k, side) result(seen)
+   function observed_from(set, k, side) result(seen)
       class(joint_set_t), intent(in) :: set   !! the joint's set
       integer, intent(in) :: k                !! its item
       integer, intent(in) :: side             !! side of the body, 1: i, 2: j
-      type(seen_joint_t) :: seen              !! the joint
+      type(observed_joint_t) :: seen              !! the joint
 
       real(wp), parameter :: half_turn(4) = [0.0_wp, 0.0_wp, 0.0_wp, 1.0_wp]  ! about z
       real(wp) :: back(4)
@@ -111,6 +111,6 @@ contains
       back = euler_parameters_of(transpose(seen%in_body))
       seen%q_0 = product_of(euler_parameters_of(seen%in_base), back)
       seen%q_1 = product_of(euler_parameters_of(seen%in_base), product_of(half_turn, back))
-   end function seen_from
+   end function observed_from
 
 end module spatial_reduction

@@ -11,7 +11,7 @@ module cell_checks
    private
    public :: check_choice, check_count, check_range, is_name
 
-   real(wp), parameter :: least_magnitude = 1.0e-50_wp   !! of a number that is not zero, SI [any]
+   real(wp), parameter :: min_magnitude = 1.0e-50_wp   !! of a number that is not zero, SI [any]
    real(wp), parameter :: most_magnitude = 1.0e50_wp     !! of a number, so that products of some of them are finite, SI [any]
    real(wp), parameter :: most_angle = 1.0e-6_wp/eps     !! of an angle: the next number is 1e-6 rad away [rad]
 
@@ -84,9 +84,9 @@ contains
                               " rad in magnitude", "the spacing of numbers exceeds 1e-6 rad here: subtract whole revolutions")
             return
          end if
-         if (.not. (abs(x) > 0.0_wp) .or. (abs(x) >= least_magnitude .and. abs(x) <= most_magnitude)) return
+         if (.not. (abs(x) > 0.0_wp) .or. (abs(x) >= min_magnitude .and. abs(x) <= most_magnitude)) return
          call mistakes%add(location, to_text(x)//" is out of range "//place, "allowed: 0, and "// &
-                           to_text(least_magnitude)//" to "//to_text(most_magnitude)//" in magnitude, in SI units")
+                           to_text(min_magnitude)//" to "//to_text(most_magnitude)//" in magnitude, in SI units")
          return
       end if
       suffix = ""

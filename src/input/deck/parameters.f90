@@ -11,7 +11,7 @@ module parameters
    use quantities, only: is_not_finite, is_numeric, quantity_t, word_in_brace
    use source_text, only: line_of
    use spelling, only: nearest_word
-   use text, only: join, piece, text_t
+   use text, only: join, segment, text_t
    use tokens, only: lex_line, span, token_brace, token_equals, token_t, token_word
    implicit none (type, external)
    private
@@ -224,7 +224,7 @@ contains
 
       at = span(list(1), list(size(list)))
       s = line_of(deck%sources(at%file), at%line)
-      s = piece(s, at%first, at%last)
+      s = segment(s, at%first, at%last)
    end function as_written
 
    !> Report overrides of parameters that the deck does not have.

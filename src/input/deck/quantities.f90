@@ -13,9 +13,9 @@ module quantities
    use item, only: location_t
    use kind_info, only: column_t, dim_none, dim_t, same_dimension
    use kinds, only: wp
-   use sight_words, only: sight_words_t
+   use observable_words, only: observable_words_t
    use numbers, only: number_length
-   use text, only: lower, piece, to_text
+   use text, only: lower, segment, to_text
    use tokens, only: token_brace, token_t
    use units, only: largest_quantity, parse_unit, read_quantity, unit_t
    implicit none (type, external)
@@ -80,7 +80,7 @@ contains
       help = ""
       k = index(message, ": did you mean")
       if (k > 0) help = message(k + 2:)
-      if (k > 0) message = piece(message, 1, k - 1)
+      if (k > 0) message = segment(message, 1, k - 1)
       at = location
       at%first = location%first + first - 1
       at%last = location%first + last - 1
@@ -172,7 +172,7 @@ contains
       if (present(column)) then
          if (column%sees_motion) then
             call compile_expression(text_of(deck, token), deck%symbols, has_variable, compiled, fault, column%variable, &
-                                  & column%argument, sight_words_t())
+                                  & column%argument, observable_words_t())
          else
             call compile_expression(text_of(deck, token), deck%symbols, has_variable, compiled, fault, column%variable, &
                                   & column%argument)

@@ -16,7 +16,7 @@ module sweep_table
    use source_text, only: line_of, n_line_of, read_source, source_t
    use spelling, only: nearest_word
    use swept, only: most_cases, swept_t
-   use text, only: join, text_t, piece, to_text
+   use text, only: join, text_t, segment, to_text
    use text_list, only: text_list_t
    use units, only: unit_t
    implicit none (type, external)
@@ -157,7 +157,7 @@ contains
       cell%is_quoted = index(cell%text, """") == 1
       if (cell%is_quoted) then
          cell%is_quoted = len(cell%text) > 1 .and. index(cell%text(2:), """") == len(cell%text) - 1
-         if (cell%is_quoted) cell%text = piece(cell%text, 2, len(cell%text) - 1)
+         if (cell%is_quoted) cell%text = segment(cell%text, 2, len(cell%text) - 1)
          if (.not. cell%is_quoted) call mistakes%add(cell%location, "invalid text in quotes", "write: ""text""")
       else if (len(cell%text) == 0) then
          call mistakes%add(cell%location, "empty cell in the sweep file", "expected a value")

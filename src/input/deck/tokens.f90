@@ -8,7 +8,7 @@ module tokens
    use item, only: location_t
    use source_text, only: line_of, source_t
    use text_buffer, only: buffer_t
-   use text, only: piece
+   use text, only: segment
    implicit none (type, external)
    private
    public :: has_content, lex_line, span, token_brace, token_equals, token_list_t, token_quoted, token_t, token_text, token_word
@@ -180,7 +180,7 @@ contains
          end associate
       end associate
       if (token%kind == token_brace) then
-         s = piece(s, 2, len(s) - 1)
+         s = segment(s, 2, len(s) - 1)
       else if (token%kind == token_quoted) then
          s = unescaped(s(2:len(s) - 1))
       end if

@@ -8,7 +8,7 @@
 !> Laws are those whose acceleration has no jumps. Where a formula changes is an instant, so that steps end there.
 !> Source: R. L. Norton, Cam design and manufacturing handbook (2002), chapters 3 and 4. Limits: none.
 module function_cam
-   use curve, only: beyond_hold, beyond_periodic, rise_t
+   use curve, only: beyond_stabilisation, beyond_periodic, rise_t
    use dimension_text, only: dimension_name, unit_text
    use function_kind, only: function_kind_t, made_t
    use item, only: item_t, place_of
@@ -64,7 +64,7 @@ contains
          made%argument = rise%dimensions(1)
          begin = item%number("start")
          total = rise%number + item%number("dwell") + item%number("return")
-         made%curve%beyond = beyond_hold
+         made%curve%beyond = beyond_stabilisation
          if (item%is_given("period")) then
             made%curve%beyond = beyond_periodic
             total = item%number("period")

@@ -8,7 +8,7 @@
 !> Each coefficient has the dimension of the function over a time to its power. Source: Flores et al. (2008),
 !> section 2.2 (driver functions). Limits: degree 7.
 module function_polynomial
-   use curve, only: beyond_error, beyond_hold, beyond_linear, beyond_same
+   use curve, only: beyond_error, beyond_stabilisation, beyond_linear, beyond_same
    use dimension_text, only: dimension_name, unit_text
    use function_kind, only: function_kind_t, made_t
    use item, only: item_t, place_of
@@ -101,7 +101,7 @@ contains
       select case (item%word("beyond"))
       case ("linear"); made%curve%beyond = beyond_linear
       case ("error"); made%curve%beyond = beyond_error
-      case default; made%curve%beyond = beyond_hold
+      case default; made%curve%beyond = beyond_stabilisation
       end select
    end subroutine take_end
 

@@ -14,12 +14,12 @@
 !> hold and linear have a jump of the first or second derivative at the end unless the samples flatten out there.
 module function_samples
    use akima, only: new_akima
-   use curve, only: beyond_error, beyond_hold, beyond_linear, beyond_periodic
+   use curve, only: beyond_error, beyond_stabilisation, beyond_linear, beyond_periodic
    use function_kind, only: function_kind_t, made_t
    use item, only: item_t, place_of
    use kind_info, only: add_file, add_list, add_word, kind_info_t
    use kinds, only: wp
-   use spline, only: ends_clamped, ends_fmm, ends_natural, ends_not_a_knot, ends_periodic, least_samples, new_spline
+   use spline, only: ends_clamped, ends_fmm, ends_natural, ends_not_a_knot, ends_periodic, min_samples, new_spline
    use text, only: to_text
    implicit none (type, external)
    private
@@ -124,8 +124,8 @@ contains
          n = size(x)
          if (size(y) /= n) then
             call complain("value", to_text(size(y))//" values at "//to_text(n)//" places")
-         else if (n < least_samples) then
-            call complain("at", "there are "//to_text(n)//" samples, a smooth curve needs at least "//to_text(least_samples))
+         else if (n < min_samples) then
+            call complain("at", "there are "//to_text(n)//" samples, a smooth curve needs at least "//to_text(min_samples))
          else if (.not. all(x(2:) > x(:n - 1))) then
             do k = 2, n
                if (.not. x(k) > x(k - 1)) exit
@@ -181,7 +181,7 @@ contains
 
       select case (item%word("beyond"))
       case ("hold")
-         beyond = beyond_hold
+         beyond = beyond_stabilisation
       case ("linear")
          beyond = beyond_linear
       case ("periodic")

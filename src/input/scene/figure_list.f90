@@ -7,7 +7,7 @@ module figure_list
    use item, only: location_t, value_t
    use numbers, only: number_length
    use spelling, only: nearest_word
-   use text, only: piece, starts_with, text_t
+   use text, only: segment, starts_with, text_t
    use text_buffer, only: buffer_t
    use text_list, only: text_list_t
    use units, only: parse_unit, unit_t
@@ -160,7 +160,7 @@ contains
          n = n + 1
          s(n:n) = word(i:i)
       end do
-      s = piece(s, 1, n)
+      s = segment(s, 1, n)
    end function without_blanks
 
 end module figure_list

@@ -8,10 +8,10 @@ module precision_info
    use diagnostics, only: diagnostics_t
    use item, only: item_t, place_of
    use kind_info, only: add_number, add_word, add_words, dim_none, dim_time, kind_info_t
-   use kinds, only: least_tolerance, wp
+   use kinds, only: min_tolerance, wp
    use section_info, only: dynamic_info
    use spelling, only: nearest_word
-   use text, only: append_text, piece, split_blank, text_t
+   use text, only: append_text, segment, split_blank, text_t
    implicit none (type, external)
    private
    public :: check_precision, check_setting_word, precision_section, setting_t, settings_of
@@ -41,9 +41,9 @@ contains
       call add_words(info, "methods", "settings compared: METHOD, METHOD.WAY or METHOD.WAY.SOLVER with values of `method`, " &
                      //"`stabilise` and `solver` of [analysis.dynamic]; * for all except auto; omitted parts as in the deck", &
                      default=choices_of("method"))
-      call add_number(info, "coarsest", dim_none, "largest tolerance of a sequence", default="1e-3", lower=least_tolerance, &
+      call add_number(info, "coarsest", dim_none, "largest tolerance of a sequence", default="1e-3", lower=min_tolerance, &
                       upper=0.01_wp)
-      call add_number(info, "finest", dim_none, "smallest tolerance of a sequence", default="1e-12", lower=least_tolerance, &
+      call add_number(info, "finest", dim_none, "smallest tolerance of a sequence", default="1e-12", lower=min_tolerance, &
                       upper=0.01_wp)
       call add_number(info, "per_decade", dim_none, "runs per decade", default="4", lower=1.0_wp, upper=20.0_wp)
       call add_number(info, "longest_step", dim_time, "largest step of the sequences with fixed steps; 0: the mean step of a " &
@@ -51,7 +51,7 @@ contains
       call add_number(info, "step_decades", dim_none, "number of decades of these sequences", default="3", lower=0.0_wp, &
                       upper=8.0_wp)
       call add_number(info, "accuracy", dim_none, "target error, relative to the range of motion or the maximum value", &
-                      default="1e-6", lower=least_tolerance, upper=1.0_wp)
+                      default="1e-6", lower=min_tolerance, upper=1.0_wp)
       call add_word(info, "error", "error used for the target and the figure: motion (maximum of position and velocity errors), " &
                     //"positions, velocities, or reactions", default="motion", choices="motion positions velocities reactions")
       call add_number(info, "rounds", dim_none, "number of timings of every run", default="5", lower=1.0_wp, upper=1000.0_wp)
@@ -87,7 +87,7 @@ contains
       character(:), allocatable :: words      !! blank-separated
 
       words = choices_of(key)
-      if (index(words, "auto ") == 1) words = piece(words, 6)
+      if (index(words, "auto ") == 1) words = segment(words, 6)
    end function all_of
 
    !> The word that names a setting.

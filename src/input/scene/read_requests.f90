@@ -12,15 +12,15 @@ module read_requests
    use references, only: add_names, directory_t, resolve
    use requests, only: requests_t
    use scene, only: scene_t, table_bodies, table_formulas, table_motions, table_points, table_reactions
-   use sight, only: place_t, sees_angle, sees_angular_velocity, sees_distance, sees_distance_rate, sight_t
-   use sight_words, only: read_sight_word
+   use observable, only: place_t, sees_angle, sees_angular_velocity, sees_distance, sees_distance_rate, observable_t
+   use observable_words, only: read_observable_word
    use spelling, only: nearest_word
    use tables, only: read_items
    use text, only: text_t
    use text_list, only: text_list_t
    implicit none (type, external)
    private
-   public :: make_requests, place_sights, requests_from_deck
+   public :: make_requests, place_observables, requests_from_deck
 
 contains
 
@@ -184,7 +184,7 @@ contains
    end subroutine names_of_items
 
    !> Find what the expressions of loads see.
-   subroutine place_sights(scene, diagnostics)
+   subroutine place_observables(scene, diagnostics)
       type(scene_t), intent(inout) :: scene               !! expressions of loads are completed
       type(diagnostics_t), intent(inout) :: diagnostics   !! mistakes found
 
@@ -195,57 +195,57 @@ contains
             if (scene%forces(k)%info%columns(c)%cell /= cell_expression) cycle
             do i = 1, size(scene%forces(k)%items)
                associate (value => scene%forces(k)%items(i)%values(c))
-                  if (.not. allocated(value%expression%sights)) cycle
-                  do m = 1, size(value%expression%sights)
-                     call place_sight(scene, value%location, value%expression%sights(m), diagnostics)
+                  if (.not. allocated(value%expression%observables)) cycle
+                  do m = 1, size(value%expression%observables)
+                     call place_observable(scene, value%location, value%expression%observables(m), diagnostics)
                   end do
                end associate
             end do
          end do
       end do
-   end subroutine place_sights
+   end subroutine place_observables
 
    !> Find one channel: of a body, a point, or a row of [request.motion].
-   subroutine place_sight(scene, location, sight, diagnostics)
+   subroutine place_observable(scene, location, observable, diagnostics)
       type(scene_t), intent(in) :: scene                  !! the scene
       type(location_t), intent(in) :: location            !! of the expression, its brace included
-      type(sight_t), intent(inout) :: sight               !! its place is set
+      type(observable_t), intent(inout) :: observable               !! its place is set
       type(diagnostics_t), intent(inout) :: diagnostics   !! mistakes found
 
       character(:), allocatable :: help, ignored, item, message, near, quantity
       type(location_t) :: at
-      type(sight_t) :: other
+      type(observable_t) :: other
       integer :: body, motion, point
 
-      call read_sight_word(sight%word, item, quantity, sight%component, sight%quantity)
+      call read_observable_word(observable%word, item, quantity, observable%component, observable%quantity)
       help = ""
       call find_item(scene, item, body, motion, point, help)
       if (body + motion + point == 0) then
          message = "not available to loads: '"//item//"'"
          if (help /= "") then
-            near = help//sight%word(len(item) + 1:)
+            near = help//observable%word(len(item) + 1:)
             call find_item(scene, help, body, motion, point, ignored)
-            other = sight
-            call check_sight(scene, near, body > 0, motion > 0, other, ignored, help)
+            other = observable
+            call check_observable(scene, near, body > 0, motion > 0, other, ignored, help)
             help = ""
             if (ignored == "") help = "did you mean '"//near//"'?"
          end if
       else
          if (body > 0) then
-            sight%place = place_t(body=body)
+            observable%place = place_t(body=body)
          else if (motion > 0) then
-            sight%place = scene%requests%motions(motion)%place
+            observable%place = scene%requests%motions(motion)%place
          else
-            sight%place = scene%requests%places(point)
+            observable%place = scene%requests%places(point)
          end if
-         call check_sight(scene, item//"."//quantity, body > 0, motion > 0, sight, message, help)
+         call check_observable(scene, item//"."//quantity, body > 0, motion > 0, observable, message, help)
       end if
       if (message == "") return
       at = location
-      at%first = location%first + sight%first
-      at%last = at%first + len(sight%word) - 1
-      call diagnostics%add(at, "invalid channel '"//sight%word//"' in an expression", message, help)
-   end subroutine place_sight
+      at%first = location%first + observable%first
+      at%last = at%first + len(observable%word) - 1
+      call diagnostics%add(at, "invalid channel '"//observable%word//"' in an expression", message, help)
+   end subroutine place_observable
 
    !> The body, the row of [request.motion] or the point of a name.
    subroutine find_item(scene, item, body, motion, point, near)
@@ -278,12 +278,12 @@ contains
    end subroutine find_item
 
    !> Whether an item has a quantity, and whether what is named of it is a single number.
-   subroutine check_sight(scene, name, is_body, is_motion, sight, message, help)
+   subroutine check_observable(scene, name, is_body, is_motion, observable, message, help)
       type(scene_t), intent(in) :: scene                      !! the scene
       character(*), intent(in) :: name                        !! item and quantity, as written
       logical, intent(in) :: is_body                          !! the item is a body
       logical, intent(in) :: is_motion                        !! it is a row of [request.motion]
-      type(sight_t), intent(inout) :: sight                   !! its component is set
+      type(observable_t), intent(inout) :: observable                   !! its component is set
       character(:), allocatable, intent(out) :: message       !! what is wrong, blank: nothing
       character(:), allocatable, intent(out) :: help          !! what to do
 
@@ -292,7 +292,7 @@ contains
       message = ""
       help = ""
       is_vector = .true.
-      select case (sight%quantity)
+      select case (observable%quantity)
       case (sees_angle)
          is_vector = .false.
          if (.not. is_body .or. scene%settings%is_spatial) message = "only planar bodies have an angle"
@@ -305,17 +305,17 @@ contains
       end select
       if (message /= "") return
       if (is_vector) then
-         if (sight%component >= 1 .and. sight%component <= merge(3, 2, scene%settings%is_spatial)) return
-         message = "'"//sight%word//"' has several components"
+         if (observable%component >= 1 .and. observable%component <= merge(3, 2, scene%settings%is_spatial)) return
+         message = "'"//observable%word//"' has several components"
          help = "write "//name//".x or .y"
          if (scene%settings%is_spatial) help = help//" or .z"
       else
-         if (sight%component /= 0) then
-            message = "'"//sight%word//"' has no components"
+         if (observable%component /= 0) then
+            message = "'"//observable%word//"' has no components"
             help = "write "//name
          end if
-         sight%component = merge(3, 1, sight%quantity == sees_angular_velocity)  ! about z
+         observable%component = merge(3, 1, observable%quantity == sees_angular_velocity)  ! about z
       end if
-   end subroutine check_sight
+   end subroutine check_observable
 
 end module read_requests

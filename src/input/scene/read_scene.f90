@@ -18,7 +18,7 @@ module read_scene
    use read_films, only: check_lubricants, films_from_deck
    use read_laws, only: laws_from_deck
    use read_functions, only: functions_from_deck
-   use read_requests, only: make_requests, place_sights, requests_from_deck
+   use read_requests, only: make_requests, place_observables, requests_from_deck
    use references, only: add_names, directory_t, resolve
    use scene, only: analysis_dynamic, analysis_kinematic, analysis_names, n_analysis, n_base, &
       scene_t, section_t, settings_t, table_bodies, table_lubricants, table_materials, table_points, table_shapes, table_t
@@ -95,7 +95,7 @@ contains
          scene%lubrication%oils = [(oil_of_row(items(k)), k=1, size(items))]
       end associate
       call make_requests(scene, diagnostics)
-      call place_sights(scene, diagnostics)
+      call place_observables(scene, diagnostics)
       call check_meaning(deck, scene, diagnostics)
    end subroutine finish_scene
 

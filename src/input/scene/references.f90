@@ -5,7 +5,7 @@ module references
    use kind_info, only: cell_reference, column_t, kind_info_t
    use name_table, only: name_table_t
    use spelling, only: nearest_word
-   use text, only: join, piece, text_t
+   use text, only: join, segment, text_t
    implicit none (type, external)
    private
    public :: add_names, directory_t, resolve
@@ -172,7 +172,7 @@ contains
          blank = index(rest, " ")
          if (words /= "") words = words//" or "
          words = words//rest(len(room) + 1:blank - 1)
-         rest = piece(rest, blank + 1)
+         rest = segment(rest, blank + 1)
       end do
       words = trim(adjustl(words//" joints"))
    end function words_of

@@ -165,7 +165,7 @@ contains
          type(kind_info_t), intent(in) :: info  !! the kind
          type(item_t), intent(in) :: item       !! the row
 
-         real(wp), parameter :: least = 0.5_wp  ! cosine of the angle between axes that count as parallel [1]
+         real(wp), parameter :: minimum = 0.5_wp  ! cosine of the angle between axes that count as parallel [1]
          type(tie_t) :: tie
          integer :: c
 
@@ -174,7 +174,7 @@ contains
          if (.not. item%values(c)%given) return
          tie = tie_of(scene, info, item)
          if (dot_product(start_direction(scene, tie%body(1), item%direction("axis_i")), &
-                         start_direction(scene, tie%body(2), item%direction("axis_j"))) > least) return
+                         start_direction(scene, tie%body(2), item%direction("axis_j"))) > minimum) return
          call diagnostics%add(item%values(c)%location, "the axes of '"//item%name//"' are not parallel", &
                               "differs in direction from axis_i at the given positions", &
                               "omit axis_j, or rotate one of the bodies")
@@ -185,7 +185,7 @@ contains
          type(kind_info_t), intent(in) :: info  !! the kind
          type(item_t), intent(in) :: item       !! the row
 
-         real(wp), parameter :: least = 1.0e-6_wp  ! sine of an angle that is none [1]
+         real(wp), parameter :: minimum = 1.0e-6_wp  ! sine of an angle that is none [1]
          character(6), parameter :: axis(2) = ["axis_i", "axis_j"]
          character(3), parameter :: reference(2) = ["x_i", "x_j"]
          type(tie_t) :: tie
@@ -200,7 +200,7 @@ contains
             z = start_direction(scene, tie%body(1), item%direction("axis_i"))
             if (item%is_given(axis(side))) z = start_direction(scene, tie%body(side), item%direction(axis(side)))
             x = start_direction(scene, tie%body(side), item%direction(reference(side)))
-            if (1.0_wp - dot_product(x, z)**2 > least**2) cycle
+            if (1.0_wp - dot_product(x, z)**2 > minimum**2) cycle
             call diagnostics%add(item%values(c)%location, "the reference direction of '"//item%name//"' is parallel to its axis", &
                                  "its component normal to the axis is zero", "give a direction across the axis, or omit the column")
          end do
@@ -211,7 +211,7 @@ contains
          type(kind_info_t), intent(in) :: info  !! the kind
          type(item_t), intent(in) :: item       !! the row
 
-         real(wp), parameter :: least = 1.0e-9_wp  ! distance that counts as none, of the points' coordinates [1]
+         real(wp), parameter :: minimum = 1.0e-9_wp  ! distance that counts as none, of the points' coordinates [1]
          type(tie_t) :: tie
          real(wp) :: length, p(3, 2)
          integer :: c, end
@@ -224,7 +224,7 @@ contains
             p(:, end) = start_position(scene, tie%point(end))
          end do
          length = norm2(p(:, 2) - p(:, 1))
-         if (length > least*maxval(abs(p))) then
+         if (length > minimum*maxval(abs(p))) then
             call add_default(deck, info%name//" "//item%name//" length = "//to_text(length)//" m, the initial distance")
             return
          end if

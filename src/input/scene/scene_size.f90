@@ -30,21 +30,21 @@ contains
    pure real(wp) function extent_of_scene(scene) result(length)
       type(scene_t), intent(in) :: scene    !! the scene
 
-      real(wp) :: greatest(3), least(3), place(3)
+      real(wp) :: maximum(3), minimum(3), place(3)
       integer :: k
 
-      greatest = -huge(1.0_wp)
-      least = huge(1.0_wp)
+      maximum = -huge(1.0_wp)
+      minimum = huge(1.0_wp)
       do k = 1, scene%bodies%n
-         greatest = max(greatest, scene%bodies%r(:, k))
-         least = min(least, scene%bodies%r(:, k))
+         maximum = max(maximum, scene%bodies%r(:, k))
+         minimum = min(minimum, scene%bodies%r(:, k))
       end do
       do k = 1, scene%points%n
          place = start_position(scene, k)
-         greatest = max(greatest, place)
-         least = min(least, place)
+         maximum = max(maximum, place)
+         minimum = min(minimum, place)
       end do
-      length = norm2(greatest - least)
+      length = norm2(maximum - minimum)
    end function extent_of_scene
 
    !> Where the deck puts a point at the start.

@@ -1,14 +1,14 @@
 !> The sections of settings of a deck: [scene], [analysis.*], [output].
 module section_info
    use augmented, only: augmented_t
-   use hold, only: hold_t
-   use hold_registry, only: n_hold_kinds, new_hold
+   use stabilisation, only: stabilisation_t
+   use stabilisation_registry, only: n_stabilisation_kinds, new_stabilisation
    use integrator, only: integrator_t
    use integrator_controls, only: add_control_columns, add_onset_options
    use integrator_registry, only: n_integrator_kinds, new_integrator
    use kind_info, only: add_duration, add_flag, add_number, add_vector, add_word, add_words, dim_acceleration, dim_length, &
       dim_none, dim_time, kind_info_t
-   use kinds, only: least_tolerance, wp
+   use kinds, only: min_tolerance, wp
    use solver_registry, only: n_solver_kinds, new_solver
    use text, only: join, text_t, to_text
    implicit none (type, external)
@@ -82,13 +82,13 @@ contains
       character(*), intent(in) :: word   !! as in `stabilise = word`
       type(kind_info_t) :: info          !! its options as columns; there may be none
 
-      class(hold_t), allocatable :: way
+      class(stabilisation_t), allocatable :: way
       integer :: k
 
       if (key == "contact_onset") call add_onset_options(word, info)
       if (key == "stabilise") then
-         do k = 1, n_hold_kinds
-            call new_hold(k, way)
+         do k = 1, n_stabilisation_kinds
+            call new_stabilisation(k, way)
             if (way%name() /= word) cycle
             info = way%info()
             exit
@@ -137,15 +137,15 @@ contains
    subroutine add_ways(info)
       type(kind_info_t), intent(inout) :: info  !! settings of an analysis
 
-      class(hold_t), allocatable :: way
+      class(stabilisation_t), allocatable :: way
       type(kind_info_t) :: one
-      type(text_t) :: says(n_hold_kinds), words(n_hold_kinds)
+      type(text_t) :: says(n_stabilisation_kinds), words(n_stabilisation_kinds)
       character(:), allocatable :: options
       integer :: i, k
 
       options = ""
-      do k = 1, n_hold_kinds
-         call new_hold(k, way)
+      do k = 1, n_stabilisation_kinds
+         call new_stabilisation(k, way)
          one = way%info()
          words(k)%s = one%name
          says(k)%s = one%name//" ("//one%help//")"
@@ -169,7 +169,7 @@ contains
       call add_duration(info, "end", "end time, or `N turns of DRIVER`")
       call add_number(info, "tolerance", dim_none, "constraint violation at which Newton's iteration is " &
                       //"accepted, relative to the size of the bodies or a radian; it continues to round-off", default="1e-10", &
-                      lower=least_tolerance, upper=1.0e-4_wp)
+                      lower=min_tolerance, upper=1.0e-4_wp)
       call add_number(info, "maximum_iterations", dim_none, "maximum number of Newton iterations per time", default="25", &
                       lower=1.0_wp, upper=1.0e9_wp)
       call add_limit_cpu(info)
@@ -195,7 +195,7 @@ contains
          "the " &
                     //"bodies, with ideal joints assembled", default="ideal", choices="ideal given")
       call add_number(info, "tolerance", dim_none, "maximum force residual, relative to the maximum load", default="1e-10", &
-                      lower=least_tolerance, upper=1.0e-4_wp)
+                      lower=min_tolerance, upper=1.0e-4_wp)
       call add_number(info, "maximum_iterations", dim_none, "maximum number of steps of the search", default="500", lower=1.0_wp, &
                       upper=1.0e9_wp)
       call add_number(info, "whirl_search", dim_none, "with films: maximum factor on the driver speeds, up and down, in the " &

@@ -4,7 +4,7 @@
 !> then `step` holds both ends of it. After a change of the system (an event handled) `restart`
 !> must be called before the next step.
 module integrator
-   use checkpoint, only: piece_t
+   use checkpoint, only: segment_t
    use integrator_controls, only: controls_t, norm_absolute, norm_euclidean, norm_mixed, norm_relative, onset_located
    use interpolation, only: fit_inner, inner_places, interpolate, step_t
    use kind_info, only: kind_info_t
@@ -105,7 +105,7 @@ module integrator
       procedure :: memory_size => integrator_memory_size
       procedure :: save => integrator_save
       procedure :: load => integrator_load
-      procedure :: make_room, begin_step, look_at_events, hide_events, set_scales
+      procedure :: make_storage, begin_step, look_at_events, hide_events, set_scales
       procedure :: base_memory_size, save_base, load_base
    end type integrator_t
 
@@ -164,10 +164,10 @@ module integrator
 
    interface
       !> List what the integrator saves: what every one keeps, then what the method adds.
-      module subroutine integrator_list_memory(self, pieces)
+      module subroutine integrator_list_memory(self, segments)
          implicit none (type, external)
          class(integrator_t), intent(in) :: self                 !! the integrator
-         type(piece_t), allocatable, intent(inout) :: pieces(:)  !! (any) the list, grown
+         type(segment_t), allocatable, intent(inout) :: segments(:)  !! (any) the list, grown
       end subroutine integrator_list_memory
 
       !> Numbers that a checkpoint needs; a method that remembers more adds to it.
@@ -300,7 +300,7 @@ contains
    end function integrator_begins_anew
 
    !> Room for states and event functions, made once.
-   subroutine make_room(self, system)
+   subroutine make_storage(self, system)
       class(integrator_t), intent(inout) :: self  !! the integrator
       class(ode_system_t), intent(in) :: system   !! the system
 
@@ -323,7 +323,7 @@ contains
          allocate (passed%first(m), passed%deepest(m), passed%at(m), source=0.0_wp)
          allocate (passed%gap(m), passed%rate(m), passed%rate_before(m), passed%top(m), passed%top_at(m), source=0.0_wp)
       end associate
-   end subroutine make_room
+   end subroutine make_storage
 
    !> The present time, and the events there, become the start of the next step; the state is the method's to take over.
    subroutine begin_step(self)

@@ -6,7 +6,7 @@
 module integrator_controls
    use item, only: item_t, place_of
    use kind_info, only: add_number, add_word, dim_length, dim_none, dim_time, kind_info_t
-   use kinds, only: i8, least_tolerance, wp
+   use kinds, only: i8, min_tolerance, wp
    implicit none (type, external)
    private
    public :: add_control_columns, add_onset_options, controls_t, read_controls
@@ -50,7 +50,7 @@ contains
       type(kind_info_t), intent(inout) :: info  !! settings of an analysis
 
       call add_number(info, "tolerance", dim_none, "local error tolerance (TOL), relative to the size and speed of the mechanism", &
-                      default="1e-8", lower=least_tolerance, upper=0.01_wp)
+                      default="1e-8", lower=min_tolerance, upper=0.01_wp)
       call add_number(info, "step", dim_time, "fixed step; 0: variable steps", default="0 s", lower=0.0_wp)
       call add_number(info, "initial_step", dim_time, "initial step; 0: automatic", default="0 s", lower=0.0_wp)
       call add_number(info, "minimum_step", dim_time, "minimum step; 0: limited by round-off only", default="0 s", lower=0.0_wp)

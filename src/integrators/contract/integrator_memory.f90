@@ -1,6 +1,6 @@
 !> What an integrator remembers in a checkpoint: what every one keeps, and what a method adds.
 submodule(integrator) integrator_memory
-   use checkpoint, only: add_piece
+   use checkpoint, only: add_segment
    use memory, only: get, put
    implicit none (type, external)
 
@@ -11,8 +11,8 @@ contains
       type(kind_info_t) :: info
 
       info = self%info()
-      call add_piece(pieces, "the state", base_version, self%base_memory_size())
-      call add_piece(pieces, "method = "//info%name, self%memory_version(), self%memory_size() - self%base_memory_size())
+      call add_segment(segments, "the state", base_version, self%base_memory_size())
+      call add_segment(segments, "method = "//info%name, self%memory_version(), self%memory_size() - self%base_memory_size())
    end procedure integrator_list_memory
 
    !> Numbers that a checkpoint needs; a method that remembers more adds to it.

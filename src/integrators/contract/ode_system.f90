@@ -11,7 +11,7 @@
 !> Two hooks do nothing unless a system overrides them. `set_step` tells the step about to be made
 !> (the gains of some stabilisations follow it). A system that sets `holds` has its `hold` called on
 !> every state that an integrator gives out: the end of an accepted step before its derivative is
-!> taken, the states tried in search of an event, the states of `refine`. `mend` is called on a state
+!> taken, the states tried in search of an event, the states of `refine`. `project_state` is called on a state
 !> that did not come from the equations at all, and `contact_change` says which events are onsets and ends of
 !> contacts, for integrators that meet onsets in another way (`onset_control`) or suit their steps to both (`step_control`).
 !>
@@ -34,7 +34,7 @@ module ode_system
       integer :: n_turning = 0              !! bodies that turn in space, the first ones
       logical :: follows_step = .false.     !! whether `set_step` changes the derivative
       logical :: has_films = .false.        !! whether films act, whose forces multiply what is wrong of a state
-      logical :: sees_wild = .false.        !! whether `evaluate` itself gives up derivatives that are wild, see `wild_stages`
+      logical :: sees_diverged = .false.  !! whether `evaluate` itself gives up derivatives that are wild, see `diverged_stages`
       logical :: contact_begins = .false.   !! whether the last event was the onset of a contact
       logical :: with_quadratures = .true.  !! whether quadratures are wanted now: else they, or their rates, may be left
       real(wp), allocatable :: quadrature_scale(:)  !! (n_quadrature) scales of their errors; without, no error control [any]
@@ -56,8 +56,8 @@ module ode_system
       procedure :: settle => ode_settle
       procedure :: event_noise => ode_event_noise
       procedure :: set_step => ode_set_step
-      procedure :: hold => ode_hold
-      procedure :: mend => ode_mend
+      procedure :: hold => ode_stabilise
+      procedure :: project_state => ode_project
       procedure :: contact_change => ode_contact_change
       procedure :: to_local => ode_to_local
       procedure :: from_local => ode_from_local
@@ -144,25 +144,25 @@ contains
 
    !> Correct a state in place, for instance onto an invariant. Status: 0 done, > 0 retry with a
    !> smaller step, < 0 give up.
-   subroutine ode_hold(self, t, y, status)
+   subroutine ode_stabilise(self, t, y, status)
       class(ode_system_t), intent(inout) :: self  !! the system
       real(wp), intent(in) :: t                   !! time [s]
       real(wp), intent(inout) :: y(:)             !! (n) state [any]
       integer, intent(out) :: status              !! outcome
 
       status = 0
-   end subroutine ode_hold
+   end subroutine ode_stabilise
 
    !> Bring a state that was made by interpolation onto the invariants, in place. Status as of `hold`, which this is
    !> unless a system holds its states in a weaker way.
-   subroutine ode_mend(self, t, y, status)
+   subroutine ode_project(self, t, y, status)
       class(ode_system_t), intent(inout) :: self  !! the system
       real(wp), intent(in) :: t                   !! time [s]
       real(wp), intent(inout) :: y(:)             !! (n) state [any]
       integer, intent(out) :: status              !! outcome
 
       call self%hold(t, y, status)
-   end subroutine ode_mend
+   end subroutine ode_project
 
    !> Numbers that the system remembers beside its state.
    integer function ode_memory_size(self) result(n)

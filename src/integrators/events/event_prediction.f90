@@ -15,12 +15,12 @@ module event_prediction
    use kinds, only: wp
    implicit none (type, external)
    private
-   public :: foretell_event
+   public :: predict_event
 
 contains
 
    !> Time from the end of the last step to the first event foretold; huge if there is none.
-   pure subroutine foretell_event(events, h, time, event)
+   pure subroutine predict_event(events, h, time, event)
       type(event_values_t), intent(in) :: events  !! event functions at both ends of the last step
       real(wp), intent(in) :: h                   !! its length [s]
       real(wp), intent(out) :: time               !! to the event [s]
@@ -42,6 +42,6 @@ contains
          time = ahead
          event = k
       end do
-   end subroutine foretell_event
+   end subroutine predict_event
 
 end module event_prediction

@@ -74,7 +74,7 @@ contains
          real(wp), intent(out) :: high   !! place after it [1]
 
          integer :: level
-         logical :: bends, has_room
+         logical :: bends, has_capacity
          real(wp) :: left, right(0:n_level)
 
          left = 0.0_wp
@@ -84,14 +84,14 @@ contains
          right(0) = 1.0_wp
          call values_at_place(right(0), kept_g(:, 2), kept_rate(:, 2))
          do
-            call judge(level, (right(level) - left)*method%step%h, has_room, bends)
+            call judge(level, (right(level) - left)*method%step%h, has_capacity, bends)
             if (bends .and. n_sample*(right(level) - left) > 1.0_wp) then
                level = level + 1
                right(level) = 0.5_wp*(left + right(level - 1))
                call values_at(right(level), kept_g(:, level + 2), kept_rate(:, level + 2))
                cycle
             end if
-            if (has_room) then
+            if (has_capacity) then
                g = kept_g(:, level + 2)
                rate = kept_rate(:, level + 2)
                low = left
@@ -110,19 +110,19 @@ contains
       end subroutine look_into_halves
 
       !> Whether a part leaves room for an event, and whether a function that may become positive there does not only rise.
-      pure subroutine judge(level, h, has_room, bends)
+      pure subroutine judge(level, h, has_capacity, bends)
          integer, intent(in) :: level       !! halvings that led to the part
          real(wp), intent(in) :: h          !! length of the part [s]
-         logical, intent(out) :: has_room   !! it leaves room
+         logical, intent(out) :: has_capacity   !! it leaves room
          logical, intent(out) :: bends      !! and there may be a maximum in it
 
          integer :: k
 
-         has_room = .false.
+         has_capacity = .false.
          bends = .false.
          do k = 1, system%n_event
             if (.not. leaves_room(kept_g(k, 1), h*kept_rate(k, 1), kept_g(k, level + 2), h*kept_rate(k, level + 2))) cycle
-            has_room = .true.
+            has_capacity = .true.
             bends = bends .or. .not. only_rises(kept_g(k, 1), h*kept_rate(k, 1), kept_g(k, level + 2), h*kept_rate(k, level + 2))
          end do
       end subroutine judge

@@ -138,7 +138,7 @@ contains
          step%h = first*step%h
          step%y1 = step%y0 + first*(step%y1 - step%y0)
          method%t = step%t0 + step%h
-         call system%mend(method%t, step%y1, status)
+         call system%project_state(method%t, step%y1, status)
          if (status == 0) call system%evaluate(method%t, step%y1, step%f1, status)
       end associate
       method%count%n_evaluations = method%count%n_evaluations + 1

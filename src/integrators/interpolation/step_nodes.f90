@@ -16,7 +16,7 @@ module step_nodes
    public :: step_nodes_t
 
    integer, parameter :: most = 5                      !! nodes within a step, at most
-   real(wp), parameter :: least_distance = 0.02_wp     !! between two nodes, over the length of the step [1]
+   real(wp), parameter :: min_distance = 0.02_wp     !! between two nodes, over the length of the step [1]
    real(wp), parameter :: wide = 4.0_wp                !! gap between nodes over the distance of rows, from which on a node between
                                                        !! them saves rows [1]
 
@@ -76,7 +76,7 @@ contains
       real(wp), intent(in) :: y(:)                !! (all) the state [any]
       real(wp), intent(in) :: f(:)                !! (all) its derivative [any]
 
-      if (self%n == most .or. any(abs(s - [0.0_wp, self%s(:self%n), 1.0_wp]) < least_distance)) return
+      if (self%n == most .or. any(abs(s - [0.0_wp, self%s(:self%n), 1.0_wp]) < min_distance)) return
       self%n = self%n + 1
       self%s(self%n) = s
       self%y(:, self%n) = y
@@ -101,7 +101,7 @@ contains
       before = max(0.0_wp, maxval(self%s(:self%n), mask=self%s(:self%n) <= s))
       after = min(1.0_wp, minval(self%s(:self%n), mask=self%s(:self%n) > s))
       place = s
-      if (self%n < most .and. after - before > max(2.0_wp*least_distance, wide*abs(s - self%s_row))) place = 0.5_wp*(before + after)
+      if (self%n < most .and. after - before > max(2.0_wp*min_distance, wide*abs(s - self%s_row))) place = 0.5_wp*(before + after)
    end function nodes_place_for
 
    !> A row was given at a place.

@@ -17,7 +17,7 @@ module anderson
 
    integer, parameter :: depth = 5              !! steps that are remembered
    integer, parameter :: block = 32             !! columns that LAPACK takes together
-   real(wp), parameter :: greatest = 10.0_wp    !! entry of g that is believed [1]
+   real(wp), parameter :: maximum = 10.0_wp    !! entry of g that is believed [1]
 
    !> The last steps.
    type :: anderson_t
@@ -77,7 +77,7 @@ contains
             self%scaled(:, i) = self%f_change(:, i)/scale
          end do
          call dgels("N", n, m, 1, self%scaled, n, self%g, n, self%work, size(self%work), info)
-         if (info == 0 .and. all(abs(self%g(:m)) <= greatest)) then
+         if (info == 0 .and. all(abs(self%g(:m)) <= maximum)) then
             do i = 1, m
                f(:) = f - self%g(i)*(self%x_change(:, i) + self%f_change(:, i))
             end do

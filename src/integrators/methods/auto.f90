@@ -14,7 +14,7 @@
 !> 2nd ed. (1996), section IV.2. Limits: fixed steps, and onsets of contacts that are not located, are those of `verner`
 !> throughout.
 module auto
-   use checkpoint, only: piece_t
+   use checkpoint, only: segment_t
    use dop853, only: dop853_t
    use dop853_stages, only: dop853_bound, dop853_stages_t
    use integrator, only: advance_failed_evaluation, advance_no_memory, advance_step, advance_too_small
@@ -149,10 +149,10 @@ module auto
 
    interface
       !> List what the integrator saves; how much, the choices of the run decide.
-      module subroutine auto_list_memory(self, pieces)
+      module subroutine auto_list_memory(self, segments)
          implicit none (type, external)
          class(auto_t), intent(in) :: self                       !! the integrator
-         type(piece_t), allocatable, intent(inout) :: pieces(:)  !! (any) the list, grown
+         type(segment_t), allocatable, intent(inout) :: segments(:)  !! (any) the list, grown
       end subroutine auto_list_memory
 
       !> Version of the form of what is saved.

@@ -1,6 +1,6 @@
 !> What the method that chooses remembers in a checkpoint: its choices, and the implicit part once it was chosen.
 submodule(auto) auto_memory
-   use checkpoint, only: add_piece
+   use checkpoint, only: add_segment
    use integrator, only: integrator_list_memory
    use memory, only: get, put
    use method_choice, only: n_choice_number
@@ -14,9 +14,9 @@ contains
 
    !> List what the integrator saves, and the implicit part behind it.
    module procedure auto_list_memory
-      call integrator_list_memory(self, pieces)
-      pieces(size(pieces))%size = pieces(size(pieces))%size - size_of_part(self)
-      call add_piece(pieces, "implicit part of method = auto", 3, size_of_part(self), is_fixed=.false.)
+      call integrator_list_memory(self, segments)
+      segments(size(segments))%size = segments(size(segments))%size - size_of_part(self)
+      call add_segment(segments, "implicit part of method = auto", 3, size_of_part(self), is_fixed=.false.)
    end procedure auto_list_memory
 
    !> Version of the form of what is saved.

@@ -7,7 +7,7 @@ submodule(auto) auto_parts
    implicit none (type, external)
 
    real(wp), parameter :: in_films = 0.01_wp           !! tolerance of the implicit method over TOL where films act [1]
-   real(wp), parameter :: least_in_films = 1.0e-12_wp  !! least tolerance that this factor leads to [1]
+   real(wp), parameter :: min_in_films = 1.0e-12_wp  !! least tolerance that this factor leads to [1]
 
 contains
 
@@ -94,7 +94,7 @@ contains
    module procedure implicit_controls
       controls = self%controls
       if (system%traits%has_films) then
-         controls%tolerance = max(in_films*controls%tolerance, min(controls%tolerance, least_in_films))
+         controls%tolerance = max(in_films*controls%tolerance, min(controls%tolerance, min_in_films))
       end if
    end procedure implicit_controls
 

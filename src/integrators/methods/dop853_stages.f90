@@ -6,10 +6,10 @@ module dop853_stages
    use interpolation, only: step_t
    use kinds, only: i8, wp
    use ode_system, only: ode_system_t
-   use quadrature_error, only: by_one_step, greatest_error
+   use quadrature_error, only: by_one_step, max_error
    use stability_limit, only: rate_between
    use step_course, only: along, course_even, pace_at, parameter_of
-   use wild_stages, only: evaluate_aside, judge_stage
+   use diverged_stages, only: evaluate_aside, judge_stage
    implicit none (type, external)
    private
    public :: dop853_stages_t, dop853_bound
@@ -139,7 +139,7 @@ contains
          else
             call evaluate_aside(system, step%t0 + places(i, course)*h, self%y, self%k(:, i), status)
          end if
-         if (.not. system%traits%sees_wild) call judge_stage(n - system%n_position, self%k(system%n_position + 1:n, i), status)
+         if (.not. system%traits%sees_diverged) call judge_stage(n - system%n_position, self%k(system%n_position + 1:n, i), status)
          if (status /= 0) return
          if (course /= course_even) self%k(:, i) = paces(i, course)*self%k(:, i)
       end do
@@ -284,7 +284,7 @@ contains
          if (estimate_5 > 0.0_wp) estimate_5 = estimate_5*(estimate_5/hypot(estimate_5, 0.1_wp*estimate_3))
          estimate(i) = part*estimate_5
       end do
-      norm = greatest_error(system%n_quadrature, estimate, system%traits%quadrature_scale, by_one_step)
+      norm = max_error(system%n_quadrature, estimate, system%traits%quadrature_scale, by_one_step)
    end function stages_quadrature_norm
 
    !> Whether these are the stages of a step, and not of a part of it.

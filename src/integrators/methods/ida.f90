@@ -50,7 +50,7 @@ contains
       allocate (library)
       call move_alloc(library, self%library)
       ! off the constraints by more than the local error allowed, the first step after an event fails however short it is
-      self%mends = .true.
+      self%projects = .true.
    end subroutine ida_make_library
 
    !> A method for stiff equations.

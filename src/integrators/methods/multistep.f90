@@ -47,7 +47,7 @@ module multistep
       logical :: is_fresh = .true.               !! the library must begin anew
       real(wp) :: first_step = 0.0_wp            !! first step to try when it does, 0: it chooses [s]
       integer :: n_rejected_before = 0           !! steps rejected before the library began anew
-      logical :: mends = .false.                 !! the library cannot begin off the constraints: states between steps are mended
+      logical :: projects = .false.                 !! the library cannot begin off the constraints: states between steps are mended
       type(library_step_t) :: last               !! the library's last step
    contains
       procedure(make_library_interface), deferred :: make_library
@@ -108,7 +108,7 @@ contains
       real(wp), intent(in) :: t_end                 !! end of the integration [s]
       integer, intent(out) :: status                !! advance_step, or a failure
 
-      call self%make_room(system)
+      call self%make_storage(system)
       if (.not. allocated(self%library)) then
          call self%make_library()
          call self%library%open(system%n)
@@ -302,8 +302,8 @@ contains
 
       status = 0
       call self%within(system, s, y)
-      if (self%mends) then
-         call system%mend(self%step%t0 + s*self%step%h, y, status)
+      if (self%projects) then
+         call system%project_state(self%step%t0 + s*self%step%h, y, status)
       else if (system%holds) then
          call system%hold(self%step%t0 + s*self%step%h, y, status)
       end if

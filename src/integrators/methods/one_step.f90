@@ -8,7 +8,7 @@
 !> round-off and the time of the event is as accurate as the step. Onsets of contacts may be met in other ways: `onset_control`.
 module one_step
    use event_location, only: find_first_event
-   use event_prediction, only: foretell_event
+   use event_prediction, only: predict_event
    use exchange, only: swap
    use integrator, only: advance_event, advance_failed_evaluation, advance_step, advance_too_many_evaluations, &
       advance_too_many_steps, advance_too_small, integrator_t
@@ -19,7 +19,7 @@ module one_step
    use onset_control, only: begin_control, end_controlled_step, is_too_deep, meet_onsets
    use step_control, only: n_control_number, step_control_t
    use stability_limit, only: n_stability_number, stability_limit_t
-   use wild_stages, only: is_wild
+   use diverged_stages, only: is_diverged
    implicit none (type, external)
    private
    public :: one_step_advance, one_step_load, one_step_memory_size, one_step_refine, one_step_restart, one_step_save, one_step_t
@@ -105,7 +105,7 @@ contains
       real(wp), intent(in) :: t_end                 !! end of the integration [s]
       integer, intent(out) :: status                !! advance_step, or a failure
 
-      call self%make_room(system)
+      call self%make_storage(system)
       call self%prepare(system%n)
       self%t = t
       self%step%t0 = t
@@ -205,20 +205,20 @@ contains
       real(wp), intent(in) :: t_stop                !! not to be passed [s]
       integer, intent(out) :: status                !! advance_step, or a failure
 
-      real(wp) :: greatest, h, least, norm
+      real(wp) :: maximum, h, minimum, norm
       logical :: is_fixed, is_last
 
       call self%pace%begin()
       is_fixed = self%controls%fixed_step > 0.0_wp
-      greatest = huge(1.0_wp)
-      least = max(self%controls%minimum_step, 4.0_wp*eps*abs(self%step%t0), eps*eps*abs(t_stop))
+      maximum = huge(1.0_wp)
+      minimum = max(self%controls%minimum_step, 4.0_wp*eps*abs(self%step%t0), eps*eps*abs(t_stop))
       do
          call check_limits(self, status)
          if (status /= advance_step) return
          h = self%controls%fixed_step
-         if (.not. is_fixed) h = max(self%pace%length(), least)
+         if (.not. is_fixed) h = max(self%pace%length(), minimum)
          self%step%course = self%pace%course
-         h = min(h, greatest)
+         h = min(h, maximum)
          if (self%controls%maximum_step > 0.0_wp) h = min(h, self%controls%maximum_step)
          is_last = self%step%t0 + h*(1.0_wp + 1.0e-10_wp) >= t_stop
          if (is_last) h = t_stop - self%step%t0
@@ -228,13 +228,13 @@ contains
          end if
          call try_step(self, system, h, merge(t_stop, self%step%t0 + h, is_last), norm, status)
          if (status == 0) exit
-         if (status == too_deep) greatest = 0.5_wp*h
+         if (status == too_deep) maximum = 0.5_wp*h
          if (status < 0 .or. (is_fixed .and. status /= too_deep)) then
             status = advance_failed_evaluation
             return
          end if
          self%count%n_rejected = self%count%n_rejected + 1
-         if (h <= least) then
+         if (h <= minimum) then
             status = advance_too_small
             return
          end if
@@ -287,7 +287,7 @@ contains
          call system%evaluate(t_new, self%trial, self%step%f1, status)
          self%count%n_evaluations = self%count%n_evaluations + 1
          if (status == 0 .and. self%controls%fixed_step > 0.0_wp) then
-            if (is_wild(size(self%step%f1), self%step%f1)) status = 1
+            if (is_diverged(size(self%step%f1), self%step%f1)) status = 1
          end if
       end if
       if (status /= 0) norm = huge(1.0_wp)
@@ -326,7 +326,7 @@ contains
       if (system%n_event == 0) return
       call system%last_events(self%t, self%step%y1, self%events%g1, self%events%rate1)
       if (self%controls%onset /= onset_located) call end_controlled_step(self)
-      call foretell_event(self%events, self%step%h, self%pace%h_event, event)
+      call predict_event(self%events, self%step%h, self%pace%h_event, event)
       self%pace%is_parting = .false.
       if (event > 0) self%pace%is_parting = system%contact_change(event) == contact_end
       call find_first_event(system, self, near_event, event, low, high, place)

@@ -39,7 +39,7 @@ module radau
    use one_step, only: one_step_advance, one_step_load, one_step_memory_size, one_step_restart, one_step_save, one_step_t
    use radau_matrix, only: radau_matrix_t
    use radau_products, only: a, c, filter_product_t, stage_product_t
-   use radau_stages, only: foresee, stages_t
+   use radau_stages, only: extrapolate, stages_t
    use step_nodes, only: step_nodes_t
    implicit none (type, external)
    private
@@ -340,15 +340,15 @@ contains
       is_part = self%t > self%step%t0
       if (.not. is_part .and. self%now%t < self%step%t0) call go_on(self)
       if (is_part) then
-         call foresee(self%now, self%step%t0, h, self%step%f0, self%z)
+         call extrapolate(self%now, self%step%t0, h, self%step%f0, self%z)
       else
-         call foresee(self%before, self%step%t0, h, self%step%f0, self%z)
+         call extrapolate(self%before, self%step%t0, h, self%step%f0, self%z)
       end if
       call find_stages(self, system, h, is_part, is_found, status)
       if (status /= 0) return
       if (.not. is_found .and. is_part .and. self%now%h > 0.0_wp) then
          ! the polynomial of the whole step knows the state, if not to its order
-         call foresee(self%now, self%step%t0, h, self%step%f0, self%z)
+         call extrapolate(self%now, self%step%t0, h, self%step%f0, self%z)
          call evaluate_stages(self, system, h, status)
          if (status /= 0) return
       else if (.not. is_found) then

@@ -1,7 +1,7 @@
 !> The equations of Radau IIA: Newton's iteration for the stages of a step, and the filtered estimate of its error.
 submodule(radau) radau_equations
    use integrator_controls, only: norm_euclidean
-   use quadrature_error, only: by_one_step, counts_quadratures, greatest_error
+   use quadrature_error, only: by_one_step, counts_quadratures, max_error
    use radau_products, only: real_eigenvalue
    implicit none (type, external)
 
@@ -13,7 +13,7 @@ submodule(radau) radau_equations
                                                         !! GMRES, and with the matrix
    integer, parameter :: too_many = 5                   !! iterations, slower than `slow`, after which the matrix is made anew
    real(wp), parameter :: slow = 0.2_wp                 !! ratio of successive changes [1]
-   real(wp), parameter :: least_ratio = 0.1_wp          !! of successive changes with the matrix; acceleration makes some less [1]
+   real(wp), parameter :: min_ratio = 0.1_wp          !! of successive changes with the matrix; acceleration makes some less [1]
    real(wp), parameter :: hopeless = 2.0_wp             !! ratio of successive changes at which the iteration is given up [1]
    real(wp), parameter :: out_of_reach = 1.0_wp/sqrt(eps)  !! change of the stages over the scales that no motion makes [1]
    real(wp), parameter :: part_of_tolerance = 0.03_wp   !! of TOL': error left by the iteration, at most [1]
@@ -77,7 +77,7 @@ contains
       logical, intent(out) :: is_found                      !! whether the iteration has converged
       integer, intent(out) :: status                        !! of the evaluations
 
-      real(wp) :: before, enough, eta, least, left, now, theta, tolerance
+      real(wp) :: before, enough, eta, minimum, left, now, theta, tolerance
       integer :: k, most
       logical :: is_search
 
@@ -86,12 +86,12 @@ contains
       tolerance = lenient(self%controls%tolerance)
       enough = left_in_steps(tolerance, by_matrix)
       if (is_part) enough = left_in_rows(self%controls%tolerance)
-      least = merge(noise, enough, is_search .or. (by_matrix .and. self%controls%fixed_step > 0.0_wp))
+      minimum = merge(noise, enough, is_search .or. (by_matrix .and. self%controls%fixed_step > 0.0_wp))
       eta = min(max(left_by_gmres(1), 10.0_wp*tolerance), left_by_gmres(2))
       if (is_search) eta = left_by_gmres(1)
       call begin_stages(self, h)
       if (by_matrix) then
-         eta = least_ratio
+         eta = min_ratio
          call self%matrix%factorise(h)
          call self%secants%begin()
       end if
@@ -110,7 +110,7 @@ contains
             call self%stage_solver%solve(self%stage, self%side, self%weight, eta, self%change, status)
          end if
          if (status /= 0) exit
-         now = greatest(self, self%change)
+         now = maximum(self, self%change)
          if (.not. now < out_of_reach) exit
          if (by_matrix) call self%secants%improve(self%weight, self%change)
          call add_change(self%n, self%change, self%z)
@@ -119,7 +119,7 @@ contains
             self%contraction = theta/max(1.0_wp - theta, eps)
          end if
          left = self%contraction*now
-         is_found = (left <= merge(enough, least, k == most) .and. theta < 1.0_wp) &
+         is_found = (left <= merge(enough, minimum, k == most) .and. theta < 1.0_wp) &
                     .or. (theta >= 0.5_wp .and. now <= 0.01_wp*tolerance)
          if (is_found .or. (theta >= hopeless .and. .not. is_part)) exit
          before = now
@@ -263,24 +263,24 @@ contains
    end function lenient
 
    !> Norm of one or more vectors over the scales.
-   pure real(wp) function greatest(self, x)
+   pure real(wp) function maximum(self, x)
       class(radau_t), intent(in) :: self   !! the integrator, scales set
       real(wp), intent(in) :: x(:)         !! (n, or several times n) the vectors [any]
 
       real(wp) :: part
       integer :: i
 
-      greatest = 0.0_wp
+      maximum = 0.0_wp
       do i = 1, size(x)
          part = abs(x(i))/self%scale(1 + modulo(i - 1, self%n))
          if (self%controls%norm == norm_euclidean) then
-            greatest = greatest + part**2
-         else if (.not. part <= greatest) then
-            greatest = part  ! a NaN comes through
+            maximum = maximum + part**2
+         else if (.not. part <= maximum) then
+            maximum = part  ! a NaN comes through
          end if
       end do
-      if (self%controls%norm == norm_euclidean) greatest = sqrt(greatest)
-   end function greatest
+      if (self%controls%norm == norm_euclidean) maximum = sqrt(maximum)
+   end function maximum
 
    !> Norm of the estimate.
    module procedure estimate_error
@@ -293,16 +293,16 @@ contains
       call self%set_scales(system, self%trial)
       call begin_differences(self, system)
       call set_side(n, h, self%z, self%stage%f, self%side)
-      noisy = greatest(self, self%side)
+      noisy = maximum(self, self%side)
       associate (filter => self%filter, side => self%side(:n), estimate => self%change(:n))
          filter%h = h
          do i = 1, n
             side(i) = (h*self%step%f0(i) + e(1)*self%z(i, 1) + e(2)*self%z(i, 2) + e(3)*self%z(i, 3))/real_eigenvalue
          end do
-         noisy = max(noisy, greatest(self, side))
+         noisy = max(noisy, maximum(self, side))
          call filter_side(self, system, h, status)
-         if (status == 0) self%norm = greatest(self, estimate)/lenient(self%controls%tolerance)
-         self%is_stiff = status == 0 .and. noisy > stiff*greatest(self, estimate)
+         if (status == 0) self%norm = maximum(self, estimate)/lenient(self%controls%tolerance)
+         self%is_stiff = status == 0 .and. noisy > stiff*maximum(self, estimate)
          if (status == 0 .and. self%norm > 1.0_wp .and. self%before%h <= 0.0_wp) then
             self%y(:) = self%step%y0
             self%y(:n) = self%y(:n) + estimate
@@ -310,7 +310,7 @@ contains
             call system%evaluate(self%step%t0, self%y, filter%rate, status)
             side(:) = side + h/real_eigenvalue*(filter%rate(:n) - self%step%f0(:n))
             if (status == 0) call filter_side(self, system, h, status)
-            if (status == 0) self%norm = greatest(self, estimate)/lenient(self%controls%tolerance)
+            if (status == 0) self%norm = maximum(self, estimate)/lenient(self%controls%tolerance)
          end if
          nullify (filter%system)
          self%count%n_evaluations = self%count%n_evaluations + filter%n_evaluation
@@ -346,7 +346,7 @@ contains
       self%filter%h = h
       self%side(:self%n) = h/real_eigenvalue*self%side(:self%n)
       call filter_side(self, system, h, status)
-      error = greatest(self, self%change(:self%n))/left_in_rows(self%controls%tolerance)
+      error = maximum(self, self%change(:self%n))/left_in_rows(self%controls%tolerance)
       nullify (self%filter%system)
       self%count%n_evaluations = self%count%n_evaluations + self%filter%n_evaluation
    end procedure filter_residual
@@ -376,7 +376,7 @@ contains
             self%scratch(n + i) = part*(f0(n + i) + weight(1)*f(n + i, 1) + weight(2)*f(n + i, 2) + weight(3)*f(n + i, 3))
          end do
       end associate
-      norm = greatest_error(system%n_quadrature, self%scratch(n + 1:), system%traits%quadrature_scale, by_one_step)
+      norm = max_error(system%n_quadrature, self%scratch(n + 1:), system%traits%quadrature_scale, by_one_step)
    end function quadrature_norm
 
 end submodule radau_equations

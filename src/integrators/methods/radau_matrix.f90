@@ -129,14 +129,14 @@ contains
       class(radau_matrix_t), intent(inout) :: self   !! the matrix
       class(ode_system_t), intent(in) :: system      !! the system
 
-      integer :: room, room_free
+      integer :: room, group_free
 
       self%n_rate = system%n_position - system%traits%n_turning
       room = merge(most_columns, 0, self%n_rate <= most_rates)
-      room_free = min(self%n_rate, room/2)
+      group_free = min(self%n_rate, room/2)
       associate (n => system%n - system%n_quadrature)
-         allocate (self%direction(self%n_rate, room_free), self%reading(self%n_rate, room_free), self%k(room, room), &
-                   self%across(room_free, 2*self%n_rate), self%real_lu(room, room), self%x(n - system%traits%n_turning, 3), &
+         allocate (self%direction(self%n_rate, group_free), self%reading(self%n_rate, group_free), self%k(room, room), &
+                   self%across(group_free, 2*self%n_rate), self%real_lu(room, room), self%x(n - system%traits%n_turning, 3), &
                    self%local(n - system%traits%n_turning), self%change(n), self%moved(system%n, 2), self%z(room, 3), &
                    self%single(room), source=0.0_wp)
          allocate (self%complex_lu(room, room), self%pair(room), source=(0.0_wp, 0.0_wp))

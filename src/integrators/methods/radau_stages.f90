@@ -4,7 +4,7 @@ module radau_stages
    use radau_products, only: c
    implicit none (type, external)
    private
-   public :: foresee, stages_t
+   public :: extrapolate, stages_t
 
    !> Stages of a step.
    type :: stages_t
@@ -17,7 +17,7 @@ contains
 
    !> Where the iteration begins: on the polynomial through stages of a step that ends, or begins, where this one begins; else on
    !> the tangent there, which friction that begins to slide has its direction from.
-   pure subroutine foresee(stages, t, h, f0, z)
+   pure subroutine extrapolate(stages, t, h, f0, z)
       type(stages_t), intent(in) :: stages  !! the stages
       real(wp), intent(in) :: t             !! start of the step in hand [s]
       real(wp), intent(in) :: h             !! its length [s]
@@ -45,6 +45,6 @@ contains
             z(i, k) = p(1)*stages%z(i, 1) + p(2)*stages%z(i, 2) + p(3)*stages%z(i, 3)
          end do
       end do
-   end subroutine foresee
+   end subroutine extrapolate
 
 end module radau_stages

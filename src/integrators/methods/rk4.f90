@@ -14,7 +14,7 @@ module rk4
    use kinds, only: wp
    use ode_system, only: ode_system_t
    use one_step, only: one_step_t
-   use wild_stages, only: wild
+   use diverged_stages, only: overflow_limit
    implicit none (type, external)
    private
    public :: rk4_t
@@ -82,13 +82,13 @@ contains
          tame = 0
          do i = 1, n
             self%trial(i) = y0(i) + h/6.0_wp*(k1(i) + 2.0_wp*(k(i, 2) + k(i, 3)) + k(i, 4))
-            tame = tame + merge(1, 0, abs(k(i, 4)) <= wild)
+            tame = tame + merge(1, 0, abs(k(i, 4)) <= overflow_limit)
          end do
          if (tame < n) status = 1
       end associate
    end subroutine rk4_make_stages
 
-   !> State of the next evaluation. Whether the derivative is wild, as `is_wild` has it, is seen in the same loop: of a large
+   !> State of the next evaluation. Whether the derivative is wild, as `is_diverged` has it, is seen in the same loop: of a large
    !> system every other one waits for memory.
    pure subroutine next_state(n, y0, h, f, y, status)
       integer, intent(in) :: n          !! entries of the state
@@ -103,7 +103,7 @@ contains
       tame = 0
       do i = 1, n
          y(i) = y0(i) + h*f(i)
-         tame = tame + merge(1, 0, abs(f(i)) <= wild)
+         tame = tame + merge(1, 0, abs(f(i)) <= overflow_limit)
       end do
       status = merge(1, 0, tame < n)
    end subroutine next_state

@@ -28,11 +28,11 @@ module rock4
    use ode_system, only: ode_system_t
    use one_step, only: one_step_advance, one_step_load, one_step_memory_size, one_step_restart, one_step_save, &
       one_step_t
-   use quadrature_error, only: by_one_step, counts_quadratures, greatest_error
-   use rock4_stages, only: end_coefficients, estimate_coefficients, find_recurrence, least_degree, longest_stretch, most_stages, &
+   use quadrature_error, only: by_one_step, counts_quadratures, max_error
+   use rock4_stages, only: end_coefficients, estimate_coefficients, find_recurrence, min_degree, longest_stretch, most_stages, &
       n_recurrence, recurrence
    use spectral_radius, only: find_radius, most_iterations
-   use wild_stages, only: judge_stage
+   use diverged_stages, only: judge_stage
    implicit none (type, external)
    private
    public :: rock4_t
@@ -247,7 +247,7 @@ contains
             self%pace%h_most = longest_stretch()/max(self%radius, tiny(1.0_wp))
          end if
       end associate
-      self%degree = least_degree(h*self%radius)
+      self%degree = min_degree(h*self%radius)
       if (self%degree > 0) then
          call find_recurrence(self%degree)
       else
@@ -296,7 +296,7 @@ contains
          self%scratch(n + i) = e(0)*self%k(n + i, 0) + e(1)*self%k(n + i, 1) + e(2)*self%k(n + i, 2) + e(3)*self%k(n + i, 3) &
                     + e(4)*self%k(n + i, 4)
       end do
-      norm = greatest_error(system%n_quadrature, self%scratch(n + 1:), system%traits%quadrature_scale, by_one_step)
+      norm = max_error(system%n_quadrature, self%scratch(n + 1:), system%traits%quadrature_scale, by_one_step)
    end function quadrature_norm
 
    !> No evaluations within the step.

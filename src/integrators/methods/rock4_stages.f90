@@ -14,7 +14,7 @@ module rock4_stages
    use kinds, only: wp
    implicit none (type, external)
    private
-   public :: end_coefficients, estimate_coefficients, find_recurrence, least_degree, longest_stretch, most_stages, n_recurrence
+   public :: end_coefficients, estimate_coefficients, find_recurrence, min_degree, longest_stretch, most_stages, n_recurrence
    public :: recurrence
 
    include "rock4_table.inc"
@@ -28,14 +28,14 @@ module rock4_stages
 contains
 
    !> Number of the least degree that is stable for the eigenvalues between -z and 0, 0 if there is none.
-   pure integer function least_degree(z) result(k)
+   pure integer function min_degree(z) result(k)
       real(wp), intent(in) :: z  !! step times spectral radius [1]
 
       do k = 1, n_degree
          if (stretch(k) >= z) return
       end do
       k = 0
-   end function least_degree
+   end function min_degree
 
    !> Greatest step times spectral radius of all degrees.
    pure real(wp) function longest_stretch()

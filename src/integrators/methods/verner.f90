@@ -13,9 +13,9 @@ module verner
    use kinds, only: i8, wp
    use ode_system, only: ode_system_t
    use one_step, only: one_step_t
-   use quadrature_error, only: by_one_step, counts_quadratures, greatest_error
+   use quadrature_error, only: by_one_step, counts_quadratures, max_error
    use stability_limit, only: rate_between
-   use wild_stages, only: evaluate_aside, judge_stage
+   use diverged_stages, only: evaluate_aside, judge_stage
    implicit none (type, external)
    private
    public :: verner_stages_t, verner_bound, verner_t
@@ -136,7 +136,7 @@ contains
       integer :: i, m, n
       logical :: is_blind
 
-      is_blind = .not. system%traits%sees_wild
+      is_blind = .not. system%traits%sees_diverged
       m = system%n_position
       n = system%n - system%n_quadrature
       do concurrent(i=1:n)
@@ -248,7 +248,7 @@ contains
                                 + (e6 + e8)*k(n + i, 8))
          end do
       end associate
-      norm = greatest_error(system%n_quadrature, estimate, system%traits%quadrature_scale, by_one_step)
+      norm = max_error(system%n_quadrature, estimate, system%traits%quadrature_scale, by_one_step)
    end function stages_quadrature_norm
 
    !> The norm of the motion on plain arrays.

@@ -11,7 +11,7 @@ module quadrature_error
    use ode_system, only: ode_system_t
    implicit none (type, external)
    private
-   public :: allowed_by_multistep, by_one_step, counts_quadratures, greatest_error
+   public :: allowed_by_multistep, by_one_step, counts_quadratures, max_error
 
    real(wp), parameter :: idle = 1.0e-3_wp        !! norm of a motion that does not limit the step, of what is allowed [1]
    real(wp), parameter :: by_one_step = 20.0_wp   !! estimate of a quadrature in a step, of the tolerance of its scale [1]
@@ -37,7 +37,7 @@ contains
    end function allowed_by_multistep
 
    !> Greatest error over its scale and what is allowed of it. An error that is not a number is skipped: no shorter step mends it.
-   pure real(wp) function greatest_error(n, error, scale, allowed) result(norm)
+   pure real(wp) function max_error(n, error, scale, allowed) result(norm)
       integer, intent(in) :: n          !! number of quadratures
       real(wp), intent(in) :: error(n)  !! (n) estimates of their errors [any]
       real(wp), intent(in) :: scale(n)  !! (n) their scales [any]
@@ -50,6 +50,6 @@ contains
          if (abs(error(i)) > norm*scale(i)) norm = abs(error(i))/scale(i)
       end do
       norm = norm/allowed
-   end function greatest_error
+   end function max_error
 
 end module quadrature_error

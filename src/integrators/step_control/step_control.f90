@@ -34,8 +34,8 @@ module step_control
    public :: n_control_number, step_control_t
 
    real(wp), parameter :: safety = 0.93_wp     !! of the step that the estimate would allow [1]
-   real(wp), parameter :: swing = 0.25_wp      !! how far the step of before counts; of what that takes, three quarters [1]
-   real(wp), parameter :: least_norm = 0.01_wp !! of the step before, where it counts [1]
+   real(wp), parameter :: contact_rate = 0.25_wp      !! how far the step of before counts; of what that takes, three quarters [1]
+   real(wp), parameter :: min_norm = 0.01_wp !! of the step before, where it counts [1]
    real(wp), parameter :: growth = 4.0_wp      !! greatest ratio of successive steps [1]
    real(wp), parameter :: shrinkage = 0.1_wp   !! least ratio of successive steps [1]
    real(wp), parameter :: rough = 2.5_wp       !! order where the right-hand side is not smooth [1]
@@ -160,7 +160,7 @@ contains
       real(wp) :: allowed, log_norm, wanted
 
       log_norm = log(max(norm, tiny(1.0_wp)))
-      allowed = safety*exp(((0.75_wp*swing - 1.0_wp)*log_norm + swing*self%log_before)/self%order)
+      allowed = safety*exp(((0.75_wp*contact_rate - 1.0_wp)*log_norm + contact_rate*self%log_before)/self%order)
       wanted = h*min(merge(1.0_wp, growth, self%norm_rejected > 0.0_wp), allowed)
       if (self%is_fresh .and. self%is_onset) then
          wanted = max(wanted, after_root*h)
@@ -173,7 +173,7 @@ contains
          self%h_next = wanted
       end if
       self%is_fresh = .false.
-      self%log_before = max(log_norm, log(least_norm))
+      self%log_before = max(log_norm, log(min_norm))
 
    contains
 

@@ -83,7 +83,7 @@ contains
       type(c_ptr), value :: user_data                     !! the problem
 
       real(wp), parameter :: too_slow = 0.9_wp      ! a rate [1]
-      real(wp), parameter :: least_left = 1.0_wp    ! of a correction, whatever the rate [1]
+      real(wp), parameter :: min_left = 1.0_wp    ! of a correction, whatever the rate [1]
       type(problem_t), pointer :: problem
       real(c_double), pointer :: changes(:), weights(:)
       real(wp) :: norm, rate
@@ -101,7 +101,7 @@ contains
          rate = (norm/problem%newton_norm)**(1.0_wp/m(1))
          answer = newton_fails
          if (rate > too_slow) return
-         problem%newton_rest = max(rate/(1.0_wp - rate), least_left)
+         problem%newton_rest = max(rate/(1.0_wp - rate), min_left)
       end if
       answer = merge(0_c_int, newton_goes_on, problem%newton_rest*norm <= tolerance)
    end function test_convergence

@@ -17,7 +17,7 @@ module sundials_library
    use kinds, only: eps, wp
    use newton_matrix, only: newton_matrix_t
    use ode_system, only: ode_system_t
-   use quadrature_error, only: allowed_by_multistep, counts_quadratures, greatest_error
+   use quadrature_error, only: allowed_by_multistep, counts_quadratures, max_error
    use sundials, only: fn_vdestroy, fn_vgetarraypointer, fsuncontext_free, fsunlinsolfree, fsunmatdestroy, n_vector, n_vector_ops, &
       new_context, sunindextype, sunlinearsolver, sunmatrix
    implicit none (type, external)
@@ -133,11 +133,11 @@ contains
       vector => fn_vnew_serial(int(n, sunindextype), context)
       if (.not. associated(vector)) return
       call c_f_pointer(vector%ops, operations)
-      operations%nvwrmsnorm = c_funloc(greatest_norm)
+      operations%nvwrmsnorm = c_funloc(max_norm)
    end function new_vector
 
    !> The library's norm of errors times weights, or that of the quadratures if it is greater.
-   real(c_double) function greatest_norm(error, weight) bind(c, name="") result(norm)
+   real(c_double) function max_norm(error, weight) bind(c, name="") result(norm)
       type(n_vector), intent(inout) :: error    !! errors
       type(n_vector), intent(inout) :: weight   !! their weights, next to nothing of quadratures
 
@@ -149,11 +149,11 @@ contains
       associate (system => at_work%system)
          if (.not. counts_quadratures(system, merge(norm, 0.0_wp, system%n_event > 0))) return
          errors => fn_vgetarraypointer(error)
-         norm = max(norm, greatest_error(system%n_quadrature, errors(system%n - system%n_quadrature + 1:system%n), &
+         norm = max(norm, max_error(system%n_quadrature, errors(system%n - system%n_quadrature + 1:system%n), &
                                          system%traits%quadrature_scale, &
                                          allowed_by_multistep(norm)*at_work%method%controls%tolerance))
       end associate
-   end function greatest_norm
+   end function max_norm
 
    !> The right-hand side, at a held copy of the state if that is asked for.
    subroutine problem_evaluate(self, t, y, ydot, status)

@@ -43,8 +43,8 @@ module coordinates
       procedure(from_local_interface), deferred :: from_local
       procedure :: scales => coordinates_scales
       procedure :: change_scales => coordinates_change_scales
-      procedure :: greatest_rate => coordinates_greatest_rate
-      procedure :: greatest_turn => coordinates_greatest_turn
+      procedure :: max_rate => coordinates_max_rate
+      procedure :: max_turn => coordinates_max_turn
    end type coordinates_t
 
    abstract interface
@@ -290,7 +290,7 @@ contains
    end function coordinates_change_scales
 
    !> Greatest of the rates of n bodies, velocities over a length.
-   pure real(wp) function coordinates_greatest_rate(self, n, v, length) result(rate)
+   pure real(wp) function coordinates_max_rate(self, n, v, length) result(rate)
       class(coordinates_t), intent(in) :: self   !! the coordinates
       integer, intent(in) :: n                   !! how many bodies
       real(wp), intent(in) :: v(self%n_v, n)     !! (n_v, n) rates [any]
@@ -308,10 +308,10 @@ contains
             end if
          end do
       end do
-   end function coordinates_greatest_rate
+   end function coordinates_max_rate
 
    !> Greatest turn in changes of n bodies.
-   pure real(wp) function coordinates_greatest_turn(self, n, x) result(turn)
+   pure real(wp) function coordinates_max_turn(self, n, x) result(turn)
       class(coordinates_t), intent(in) :: self   !! the coordinates
       integer, intent(in) :: n                   !! how many bodies
       real(wp), intent(in) :: x(self%n_v, n)     !! (n_v, n) changes [any]
@@ -322,6 +322,6 @@ contains
       do i = 1, self%n_v
          if (self%is_turn(i)) turn = max(turn, maxval(abs(x(i, :))))
       end do
-   end function coordinates_greatest_turn
+   end function coordinates_max_turn
 
 end module coordinates

@@ -47,7 +47,7 @@ module bearing_films
       procedure, non_overridable :: slopes_at => films_slopes_at
       procedure :: fades => films_fade
       procedure :: warm => films_warm
-      procedure :: greatest_pressure => films_greatest_pressure
+      procedure :: max_pressure => films_max_pressure
       procedure :: decay_of => films_decay_of
       procedure :: motion_of => films_motion_of
       procedure :: unwrap => films_unwrap
@@ -237,7 +237,7 @@ contains
    end function films_state_of
 
    !> Greatest pressure in the middle of the length, at whole degrees around the bearing; 0 of a film that does not act.
-   real(wp) function films_greatest_pressure(self, k, motion) result(pressure)
+   real(wp) function films_max_pressure(self, k, motion) result(pressure)
       class(bearing_films_t), intent(in) :: self  !! the films, which have pressures
       integer, intent(in) :: k                    !! item
       type(film_motion_t), intent(in) :: motion   !! its motion
@@ -250,7 +250,7 @@ contains
       theta = [(two_pi*i/n_around, i=1, n_around)]
       call self%law%field(motion, self%parameters(:, k), theta, [0.0_wp], p, h)
       pressure = share_of(self%place(k), motion)*maxval(p)
-   end function films_greatest_pressure
+   end function films_max_pressure
 
    !> How fast the film of one item brings the way of the journal along the line of centres to rest, while it approaches [1/s].
    real(wp) function films_decay_of(self, k, motion, inverse_mass) result(decay)

@@ -48,7 +48,7 @@ contains
 
       integer :: k
 
-      call self%make_room()
+      call self%make_storage()
       allocate (self%socket(self%n))
       do k = 1, self%n
          associate (item => items(k), socket => self%socket(k))

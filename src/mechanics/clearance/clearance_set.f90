@@ -8,7 +8,7 @@
 module clearance_set
    use bearing_films, only: bearing_films_t
    use bodies, only: material_t, points_t
-   use contact_grip, only: new_grip, tangent_t
+   use contact_stick_slip, only: new_stick_slip, tangent_t
    use contact_states, only: contact_states_t
    use floors, only: gentle
    use friction_law, only: friction_law_t, memory_slip
@@ -74,7 +74,7 @@ module clearance_set
       procedure(describe_interface), nopass, deferred :: describe
       procedure(evaluate_interface), deferred :: evaluate
       procedure(gaps_interface), deferred :: gaps
-      procedure(watch_interface), deferred :: watch
+      procedure(monitor_interface), deferred :: monitor
       procedure(lie_interface), deferred :: lie
       procedure(report_interface), deferred :: report
       procedure(energy_interface), deferred :: elastic_energy
@@ -83,7 +83,7 @@ module clearance_set
       procedure :: set_start => clearance_set_start
       procedure :: span_of => clearance_span_of
       procedure :: fit_law => clearance_fit_law
-      procedure :: note_swing => clearance_note_swing
+      procedure :: note_contact_rate => clearance_note_contact_rate
       procedure :: lay => clearance_lay
       procedure :: follow_sliding => clearance_follow_sliding
       procedure :: contact_time => clearance_contact_time
@@ -157,7 +157,7 @@ module clearance_set
       end subroutine gaps_interface
 
       !> Normal force of a contact that acts and its rate, for the location of its maximum.
-      subroutine watch_interface(self, k, motion, delta, rate, force, force_rate)
+      subroutine monitor_interface(self, k, motion, delta, rate, force, force_rate)
          import :: clearance_set_t, motion_t, wp
          implicit none (type, external)
          class(clearance_set_t), intent(in) :: self  !! the set
@@ -167,7 +167,7 @@ module clearance_set
          real(wp), intent(out) :: rate               !! its rate [m/s]
          real(wp), intent(out) :: force              !! normal force [N]
          real(wp), intent(out) :: force_rate         !! its rate [N/s]
-      end subroutine watch_interface
+      end subroutine monitor_interface
 
       !> How a contact lies, whether it touches or not: tangent, arms, sliding velocity of the material points and the part of
       !> its rate that does not depend on accelerations. Forces are left alone. No allocation.
@@ -241,7 +241,7 @@ contains
          if (friction%is_active()) then
             allocate (self%laws%friction, source=friction)
             info = self%info()
-            call new_grip(self%n_contact, info%space == in_space, friction, self%grip)
+            call new_stick_slip(self%n_contact, info%space == in_space, friction, self%stick_slip)
          end if
       end if
       do k = 1, self%n
@@ -327,7 +327,7 @@ contains
 
    !> How fast a contact that has begun swings: as an impact with its speed, or as one that gets as deep as it is, which one that
    !> begins overlapping is without any speed. 0 if that is not known. And whether it begins beyond the transition of a film.
-   pure subroutine clearance_note_swing(self, k, delta)
+   pure subroutine clearance_note_contact_rate(self, k, delta)
       class(clearance_set_t), intent(inout) :: self  !! the set
       integer, intent(in) :: k                       !! contact of the set
       real(wp), intent(in) :: delta                  !! its penetration [m]
@@ -341,12 +341,12 @@ contains
          speed = sqrt(2.0_wp*inverse_mass*max(0.0_wp, self%laws%normal%potential(max(delta, 0.0_wp), self%laws%parameters(:, k))))
          time = self%laws%normal%contact_time(self%laws%parameters(:, k), max(speed, self%contact(k)%impact_speed), inverse_mass)
       end associate
-      if (time > 0.0_wp) self%contact(k)%swing = pi/time
+      if (time > 0.0_wp) self%contact(k)%contact_rate = pi/time
       self%evaluated_at = 0
       if (allocated(self%laws%films)) then
          if (self%laws%films%fades()) self%contact(k)%is_dry = delta > self%laws%films%place(item)%depth
       end if
-   end subroutine clearance_note_swing
+   end subroutine clearance_note_contact_rate
 
    !> Keep how a contact lies at a motion, for its friction, which remembers; its forces are left alone.
    subroutine clearance_lay(self, k, motion)
@@ -356,9 +356,9 @@ contains
 
       type(tangent_t) :: tangent
 
-      tangent = self%grip%tangent(k)
+      tangent = self%stick_slip%tangent(k)
       call self%lie(k, motion, tangent)
-      self%grip%tangent(k) = tangent
+      self%stick_slip%tangent(k) = tangent
    end subroutine clearance_lay
 
    !> Let the ways of contacts in space that may stick follow their sliding, at the end of a step. One that is next to none along
@@ -369,15 +369,15 @@ contains
 
       integer :: k
 
-      if (self%grip%memory /= memory_slip .or. self%grip%n_tangent == 1 .or. self%n_touching == 0) return
+      if (self%stick_slip%memory /= memory_slip .or. self%stick_slip%n_tangent == 1 .or. self%n_touching == 0) return
       do k = 1, self%n_contact
          if (.not. self%contact(k)%is_touching) cycle
          call self%lay(k, motion)
-         associate (tangent => self%grip%tangent(k))
+         associate (tangent => self%stick_slip%tangent(k))
             tangent%way = tangent%t(:, 1)
-            if (self%grip%slip(k) /= 1 .or. tangent%v(1) < self%grip%still(k)) cycle
+            if (self%stick_slip%slip(k) /= 1 .or. tangent%v(1) < self%stick_slip%still(k)) cycle
             call self%slip_toward(k, tangent%v)
-            self%grip%band(k) = 0.0_wp
+            self%stick_slip%band(k) = 0.0_wp
          end associate
       end do
    end subroutine clearance_follow_sliding

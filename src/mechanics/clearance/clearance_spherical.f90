@@ -85,7 +85,7 @@ contains
       integer :: k
 
       self%traits%is_round = .true.
-      call self%make_room()
+      call self%make_storage()
       allocate (self%socket(self%n))
       do k = 1, self%n
          self%items%clearance(k) = items(k)%number("clearance")

@@ -1,7 +1,7 @@
 !> Laws asked for contacts: a normal law whose force jumps where the penetration turns, and friction without a memory.
 !>
 !> A law whose force jumps from F_a to F_p where the penetration turns follows the course of the contact, which changes at located
-!> events only; one that rests has (F_a + F_p)/2 + (F_a - F_p)/2 rate/rest_speed (`turn_watch`).
+!> events only; one that rests has (F_a + F_p)/2 + (F_a - F_p)/2 rate/rest_speed (`turn_monitor`).
 !> Signs: penetration > 0 in contact, rate > 0 approaching, force > 0 pushes the bodies apart; friction is that on j along t.
 !> Source and limits: those of the laws.
 module contact_laws
@@ -12,7 +12,7 @@ module contact_laws
    use point_contact, only: point_contact_t
    implicit none (type, external)
    private
-   public :: press_in_course, rub_by_law
+   public :: press_in_course, friction_by_law
 
 contains
 
@@ -50,7 +50,7 @@ contains
    end subroutine press_in_course
 
    !> Friction of some contacts, by a law that remembers nothing.
-   subroutine rub_by_law(n, law, memory, contacts, f_n, speed, f_t)
+   subroutine friction_by_law(n, law, memory, contacts, f_n, speed, f_t)
       integer, intent(in) :: n                           !! number of contacts
       class(friction_law_t), intent(in) :: law           !! the law
       type(contact_memory_t), intent(in) :: memory(n)    !! (n) states
@@ -69,6 +69,6 @@ contains
       do k = 1, n
          if (memory(k)%is_touching) f_t(k) = -sign(f_t(k), contacts(k)%v_t)
       end do
-   end subroutine rub_by_law
+   end subroutine friction_by_law
 
 end module contact_laws

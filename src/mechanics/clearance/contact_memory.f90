@@ -29,7 +29,7 @@ module contact_memory
       real(wp) :: loss_at_onset = 0.0_wp        !! what the ledger had lost in the contact by then [J]
       integer :: course = approaches            !! approaches, parts or rests: laws that jump at a turn of the penetration
       real(wp) :: rest_speed = 0.0_wp           !! greatest rate of one that rests [m/s]
-      real(wp) :: swing = 0.0_wp                !! how fast it swings, pi over the time of an impact [rad/s]
+      real(wp) :: contact_rate = 0.0_wp                !! how fast it swings, pi over the time of an impact [rad/s]
       logical :: is_dry = .false.               !! beyond the transition of a film, which is gone there
       logical :: is_cut_off = .false.           !! without a force at the end of the last step: see `cut_off`
       real(wp) :: held = 0.0_wp                 !! what it had lost and still stored there together [J]
@@ -49,7 +49,8 @@ contains
 
       call put(row, place, self%is_touching)
       call put(row, place, [self%onset, self%impact_speed, self%peak_force, self%peak_penetration, self%loss_at_onset, &
-                            self%rest_speed, self%swing, self%held, self%amends, self%went%force_at, self%went%penetration_at, &
+                            self%rest_speed, self%contact_rate, self%held, self%amends, self%went%force_at, &
+                                 self%went%penetration_at, &
                             self%went%impulse])
       call put(row, place, self%course)
       call put(row, place, self%is_cut_off)
@@ -69,7 +70,7 @@ contains
       call get(row, place, self%peak_penetration)
       call get(row, place, self%loss_at_onset)
       call get(row, place, self%rest_speed)
-      call get(row, place, self%swing)
+      call get(row, place, self%contact_rate)
       call get(row, place, self%held)
       call get(row, place, self%amends)
       call get(row, place, self%went%force_at)

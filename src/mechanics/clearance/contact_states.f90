@@ -4,7 +4,7 @@
 !> A contact is free or touching; it changes only at located events, and only by the procedures below: the impact speed is stored
 !> at the onset, the greatest force and penetration as steps find them, and the end makes a row of the list of events.
 module contact_states
-   use contact_grip, only: gives_way, grip_t
+   use contact_stick_slip, only: gives_way, stick_slip_t
    use contact_memory, only: contact_memory_t, n_contact_memory
    use kinds, only: i8, not_a_number, wp
    use recorder, only: event_t
@@ -31,7 +31,7 @@ module contact_states
       type(numbers_before_t) :: before                    !! of earlier sets
       type(text_t), allocatable :: names(:)               !! (n) names
       type(contact_memory_t), allocatable :: contact(:)   !! (n_contact) state of the contacts
-      type(grip_t) :: grip                                !! what the contacts remember of their friction
+      type(stick_slip_t) :: stick_slip                                !! what the contacts remember of their friction
    contains
       procedure :: item_of
       procedure :: label_of
@@ -112,7 +112,7 @@ contains
       self%contact(k) = begun
       self%n_touching = self%n_touching + 1
       self%evaluated_at = 0
-      call self%grip%forget(k)
+      call self%stick_slip%forget(k)
    end subroutine begin_contact
 
    !> A contact that touches is to have begun with another speed: so a neighbouring motion has it.
@@ -155,7 +155,7 @@ contains
             contact%is_touching = .false.
             self%n_touching = self%n_touching - 1
             self%evaluated_at = 0
-            call self%grip%forget(k)
+            call self%stick_slip%forget(k)
          else
             event%duration = not_a_number()
             event%release_speed = not_a_number()
@@ -185,7 +185,7 @@ contains
                         - merge(1, 0, self%contact(k)%is_touching)
       self%contact(k) = other%contact(k_other)
       self%evaluated_at = 0
-      call self%grip%adopt(k, other%grip, k_other)
+      call self%stick_slip%adopt(k, other%stick_slip, k_other)
    end subroutine states_adopt
 
    !> Contacts touch where their surfaces overlap, whatever they did before: so a search of an equilibrium takes them.
@@ -279,8 +279,8 @@ contains
       integer, intent(in) :: k                        !! contact of the set
       integer, intent(in) :: slip                     !! what it does until then
 
-      self%grip%was(k) = merge(gives_way, self%grip%slip(k), slip == gives_way)
-      self%grip%slip(k) = slip
+      self%stick_slip%was(k) = merge(gives_way, self%stick_slip%slip(k), slip == gives_way)
+      self%stick_slip%slip(k) = slip
    end subroutine open_decision
 
    !> It is decided that a contact slides this way or sticks.
@@ -289,7 +289,7 @@ contains
       integer, intent(in) :: k                        !! contact of the set
       integer, intent(in) :: slip                     !! sign of its sliding velocity, 0: it sticks
 
-      self%grip%slip(k) = slip
+      self%stick_slip%slip(k) = slip
    end subroutine slip_as
 
    !> It is decided that a contact slides along a vector of its tangents, as it lies.
@@ -300,15 +300,15 @@ contains
 
       real(wp) :: way(3)
 
-      if (self%grip%n_tangent == 1) then
-         self%grip%slip(k) = nint(sign(1.0_wp, direction(1)))
+      if (self%stick_slip%n_tangent == 1) then
+         self%stick_slip%slip(k) = nint(sign(1.0_wp, direction(1)))
          return
       end if
-      self%grip%slip(k) = 1
-      way = matmul(self%grip%tangent(k)%t, direction)
+      self%stick_slip%slip(k) = 1
+      way = matmul(self%stick_slip%tangent(k)%t, direction)
       if (.not. any(abs(way) > 0.0_wp)) return
       way = way/maxval(abs(way))  ! squares of small numbers are zero
-      self%grip%tangent(k)%way = way/norm2(way)
+      self%stick_slip%tangent(k)%way = way/norm2(way)
    end subroutine slip_toward
 
    !> When it was decided, and the speed the wrong way at which its slip is to end next.
@@ -319,9 +319,9 @@ contains
       real(wp), intent(in) :: band                    !! speed against the slip at which it ends [m/s]
       real(wp), intent(in) :: still                   !! speed that is next to none [m/s]
 
-      self%grip%since(k) = t
-      self%grip%band(k) = band
-      self%grip%still(k) = still
+      self%stick_slip%since(k) = t
+      self%stick_slip%band(k) = band
+      self%stick_slip%still(k) = still
    end subroutine note_decision
 
    !> The friction force of a contact that sticks is not unique at a time.
@@ -330,7 +330,7 @@ contains
       integer, intent(in) :: k                        !! contact of the set
       real(wp), intent(in) :: t                       !! time [s]
 
-      self%grip%shared_from(k) = min(self%grip%shared_from(k), t)
+      self%stick_slip%shared_from(k) = min(self%stick_slip%shared_from(k), t)
    end subroutine note_shared
 
    !> Friction of a contact that sticks, as found with the accelerations.
@@ -340,8 +340,8 @@ contains
       real(wp), intent(in) :: force(2)                !! (2) on body j along its tangents [N]
       logical, intent(in) :: is_driven                !! drivers alone prescribe how it slides
 
-      self%grip%tangent(k)%f_t = force
-      self%grip%tangent(k)%is_driven = is_driven
+      self%stick_slip%tangent(k)%f_t = force
+      self%stick_slip%tangent(k)%is_driven = is_driven
    end subroutine stick_with
 
    !> Where the deflections of the bristles are among those of all sets.
@@ -349,7 +349,7 @@ contains
       class(contact_states_t), intent(inout) :: self  !! the set
       integer, intent(in) :: first                    !! deflections of earlier sets
 
-      self%grip%first_bristle = first
+      self%stick_slip%first_bristle = first
    end subroutine place_bristles
 
    !> Take the deflections of bristles from a state.
@@ -357,7 +357,7 @@ contains
       class(contact_states_t), intent(inout) :: self  !! the set, with friction that has bristles
       real(wp), intent(in) :: state(:)                !! (n_component n_contact) the entries of the state [m]
 
-      self%grip%z = reshape(state, shape(self%grip%z)) - self%grip%origin
+      self%stick_slip%z = reshape(state, shape(self%stick_slip%z)) - self%stick_slip%origin
    end subroutine bend_bristles
 
    !> Numbers that the set must keep in a checkpoint.
@@ -365,7 +365,7 @@ contains
       class(contact_states_t), intent(in) :: self  !! the set
 
       n = n_contact_memory*self%n_contact
-      n = n + self%grip%memory_size()
+      n = n + self%stick_slip%memory_size()
    end function states_memory_size
 
    !> Write what the set remembers.
@@ -379,7 +379,7 @@ contains
       do k = 1, self%n_contact
          call self%contact(k)%save(row, place)
       end do
-      call self%grip%save(row, place)
+      call self%stick_slip%save(row, place)
    end subroutine states_save
 
    !> Read what the set remembers.
@@ -394,7 +394,7 @@ contains
          call self%contact(k)%load(row, place)
       end do
       self%n_touching = count(self%contact%is_touching)
-      call self%grip%load(row, place)
+      call self%stick_slip%load(row, place)
    end subroutine states_load
 
 end module contact_states

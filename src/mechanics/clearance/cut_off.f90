@@ -59,7 +59,7 @@ contains
          if (.not. contact%is_touching) return
          lost = quadrature + contact%amends
          if (.not. contact%is_cut_off) return
-         call set%watch(k, motion, delta, rate, force, force_rate)
+         call set%monitor(k, motion, delta, rate, force, force_rate)
          if (force > 0.0_wp) return  ! a row before the force vanishes at the end of the step
          lost = contact%held - set%laws%normal%potential(max(delta, 0.0_wp), set%laws%parameters(:, k))
       end associate

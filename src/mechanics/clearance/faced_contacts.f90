@@ -9,7 +9,7 @@ module faced_contacts
    use kinds, only: wp
    use motion, only: motion_t
    use point_contact, only: most_of_item, point_contact_t
-   use point_contacts, only: point_elastic_energy, point_watch
+   use point_contacts, only: point_elastic_energy, point_monitor
    implicit none (type, external)
    private
    public :: faced_contacts_t
@@ -18,7 +18,7 @@ module faced_contacts
    type, abstract, extends(flat_contacts_t) :: faced_contacts_t
    contains
       procedure(energy_interface), deferred :: face_energy
-      procedure :: watch => faced_watch
+      procedure :: monitor => faced_monitor
       procedure :: elastic_energy => faced_elastic_energy
    end type faced_contacts_t
 
@@ -37,7 +37,7 @@ module faced_contacts
 contains
 
    !> Normal force of a touching contact and its rate, that of the five-point formula where faces may be shared.
-   subroutine faced_watch(self, k, motion, delta, rate, force, force_rate)
+   subroutine faced_monitor(self, k, motion, delta, rate, force, force_rate)
       class(faced_contacts_t), intent(in) :: self  !! the set
       integer, intent(in) :: k                     !! contact
       type(motion_t), intent(in) :: motion         !! positions, velocities and accelerations
@@ -50,7 +50,7 @@ contains
       integer :: c, first
 
       if (.not. (self%traits%has_faces .and. self%contact(k)%is_touching)) then
-         call point_watch(self, k, motion, delta, rate, force, force_rate)
+         call point_monitor(self, k, motion, delta, rate, force, force_rate)
          return
       end if
       first = (self%item_of(k) - 1)*self%n_contact_item
@@ -61,7 +61,7 @@ contains
       rate = contacts(k - first)%rate
       force = force_in_faces(self, self%item_of(k), contacts, k - first)
       force_rate = rate_in_faces(self, k, motion, contacts)
-   end subroutine faced_watch
+   end subroutine faced_monitor
 
    !> Rate of the normal force of a contact that may share a face.
    real(wp) function rate_in_faces(self, k, motion, contacts) result(force_rate)
@@ -105,12 +105,12 @@ contains
       type(point_contact_t), intent(in) :: contacts(self%n_contact_item)  !! (n_contact_item) penetrations and rates
       integer, intent(in) :: c                                 !! contact of the item
 
-      real(wp), dimension(most_of_item) :: f_elastic, f_n, f_rub
+      real(wp), dimension(most_of_item) :: f_elastic, f_n, f_friction
 
       associate (n => self%n_contact_item)
          call self%press(item, contacts, f_n(:n), f_elastic(:n))
-         f_rub(:n) = f_n(:n)
-         call self%share_item(item, contacts, f_n(:n), f_elastic(:n), f_rub(:n))
+         f_friction(:n) = f_n(:n)
+         call self%share_item(item, contacts, f_n(:n), f_elastic(:n), f_friction(:n))
       end associate
       force = f_n(c)
    end function force_in_faces

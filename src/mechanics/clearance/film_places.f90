@@ -1,6 +1,6 @@
 !> What joints say of their films: the bearing of a row, how its film acts, and what a film does there.
 module film_places
-   use film_law, only: film_bearing_t, film_motion_t, greatest_eccentricity
+   use film_law, only: film_bearing_t, film_motion_t, max_eccentricity
    use item, only: find_place, item_t
    use kinds, only: not_a_number, wp
    use lubricant, only: oil_t
@@ -8,7 +8,7 @@ module film_places
    private
    public :: film_bearing_of, film_place_t, film_state_t, finish_state, place_of_film, share_of
 
-   real(wp), parameter :: least_flow = 1.0e-3_wp  !! side flow that is next to none, of L R c and both angular speeds [1]
+   real(wp), parameter :: min_flow = 1.0e-3_wp  !! side flow that is next to none, of L R c and both angular speeds [1]
 
    !> How a film acts in a joint.
    type :: film_place_t
@@ -78,7 +78,7 @@ contains
 
       share = motion%engaged
       if (place%depth > 0.0_wp) then
-         share = share*min(max((place%clearance + place%depth - greatest_eccentricity(motion))/place%depth, 0.0_wp), 1.0_wp)
+         share = share*min(max((place%clearance + place%depth - max_eccentricity(motion))/place%depth, 0.0_wp), 1.0_wp)
       end if
    end function share_of
 
@@ -89,10 +89,10 @@ contains
       real(wp), intent(in) :: speeds                !! sum of both angular speeds [rad/s]
       type(film_state_t), intent(inout) :: state    !! what the film does
 
-      real(wp) :: least
+      real(wp) :: minimum
 
-      least = least_flow*bearing%length*bearing%radius*bearing%clearance*speeds
-      state%has_flow = state%side_flow > least
+      minimum = min_flow*bearing%length*bearing%radius*bearing%clearance*speeds
+      state%has_flow = state%side_flow > minimum
       if (state%has_flow) then
          state%rise = state%power/(heat*state%side_flow)
       else if (state%power > 0.0_wp) then

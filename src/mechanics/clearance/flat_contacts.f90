@@ -59,7 +59,7 @@ contains
       integer :: m
 
       m = self%n_contact
-      call self%make_room()
+      call self%make_storage()
       allocate (self%plane%normal_i(2, m), self%plane%point_j(2, m), self%plane%height(m), self%plane%radius(m), source=0.0_wp)
       allocate (self%plane%axis_i(2, m), source=0.0_wp)
       allocate (self%plane%ends(2, m), source=huge(1.0_wp))

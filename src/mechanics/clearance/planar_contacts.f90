@@ -4,9 +4,9 @@
 !> v_T' = t . (a_j + alpha_j R90 s_j - a_i - alpha_i R90 s_i) + drift, with the arms s of C:
 !> drift = -turn delta' + omega_j n . s_j' - omega_i n . s_i',  turn the rate of the normal's angle.
 !>
-!> Signs: forces are those on body j. Source: see `contact_grip`. Limits: numbers along z are neither read nor written.
+!> Signs: forces are those on body j. Source: see `contact_stick_slip`. Limits: numbers along z are neither read nor written.
 module planar_contacts
-   use contact_grip, only: tangent_t
+   use contact_stick_slip, only: tangent_t
    use kinds, only: wp
    use point_contact, only: point_contact_t
    implicit none (type, external)

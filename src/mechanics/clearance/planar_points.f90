@@ -3,7 +3,7 @@
 !> Signs and frames: see `planar_contacts`. Source: Flores et al. (2008), section 3.5. Limits: numbers along z are neither read nor
 !> written.
 module planar_points
-   use contact_grip, only: tangent_t
+   use contact_stick_slip, only: tangent_t
    use kinds, only: wp
    use motion, only: motion_t
    use planar_contacts, only: lie_in_plane, planar_force

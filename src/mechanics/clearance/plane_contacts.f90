@@ -14,7 +14,7 @@
 !> Signs: see `point_contact`. Source: Flores et al. (2008), section 4.3, with the surfaces of space. Limits: points have
 !> ends, balls have none.
 module plane_contacts
-   use contact_grip, only: tangent_t
+   use contact_stick_slip, only: tangent_t
    use item, only: find_place, item_t
    use joint_frames, only: find_frames
    use kinds, only: wp
@@ -77,7 +77,7 @@ contains
 
       integer :: k, m
 
-      call self%make_room()
+      call self%make_storage()
       m = self%n_contact
       allocate (self%axes(self%n))
       allocate (self%planes%normal(3, m), self%planes%point(3, m), self%planes%height(m), self%planes%radius(m), &

@@ -36,7 +36,7 @@ module point_contact
       real(wp), allocatable :: slope_delta(:)            !! (n_contact) its derivative by the penetration [N/m]
       real(wp), allocatable :: slope_rate(:)             !! (n_contact) its derivative by the rate [N.s/m]
       real(wp), allocatable :: f_elastic(:)              !! (n_contact) derivative of the stored energy by the penetration [N]
-      real(wp), allocatable :: f_rub(:)                  !! (n_contact) normal force that friction feels [N]
+      real(wp), allocatable :: f_friction(:)                  !! (n_contact) normal force that friction feels [N]
       real(wp), allocatable :: speed(:)                  !! (n_contact) magnitude of the sliding velocity [m/s]
       real(wp), allocatable :: f_t(:)                    !! (n_contact) friction force on j along t [N]
    end type contact_work_t
@@ -50,7 +50,7 @@ contains
 
       allocate (work%contacts(n))
       allocate (work%delta(n), work%rate(n), work%impact_speed(n), work%f_n(n), work%slope_delta(n), work%slope_rate(n), &
-                work%f_elastic(n), work%f_rub(n), work%speed(n), work%f_t(n), source=0.0_wp)
+                work%f_elastic(n), work%f_friction(n), work%speed(n), work%f_t(n), source=0.0_wp)
    end subroutine new_work
 
 end module point_contact

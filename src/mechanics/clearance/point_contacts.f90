@@ -4,7 +4,7 @@
 !> (`penetration_acceleration`), how its contacts lie (`lie`). The rest is here:
 !>
 !> press   F_N of all contacts at once from the normal law
-!> rub     F_T from F_N and the sliding velocity, by the friction law or by what the contact remembers (`contact_grip`)
+!> rub     F_T from F_N and the sliding velocity, by the friction law or by what the contact remembers (`contact_stick_slip`)
 !> loads   f_j = -F_N n + F_T t on body j, -f_j on body i, both at C (`point_contact`); what damping and friction take:
 !>         (F_N - F_elastic) delta', -F_T v_T
 !> watch   F_N and its rate, F' = dF/ddelta delta' + dF/drate delta''
@@ -14,8 +14,8 @@
 !> (`has_faces`): see `faced_contacts`.
 module point_contacts
    use clearance_set, only: clearance_set_t
-   use contact_grip, only: slip_force, tangent_t
-   use contact_laws, only: rub_by_law
+   use contact_stick_slip, only: slip_force, tangent_t
+   use contact_laws, only: friction_by_law
    use friction_law, only: memory_none
    use kind_info, only: add_channel, in_plane, kind_info_t
    use kinds, only: wp
@@ -24,7 +24,7 @@ module point_contacts
    use point_contact, only: contact_work_t, most_of_item, new_work, point_contact_t
    implicit none (type, external)
    private
-   public :: add_contact_channels, point_contacts_t, point_elastic_energy, point_gaps, point_report, point_watch
+   public :: add_contact_channels, point_contacts_t, point_elastic_energy, point_gaps, point_report, point_monitor
    public :: take_friction  ! for its submodule
    public :: named_channels
    public :: of_axial_displacement, of_contact_point, of_eccentricity, of_force, of_friction_force, of_moment, of_normal_force
@@ -50,21 +50,21 @@ module point_contacts
    character(*), parameter :: named_channels = " contact_angle sliding_speed contact_power p_v "
       !! channels of contacts that `*` does not stand for: they are told where they are named
 
-   !> Contacts at points, of any geometry. `prepare` of a geometry calls `make_room`; `evaluate` is made of `point_way.inc`.
+   !> Contacts at points, of any geometry. `prepare` of a geometry calls `make_storage`; `evaluate` is made of `point_way.inc`.
    type, abstract, extends(clearance_set_t) :: point_contacts_t
       type(contact_work_t) :: work   !! of one evaluation
    contains
-      procedure, non_overridable :: make_room
+      procedure, non_overridable :: make_storage
       procedure(measure_interface), deferred :: measure
       procedure(acceleration_interface), deferred :: penetration_acceleration
       procedure, non_overridable :: share_faces => point_share_faces
       procedure :: share_item => point_share_item
       procedure :: report_item => point_report_item
       procedure, non_overridable :: press => point_press
-      procedure, non_overridable :: rub => point_rub
+      procedure, non_overridable :: rub => point_friction
       procedure :: gaps => point_gaps
       procedure :: cut_at_ends => point_cut_at_ends
-      procedure :: watch => point_watch
+      procedure :: monitor => point_monitor
       procedure(point_force_interface), nopass, deferred :: force_on_j
       procedure :: report => point_report
       procedure :: load_on_j => point_load_on_j
@@ -115,7 +115,7 @@ module point_contacts
       end subroutine point_gaps
 
       !> Normal force of a touching contact and its rate, F' = dF/ddelta delta' + dF/drate delta''.
-      module subroutine point_watch(self, k, motion, delta, rate, force, force_rate)
+      module subroutine point_monitor(self, k, motion, delta, rate, force, force_rate)
          implicit none (type, external)
          class(point_contacts_t), intent(in) :: self  !! the set
          integer, intent(in) :: k                     !! contact
@@ -124,7 +124,7 @@ module point_contacts
          real(wp), intent(out) :: rate                !! its rate [m/s]
          real(wp), intent(out) :: force               !! normal force [N]
          real(wp), intent(out) :: force_rate          !! its rate [N/s]
-      end subroutine point_watch
+      end subroutine point_monitor
 
       !> Values that are read: those of the contacts and the force on j here, others as the geometry has them. The contacts of an
       !> item are found once for all of them.
@@ -196,23 +196,24 @@ contains
    end subroutine add_contact_channels
 
    !> Room for what an evaluation finds.
-   subroutine make_room(self)
+   subroutine make_storage(self)
       class(point_contacts_t), intent(inout) :: self  !! the set
 
       call new_work(self%n_contact, self%work)
-   end subroutine make_room
+   end subroutine make_storage
 
    !> Friction of all contacts in an evaluation, by the law or by what it remembers; that of a contact that sticks is found with the
    !> accelerations.
-   subroutine point_rub(self, motion)
+   subroutine point_friction(self, motion)
       class(point_contacts_t), intent(inout) :: self  !! the set, its contacts measured and pressed
       type(motion_t), intent(in) :: motion            !! positions and velocities
 
       integer :: k
 
-      if (.not. self%traits%has_faces) self%work%f_rub = self%work%f_n
-      if (self%grip%memory == memory_none) then
-         call rub_by_law(self%n_contact, self%laws%friction, self%contact, self%work%contacts, self%work%f_rub, self%work%speed, &
+      if (.not. self%traits%has_faces) self%work%f_friction = self%work%f_n
+      if (self%stick_slip%memory == memory_none) then
+         call friction_by_law(self%n_contact, self%laws%friction, self%contact, self%work%contacts, self%work%f_friction, &
+                              self%work%speed, &
                          self%work%f_t)
          return
       end if
@@ -220,11 +221,11 @@ contains
          self%work%f_t(k) = 0.0_wp
          if (.not. self%contact(k)%is_touching) cycle
          call self%lay(k, motion)
-         self%grip%tangent(k)%f_n = self%work%f_rub(k)
-         call slip_force(self%grip, self%laws%friction, k)
-         call take_friction(self%grip%n_tangent, self%grip%tangent(k), self%work%contacts(k), self%work%f_t(k))
+         self%stick_slip%tangent(k)%f_n = self%work%f_friction(k)
+         call slip_force(self%stick_slip, self%laws%friction, k)
+         call take_friction(self%stick_slip%n_tangent, self%stick_slip%tangent(k), self%work%contacts(k), self%work%f_t(k))
       end do
-   end subroutine point_rub
+   end subroutine point_friction
 
    !> Friction of a contact that remembers, as those that do not have it: in space t is against it.
    pure subroutine take_friction(n_tangent, tangent, contact, f_t)
@@ -267,7 +268,7 @@ contains
    subroutine point_share_faces(self)
       class(point_contacts_t), intent(inout) :: self  !! the set, its contacts measured and pressed
 
-      real(wp), dimension(most_of_item) :: f_elastic, f_n, f_rub
+      real(wp), dimension(most_of_item) :: f_elastic, f_n, f_friction
       integer :: first, item, last, n
 
       n = self%n_contact_item
@@ -276,22 +277,22 @@ contains
          last = item*n
          f_n(:n) = self%work%f_n(first:last)
          f_elastic(:n) = self%work%f_elastic(first:last)
-         f_rub(:n) = f_n(:n)
-         call self%share_item(item, self%work%contacts(first:last), f_n(:n), f_elastic(:n), f_rub(:n))
+         f_friction(:n) = f_n(:n)
+         call self%share_item(item, self%work%contacts(first:last), f_n(:n), f_elastic(:n), f_friction(:n))
          self%work%f_n(first:last) = f_n(:n)
          self%work%f_elastic(first:last) = f_elastic(:n)
-         self%work%f_rub(first:last) = f_rub(:n)
+         self%work%f_friction(first:last) = f_friction(:n)
       end do
    end subroutine point_share_faces
 
    !> Let faces of an item take over from its contacts: a geometry without faces leaves the forces as they are.
-   subroutine point_share_item(self, item, contacts, f_n, f_elastic, f_rub)
+   subroutine point_share_item(self, item, contacts, f_n, f_elastic, f_friction)
       class(point_contacts_t), intent(in) :: self        !! the set
       integer, intent(in) :: item                        !! the item
       type(point_contact_t), intent(in) :: contacts(:)   !! (n_contact_item) penetrations and rates of its contacts
       real(wp), intent(inout) :: f_n(:)                  !! (n_contact_item) normal forces, as the normal law gives them [N]
       real(wp), intent(inout) :: f_elastic(:)            !! (n_contact_item) derivatives of the stored energy by penetrations [N]
-      real(wp), intent(inout) :: f_rub(:)                !! (n_contact_item) normal forces that friction feels [N]
+      real(wp), intent(inout) :: f_friction(:)                !! (n_contact_item) normal forces that friction feels [N]
    end subroutine point_share_item
 
 end module point_contacts

@@ -50,7 +50,7 @@ contains
    end function has_forces
 
    !> Normal force of a touching contact and its rate, F' = dF/ddelta delta' + dF/drate delta''.
-   module procedure point_watch
+   module procedure point_monitor
       type(point_contact_t) :: contact
       real(wp), dimension(1) :: d, d_rate, elastic, f, impact_speed, slope_delta, slope_rate
 
@@ -73,7 +73,7 @@ contains
                  slope_rate, elastic)
       force = f(1)
       force_rate = slope_delta(1)*rate + slope_rate(1)*self%penetration_acceleration(k, motion, contact)
-   end procedure point_watch
+   end procedure point_monitor
 
    !> Elastic energy that the touching contacts store.
    module procedure point_elastic_energy

@@ -84,7 +84,7 @@ contains
       type(readings_t), intent(in) :: readings     !! channels that are read
       type(motion_t), intent(in) :: motion         !! positions and velocities
 
-      is_evaluated = self%evaluated_at == motion%number .and. motion%number > 0 .and. self%grip%memory == memory_none
+      is_evaluated = self%evaluated_at == motion%number .and. motion%number > 0 .and. self%stick_slip%memory == memory_none
       if (readings%most >= of_sliding_speed .and. .not. allocated(self%laws%friction)) is_evaluated = .false.
    end function is_evaluated
 
@@ -371,7 +371,7 @@ contains
       real(wp), intent(out) :: f_elastic(n)                 !! (n) elastic parts of the normal forces [N]
       logical, intent(in) :: with_sliding                   !! sliding velocities are wanted
 
-      real(wp), dimension(most_of_item) :: delta, f_rub, impact_speed, rate, slope_delta, slope_rate, speed
+      real(wp), dimension(most_of_item) :: delta, f_friction, impact_speed, rate, slope_delta, slope_rate, speed
       integer :: c, first
 
       first = (item - 1)*n
@@ -384,15 +384,15 @@ contains
       if (self%n_touching == 0 .and. .not. self%laws%normal%acts_apart) return
       call press(n, self%laws%normal, self%contact(first + 1:first + n), self%laws%parameters(:, first + 1:first + n), contacts, &
                  delta, rate, impact_speed, f_n, slope_delta, slope_rate, f_elastic)
-      if (self%traits%has_faces .or. allocated(self%laws%friction)) f_rub(:n) = f_n
-      if (self%traits%has_faces) call self%share_item(item, contacts, f_n, f_elastic, f_rub(:n))
+      if (self%traits%has_faces .or. allocated(self%laws%friction)) f_friction(:n) = f_n
+      if (self%traits%has_faces) call self%share_item(item, contacts, f_n, f_elastic, f_friction(:n))
       if (.not. allocated(self%laws%friction)) return
-      if (self%grip%memory == memory_none) then
-         call rub_by_law(n, self%laws%friction, self%contact(first + 1:first + n), contacts, f_rub, speed, f_t)
+      if (self%stick_slip%memory == memory_none) then
+         call friction_by_law(n, self%laws%friction, self%contact(first + 1:first + n), contacts, f_friction, speed, f_t)
       else  ! of the last evaluation: it is no function of the motion alone
          do c = 1, n
             if (.not. self%contact(first + c)%is_touching) cycle
-            call take_friction(self%grip%n_tangent, self%grip%tangent(first + c), contacts(c), f_t(c))
+            call take_friction(self%stick_slip%n_tangent, self%stick_slip%tangent(first + c), contacts(c), f_t(c))
          end do
       end if
    end subroutine find_forces

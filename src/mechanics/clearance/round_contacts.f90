@@ -85,7 +85,7 @@ contains
 
       integer :: k
 
-      call self%make_room()
+      call self%make_storage()
       allocate (self%journal(self%n))
       do k = 1, self%n
          self%journal(k)%body = self%items%body(:, k)

@@ -16,7 +16,7 @@ contains
    !> Values that are read.
    module procedure round_report
       if (readings%most <= of_eccentricity .and. .not. allocated(self%laws%films) .and. self%evaluated_at == motion%number &
-          .and. motion%number > 0 .and. self%grip%memory == memory_none) then
+          .and. motion%number > 0 .and. self%stick_slip%memory == memory_none) then
          associate (acts_apart => self%laws%normal%acts_apart, items => self%items, work => self%work)
             call report_evaluated(readings%n, readings%of, self%n, self%before%items, self%before%contacts, &
                                   self%n_touching > 0 .or. acts_apart, acts_apart, self%contact, self%journal, items%body, &
@@ -166,7 +166,7 @@ contains
       case (of_force); value(1:2) = value(1:2) + state%force
       case (of_film_force); value(1:2) = state%force
       case (of_film_torque); value(1) = state%torque
-      case (of_film_pressure); value(1) = self%laws%films%greatest_pressure(k, film)
+      case (of_film_pressure); value(1) = self%laws%films%max_pressure(k, film)
       case (of_eccentricity_ratio); value(1) = norm2(film%e)/self%items%clearance(k)
       case (of_film_thickness); value(1) = max(self%items%clearance(k) - norm2(film%e), 0.0_wp)
       case (of_drag_journal); value(1) = state%drag_journal

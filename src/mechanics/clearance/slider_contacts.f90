@@ -170,19 +170,19 @@ contains
    end function corners_of
 
    !> Let faces of an item take over from their corners.
-   subroutine slider_share_item(self, item, contacts, f_n, f_elastic, f_rub)
+   subroutine slider_share_item(self, item, contacts, f_n, f_elastic, f_friction)
       class(slider_contacts_t), intent(in) :: self  !! the set
       integer, intent(in) :: item                           !! the item
       type(point_contact_t), intent(in) :: contacts(:)      !! (8) penetrations and rates of its contacts
       real(wp), intent(inout) :: f_n(:)                     !! (8) normal forces, as the normal law gives them [N]
       real(wp), intent(inout) :: f_elastic(:)               !! (8) derivatives of the stored energy by the penetrations [N]
-      real(wp), intent(inout) :: f_rub(:)                   !! (8) normal forces that friction feels [N]
+      real(wp), intent(inout) :: f_friction(:)                   !! (8) normal forces that friction feels [N]
 
       real(wp) :: d(2), f(2), f_d(2), impact_speed(2), rate(2)
       integer :: c(2), q
       logical :: is_touching(2)
 
-      f_rub = f_n
+      f_friction = f_n
       if (self%guide%faces(item) == faces_corners) return
       do q = 1, n_corner
          c = corners_of(q)
@@ -205,7 +205,7 @@ contains
          end if
          f_n(c) = f
          f_elastic(c) = f_d
-         f_rub(c) = merge(merge(f, sum(f), all(is_touching)), 0.0_wp, is_touching)
+         f_friction(c) = merge(merge(f, sum(f), all(is_touching)), 0.0_wp, is_touching)
       end do
    end subroutine slider_share_item
 

@@ -23,7 +23,7 @@
 !> Limits: what the rim of a tilted base adds to the penetration, R_j (1 - cos of the tilt), is left out, and so is any contact
 !> of the pin's end faces; a pin that has left the bushing altogether touches nothing, see `engagement`.
 module socket_contacts
-   use contact_grip, only: tangent_t
+   use contact_stick_slip, only: tangent_t
    use kinds, only: wp
    use motion, only: cross, motion_t
    use point_contact, only: point_contact_t

@@ -35,7 +35,7 @@ module socket_films
    private
    public :: film_seat_t, socket_films_t
 
-   real(wp), parameter :: least_cosine = 0.5_wp  !! of the angle between the axes [1]
+   real(wp), parameter :: min_cosine = 0.5_wp  !! of the angle between the axes [1]
 
    !> Gauss' rule of 4 points on (-1, 1).
    real(wp), parameter :: places(4) = [-0.861136311594052575224_wp, -0.339981043584856264803_wp, 0.339981043584856264803_wp, &
@@ -232,7 +232,7 @@ contains
       associate (u => at%frame(:, 3))
          at%half = min(seat%half_i, seat%half_j)
          cosine = dot_product(u, pin)
-         if (abs(cosine) < least_cosine) then
+         if (abs(cosine) < min_cosine) then
             film%engaged = 0.0_wp
             return
          end if

@@ -3,7 +3,7 @@
 !> Levels are those of the plane, see `clearance_revolute`. Channels of the force and of the moment are those of contacts and film
 !> together. Limits: those of both.
 module socket_joints
-   use film_law, only: film_motion_t, greatest_eccentricity
+   use film_law, only: film_motion_t, max_eccentricity
    use film_places, only: film_state_t
    use item, only: item_t
    use kinds, only: wp
@@ -124,9 +124,9 @@ contains
       case (of_film_torque)
          value = state%torque
          if (size(value) == 3) value = state%shear
-      case (of_film_pressure); value(1) = self%laws%films%greatest_pressure(k, film)
+      case (of_film_pressure); value(1) = self%laws%films%max_pressure(k, film)
       case (of_eccentricity_ratio); value(1) = norm2(film%e)/self%items%clearance(k)
-      case (of_film_thickness); value(1) = max(self%items%clearance(k) - greatest_eccentricity(film), 0.0_wp)
+      case (of_film_thickness); value(1) = max(self%items%clearance(k) - max_eccentricity(film), 0.0_wp)
       case (of_drag_journal); value(1) = state%drag_journal
       case (of_drag_bearing); value(1) = state%drag_bearing
       case (of_film_power); value(1) = state%power

@@ -4,9 +4,9 @@
 !> against those of i at C, and v_a' = t_a . (what accelerations give) + t_a' . v + t_a . (omega_j x s_j' - omega_i x s_i'), for the
 !> normal turns, and C moves through the bodies.
 !>
-!> Signs, n and C: see `point_contact`; what is asked for: see `contact_grip`. Source: from the definition. Limits: none.
+!> Signs, n and C: see `point_contact`; what is asked for: see `contact_stick_slip`. Source: from the definition. Limits: none.
 module space_tangents
-   use contact_grip, only: tangent_t
+   use contact_stick_slip, only: tangent_t
    use kinds, only: wp
    use motion, only: motion_t
    use point_contact, only: point_contact_t
@@ -87,16 +87,16 @@ contains
       real(wp), intent(out) :: t(3, 2)        !! (3, 2) tangents, world frame [1]
       real(wp), intent(out) :: t_rate(3, 2)   !! (3, 2) their rates [1/s]
 
-      real(wp), parameter :: least = 1.0e-3_wp  ! part of a direction in the plane that is enough [1]
+      real(wp), parameter :: minimum = 1.0e-3_wp  ! part of a direction in the plane that is enough [1]
       real(wp) :: along(3), b(3), b_rate(3), length
 
       along = way
       b = along - dot_product(along, m)*m
-      if (norm2(b) < least) then
+      if (norm2(b) < minimum) then
          along = sliding
          b = along - dot_product(along, m)*m
       end if
-      if (norm2(b) < least) then
+      if (norm2(b) < minimum) then
          along = 0.0_wp
          along(minloc(abs(m), dim=1)) = 1.0_wp
          b = along - dot_product(along, m)*m

@@ -22,17 +22,17 @@ module augmented
    use kinds, only: i8, wp
    implicit none (type, external)
    private
-   public :: augmented_t, direct_t, least_pivots
+   public :: augmented_t, direct_t, min_pivots
 
    ! of the diagonal they came from: of independent rows as a rule; of bodies with one light inertia; then what counts as none
-   real(wp), parameter :: least_pivots(3) = [1.0e-5_wp, 1.0e-7_wp, 1.0e-9_wp]  !! (3) least pivots [1]
+   real(wp), parameter :: min_pivots(3) = [1.0e-5_wp, 1.0e-7_wp, 1.0e-9_wp]  !! (3) least pivots [1]
    real(wp), parameter :: converged = 1.0e-15_wp  !! residual of the rows, of the greatest term, that is round-off [1]
    real(wp), parameter :: stagnant = 0.5_wp       !! ratio of successive residuals that is no progress [1]
 
    !> A way of solving the augmented equations.
    type, abstract :: augmented_t
       integer(i8) :: n_factorisations = 0      !! factorisations made
-      logical :: tests_pivots = .false.        !! whether small pivots show dependent rows, see `set_least_pivot`
+      logical :: tests_pivots = .false.        !! whether small pivots show dependent rows, see `set_min_pivot`
       logical :: is_iterative = .false.        !! whether `solve_damped` may end without a solution of regular rows
       real(wp) :: left_over = 0.0_wp           !! greatest residual after `solve_damped`, of the greatest term [1]
       real(wp), allocatable :: residual(:)     !! (solved rows) residuals Phi_q a - b after it [m/s^2 or rad/s^2]
@@ -43,7 +43,7 @@ module augmented
       procedure(solve_damped_interface), deferred :: solve_damped
       procedure :: name => augmented_name
       procedure :: set_penalty => augmented_set_penalty
-      procedure :: set_least_pivot => augmented_set_least_pivot
+      procedure :: set_min_pivot => augmented_set_min_pivot
       procedure :: memory_size => augmented_memory_size
       procedure :: save => augmented_save
       procedure :: load => augmented_load
@@ -145,10 +145,10 @@ contains
    end subroutine augmented_set_penalty
 
    !> Take the least pivot of independent rows, of the diagonal it came from: nothing to take for a way that has no such pivots.
-   subroutine augmented_set_least_pivot(self, least)
+   subroutine augmented_set_min_pivot(self, minimum)
       class(augmented_t), intent(inout) :: self   !! the solver
-      real(wp), intent(in) :: least               !! the least pivot [1]
-   end subroutine augmented_set_least_pivot
+      real(wp), intent(in) :: minimum               !! the least pivot [1]
+   end subroutine augmented_set_min_pivot
 
    !> Numbers that a checkpoint needs: none, unless a solution leaves something behind that the next one uses.
    integer function augmented_memory_size(self) result(n)
@@ -184,7 +184,7 @@ contains
       real(wp), intent(inout), contiguous :: lambda(:)         !! (rows) multipliers, set of solved rows [N or N.m]
       integer, intent(out) :: bad_row                          !! row at which there is no solution, 0: none
 
-      real(wp) :: before, greatest, now
+      real(wp) :: before, maximum, now
       integer :: k, n, n_body
 
       n = rows%n_solve
@@ -193,15 +193,15 @@ contains
       if (bad_row > 0) return
       lambda(:n) = 0.0_wp
       before = huge(1.0_wp)
-      greatest = tiny(1.0_wp)
+      maximum = tiny(1.0_wp)
       do k = 0, n_refinement + 1
          call body_accelerations(rows, rows%n_unknown, rows%unknown, n_body, inverse_mass, rows%jac, g, lambda, a)
          call row_residuals(rows, n, n_body, rows%jac, a, b, self%residual)
          if (n == 0) return
          now = maxval(abs(self%residual(:n)))
-         if (k == 0) greatest = max(greatest, now, maxval(abs(b(:n))))
-         self%left_over = now/greatest
-         if (k > n_refinement .or. now <= converged*greatest .or. .not. now <= stagnant*before) return
+         if (k == 0) maximum = max(maximum, now, maxval(abs(b(:n))))
+         self%left_over = now/maximum
+         if (k > n_refinement .or. now <= converged*maximum .or. .not. now <= stagnant*before) return
          before = now
          call self%back_solve(self%residual)
          lambda(:n) = lambda(:n) + self%residual(:n)

@@ -197,7 +197,7 @@ contains
       real(wp), intent(inout), contiguous :: lambda(:)         !! (rows) multipliers [N or N.m]
       integer, intent(out) :: bad_row                          !! row at which there is no solution, 0: none
 
-      real(wp) :: before, change, greatest, largest
+      real(wp) :: before, change, maximum, largest
       integer :: k, n, n_body
 
       n = rows%n_solve
@@ -214,7 +214,7 @@ contains
       self%left_over = 0.0_wp
       self%change = 0.0_wp
       lambda(:n) = 0.0_wp
-      greatest = tiny(1.0_wp)
+      maximum = tiny(1.0_wp)
       largest = tiny(1.0_wp)/epsilon(1.0_wp)
       before = huge(1.0_wp)
       do k = 0, n_iteration
@@ -222,8 +222,8 @@ contains
          call body_accelerations(rows, rows%n_unknown, rows%unknown, n_body, inverse_mass, rows%jac, g, lambda, a)
          if (n == 0) return
          call row_residuals(rows, n, n_body, rows%jac, a, b, self%residual)
-         if (k == 0) greatest = max(greatest, maxval(abs(self%residual)), maxval(abs(b(:n))))
-         self%left_over = maxval(abs(self%residual))/greatest
+         if (k == 0) maximum = max(maximum, maxval(abs(self%residual)), maxval(abs(b(:n))))
+         self%left_over = maxval(abs(self%residual))/maximum
          call compare(rows, self%last, a, change, largest)
          if (k > 0) then
             self%change = change/largest

@@ -5,10 +5,10 @@
 !> S is assembled from a list of pairs of rows that share an unknown body, made once, and factorised as L D L^T in its
 !> envelope; the order of the rows is the given one or that of reverse Cuthill-McKee, whichever costs less. A chain of
 !> bodies costs in proportion to its length.
-!> Source: Flores et al. (2008), eqs. (2.16)-(2.18). Limits: independent rows; a pivot below `least_pivot` of its diagonal
+!> Source: Flores et al. (2008), eqs. (2.16)-(2.18). Limits: independent rows; a pivot below `min_pivot` of its diagonal
 !> is left to `solve_damped`.
 module augmented_schur
-   use augmented, only: direct_t, least_pivots
+   use augmented, only: direct_t, min_pivots
    use body_kernels, only: body_accelerations
    use body_kernels_planar, only: solve_planar => solve_lone_bodies
    use body_kernels_spatial, only: solve_spatial => solve_lone_bodies
@@ -34,14 +34,14 @@ module augmented_schur
       type(part_t) :: all                         !! all rows
       integer, allocatable :: unknown(:)          !! (bodies) unknown bodies that are not lone
       real(wp), allocatable :: x(:)               !! (rows) values in the order of an envelope [any]
-      real(wp) :: least_pivot = least_pivots(1)   !! of its diagonal: below, rows are nearly dependent [1]
+      real(wp) :: min_pivot = min_pivots(1)   !! of its diagonal: below, rows are nearly dependent [1]
    contains
       procedure, nopass :: info => schur_info
       procedure :: prepare => schur_prepare
       procedure :: solve => schur_solve
       procedure :: factorise => schur_factorise
       procedure :: back_solve => schur_back_solve
-      procedure :: set_least_pivot => schur_set_least_pivot
+      procedure :: set_min_pivot => schur_set_min_pivot
    end type augmented_schur_t
 
 contains
@@ -99,12 +99,12 @@ contains
    end subroutine schur_prepare
 
    !> Take the least pivot of independent rows.
-   subroutine schur_set_least_pivot(self, least)
+   subroutine schur_set_min_pivot(self, minimum)
       class(augmented_schur_t), intent(inout) :: self  !! the solver
-      real(wp), intent(in) :: least                    !! of the diagonal it came from [1]
+      real(wp), intent(in) :: minimum                    !! of the diagonal it came from [1]
 
-      self%least_pivot = least
-   end subroutine schur_set_least_pivot
+      self%min_pivot = minimum
+   end subroutine schur_set_min_pivot
 
    !> Accelerations and multipliers.
    subroutine schur_solve(self, inverse_mass, rows, g, b, a, lambda, bad_row)
@@ -123,16 +123,16 @@ contains
       if (rows%n_solve > 0) self%n_factorisations = self%n_factorisations + 1
       if (rows%n_v == n_v_planar) then
          call solve_planar(self%lone%n, self%lone%body, self%lone%row, self%lone%place, n_body, rows%n, inverse_mass, rows%jac, g, &
-                           b, self%least_pivot, a, lambda, bad_row)
+                           b, self%min_pivot, a, lambda, bad_row)
       else
          call solve_spatial(self%lone%n, self%lone%body, self%lone%row, self%lone%place, n_body, rows%n, inverse_mass, rows%jac, &
-                            g, b, self%least_pivot, a, lambda, bad_row)
+                            g, b, self%min_pivot, a, lambda, bad_row)
       end if
       if (bad_row > 0 .or. size(self%unknown) == 0) return
       if (self%rest%is_in_order) then
-         call take_blocks(self%rest, n_body, rows%n, inverse_mass, rows%jac, g, b, self%least_pivot, lambda, bad_row)
+         call take_blocks(self%rest, n_body, rows%n, inverse_mass, rows%jac, g, b, self%min_pivot, lambda, bad_row)
       else
-         call take_blocks(self%rest, n_body, rows%n, inverse_mass, rows%jac, g, b, self%least_pivot, self%x, bad_row)
+         call take_blocks(self%rest, n_body, rows%n, inverse_mass, rows%jac, g, b, self%min_pivot, self%x, bad_row)
          if (bad_row == 0) call in_given_order(size(self%rest%order), self%rest%order, rows%n, self%x, lambda)
       end if
       if (bad_row > 0) return
@@ -140,7 +140,7 @@ contains
    end subroutine schur_solve
 
    !> Assemble and factorise a part block by block, and solve.
-   pure subroutine take_blocks(part, n_body, n_row, inverse_mass, jac, g, b, least_pivot, x, bad_row)
+   pure subroutine take_blocks(part, n_body, n_row, inverse_mass, jac, g, b, min_pivot, x, bad_row)
       type(part_t), intent(inout) :: part                       !! the part; S is set
       integer, intent(in) :: n_body                             !! number of bodies
       integer, intent(in) :: n_row                              !! number of rows
@@ -148,7 +148,7 @@ contains
       real(wp), intent(in) :: jac(2*part%n_v*n_row)             !! (2 n_v rows) Phi_q, row by row [1 or m]
       real(wp), intent(in) :: g(part%n_v, 0:n_body)             !! (n_v, 0:bodies) applied loads [N or N.m]
       real(wp), intent(in) :: b(n_row)                          !! (rows) right-hand side [m/s^2 or rad/s^2]
-      real(wp), intent(in) :: least_pivot                       !! of its diagonal: below, rows are nearly dependent [1]
+      real(wp), intent(in) :: min_pivot                       !! of its diagonal: below, rows are nearly dependent [1]
       real(wp), intent(inout) :: x(n_row)                       !! (rows) multipliers, set in the order of the envelope [N or N.m]
       integer, intent(out) :: bad_row                           !! row that depends on others, or nearly so, 0: none
 
@@ -157,7 +157,7 @@ contains
       do k = 1, part%n_block
          call assemble(k, part, n_body, n_row, inverse_mass, jac, g, b, x)
          call factorise_and_solve(part%block(3, k - 1) + 1, part%block(3, k), size(part%order), size(part%s%a), part%s%first, &
-                                  part%s%start, least_pivot, part%s%a, part%s%row, x, bad_row)
+                                  part%s%start, min_pivot, part%s%a, part%s%row, x, bad_row)
          if (bad_row > 0) then
             bad_row = part%order(bad_row)
             return

@@ -13,8 +13,8 @@ module linkage
    use motion, only: motion_t
    use readings, only: wanted_rows_t
    use reduced, only: reduced_t
-   use row_kernels, only: right_hand_side, take_known
-   use smooth_piece, only: smooth_piece_t
+   use row_kernels, only: right_hand_side, take_prescribed
+   use smooth_segment, only: smooth_segment_t
    use solution, only: find_free, solution_t
    implicit none (type, external)
    private
@@ -44,20 +44,20 @@ module linkage
       integer :: n_solved_set = 0                       !! sets of them with rows that are solved for, the first ones
       type(joint_slot_t), allocatable :: ideal(:)       !! joints with clearance taken as ideal, one set per kind
       type(reduced_t) :: reduced                        !! bodies that are not unknown
-      type(smooth_piece_t) :: piece                     !! where functions of time are evaluated
+      type(smooth_segment_t) :: segment                     !! where functions of time are evaluated
       type(motion_t) :: motion                          !! positions, velocities, and accelerations where they are set
       type(rows_t) :: rows                              !! constraint rows
       type(solution_t) :: solution                      !! accelerations and multipliers
       real(wp), allocatable, private :: rest(:, :)      !! (n_v, 0:bodies) scratch: loads [N or N.m]
    contains
-      procedure :: make_room => linkage_make_room, place_bodies => linkage_place_bodies
+      procedure :: make_storage => linkage_make_storage, place_bodies => linkage_place_bodies
       procedure :: deck_state => linkage_deck_state, take_state => linkage_take_state
       procedure :: move => linkage_move, set_motion => linkage_set_motion
       procedure :: set_acceleration => linkage_set_acceleration, set_state => linkage_set_state
       procedure :: evaluate_rows => linkage_evaluate_rows, find_accelerations => linkage_find_accelerations
       procedure :: solve_rows => linkage_solve_rows, add_change => linkage_add_change, tidy => linkage_tidy
       procedure :: list_wanted => linkage_list_wanted, find_reactions => linkage_find_reactions
-      procedure :: greatest_violation => linkage_greatest_violation
+      procedure :: max_violation => linkage_max_violation
       procedure :: set_rows_aside => linkage_set_rows_aside
       procedure :: row_name => linkage_row_name
    end type linkage_t
@@ -94,7 +94,7 @@ module linkage
 contains
 
    !> Room for the solution. The rows are declared.
-   subroutine linkage_make_room(self)
+   subroutine linkage_make_storage(self)
       class(linkage_t), intent(inout) :: self       !! the linkage
 
       associate (solution => self%solution, n => self%rows%n, n_body => self%bodies%n)
@@ -102,10 +102,10 @@ contains
          allocate (solution%phi_dot(n), solution%b(n), solution%lambda(n), source=0.0_wp)
          allocate (solution%left_out(0), solution%set_aside(0))
          allocate (solution%a(self%coordinates%n_v, 0:n_body), self%rest(self%coordinates%n_v, 0:n_body), source=0.0_wp)
-         self%n_position = self%coordinates%n_q*self%rows%n_unknown + self%reduced%guided%n
-         self%n_rate = self%coordinates%n_v*self%rows%n_unknown + self%reduced%guided%n
+         self%n_position = self%coordinates%n_q*self%rows%n_unknown + self%reduced%one_dof%n
+         self%n_rate = self%coordinates%n_v*self%rows%n_unknown + self%reduced%one_dof%n
       end associate
-   end subroutine linkage_make_room
+   end subroutine linkage_make_storage
 
    !> Motion of all bodies at a state.
    subroutine linkage_set_motion(self, t, y)
@@ -113,7 +113,7 @@ contains
       real(wp), intent(in) :: t                                 !! time [s]
       real(wp), intent(in) :: y(self%n_position + self%n_rate)  !! (positions + rates) the first of a state [any]
 
-      call self%move(self%piece%inside(t), y)
+      call self%move(self%segment%inside(t), y)
    end subroutine linkage_set_motion
 
    !> Motion of all bodies at a state and a time in the smooth stretch.
@@ -125,9 +125,9 @@ contains
       self%motion%t = t
       self%motion%number = self%motion%number + 1
       if (self%reduced%known%n > 0) call self%reduced%known%move(self%joints, t, self%motion)
-      associate (n => self%rows%n_unknown, nq => self%n_position, guided => self%reduced%guided)
+      associate (n => self%rows%n_unknown, nq => self%n_position, one_dof => self%reduced%one_dof)
          if (n > 0) call self%coordinates%move(n, self%rows%unknown, y, y(nq + 1:), self%motion)
-         if (guided%n > 0) call guided%move(y(nq - guided%n + 1:nq), y(nq + self%n_rate - guided%n + 1:), self%motion)
+         if (one_dof%n > 0) call one_dof%move(y(nq - one_dof%n + 1:nq), y(nq + self%n_rate - one_dof%n + 1:), self%motion)
       end associate
    end subroutine linkage_move
 
@@ -164,14 +164,14 @@ contains
       integer :: body, k
 
       call self%place_bodies(q, v)
-      associate (n_q => self%coordinates%n_q, n_v => self%coordinates%n_v, nq => self%n_position, guided => self%reduced%guided)
+      associate (n_q => self%coordinates%n_q, n_v => self%coordinates%n_v, nq => self%n_position, one_dof => self%reduced%one_dof)
          do k = 1, self%rows%n_unknown
             body = self%rows%unknown(k)
             y(n_q*(k - 1) + 1:n_q*k) = q(n_q*(body - 1) + 1:n_q*body)
             y(nq + n_v*(k - 1) + 1:nq + n_v*k) = v(n_v*(body - 1) + 1:n_v*body)
          end do
-         if (guided%n == 0) return
-         call guided%read_coordinates(self%motion, y(nq - guided%n + 1:nq), y(nq + self%n_rate - guided%n + 1:))
+         if (one_dof%n == 0) return
+         call one_dof%read_coordinates(self%motion, y(nq - one_dof%n + 1:nq), y(nq + self%n_rate - one_dof%n + 1:))
       end associate
    end subroutine linkage_take_state
 
@@ -191,9 +191,9 @@ contains
       class(linkage_t), intent(inout) :: self                      !! the linkage, its motion set
       real(wp), intent(in) :: ydot(self%n_position + self%n_rate)  !! (positions + rates) derivatives of the first of a state [any]
 
-      associate (n => self%rows%n_unknown, nq => self%n_position, guided => self%reduced%guided)
+      associate (n => self%rows%n_unknown, nq => self%n_position, one_dof => self%reduced%one_dof)
          if (n > 0) call self%coordinates%accelerate(n, self%rows%unknown, ydot(nq + 1:), self%motion)
-         if (guided%n > 0) call guided%set_acceleration(ydot(nq + self%n_rate - guided%n + 1:), self%motion)
+         if (one_dof%n > 0) call one_dof%set_acceleration(ydot(nq + self%n_rate - one_dof%n + 1:), self%motion)
       end associate
    end subroutine linkage_set_acceleration
 
@@ -205,7 +205,7 @@ contains
       real(wp) :: inside
       integer :: done, k
 
-      inside = min(max(t, self%piece%low), self%piece%high)  ! in the smooth stretch: `smooth_piece`, without its call
+      inside = min(max(t, self%segment%low), self%segment%high)  ! in the smooth stretch: `smooth_segment`, without its call
       done = 0
       if (self%rows%n_solve > rows_at_once) then
          call evaluate_many(self, inside, done)
@@ -222,9 +222,9 @@ contains
       if (size(self%rows%known, 2) == 0) return
       associate (rows => self%rows, motion => self%motion)
          if (self%coordinates%turns_in_body) then
-            call take_known(rows, self%bodies%n, motion%a, motion%spatial%rise, self%solution%b)
+            call take_prescribed(rows, self%bodies%n, motion%a, motion%spatial%rise, self%solution%b)
          else
-            call take_known(rows, self%bodies%n, motion%a, motion%alpha, self%solution%b)
+            call take_prescribed(rows, self%bodies%n, motion%a, motion%alpha, self%solution%b)
          end if
       end associate
    end subroutine linkage_evaluate_rows
@@ -287,16 +287,16 @@ contains
    end subroutine find_sides
 
    !> Accelerations and multipliers of the rows, as they were evaluated.
-   subroutine linkage_find_accelerations(self, g, must_agree, with_guided, status)
+   subroutine linkage_find_accelerations(self, g, must_agree, with_one_dof, status)
       class(linkage_t), intent(inout) :: self        !! the linkage, rows evaluated
       real(wp), intent(in), contiguous :: g(:, 0:)   !! (n_v, 0:bodies) loads [N or N.m]
       logical, intent(in) :: must_agree              !! whether a contradiction counts: that of a correction is round-off
-      logical, intent(in) :: with_guided             !! whether those of guided bodies are wanted too
+      logical, intent(in) :: with_one_dof             !! whether those of guided bodies are wanted too
       integer, intent(out) :: status                 !! 0: found
 
       status = 0
-      if (with_guided .and. self%reduced%guided%n > 0) then
-         call self%reduced%guided%response(g, must_agree, self%motion, self%solution%a)
+      if (with_one_dof .and. self%reduced%one_dof%n > 0) then
+         call self%reduced%one_dof%response(g, must_agree, self%motion, self%solution%a)
       end if
       if (self%rows%n_unknown == 0) return
       if (self%rows%n_solve == 0) then
@@ -352,12 +352,12 @@ contains
    end subroutine linkage_tidy
 
    !> Greatest scaled violation of the solved rows, as they were evaluated.
-   pure real(wp) function linkage_greatest_violation(self) result(worst)
+   pure real(wp) function linkage_max_violation(self) result(worst)
       class(linkage_t), intent(in) :: self   !! the linkage
 
       associate (n => self%rows%n_solve)
          worst = maxval(self%solution%row_weight(:n)*abs(self%rows%phi(:n)))
       end associate
-   end function linkage_greatest_violation
+   end function linkage_max_violation
 
 end module linkage

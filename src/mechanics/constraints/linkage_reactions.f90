@@ -7,22 +7,22 @@ contains
    !> What the reports of some rows need of those that are not solved for. The multipliers of known bodies are found together; they
    !> have those of the guided bodies in them that known ones carry.
    module procedure linkage_list_wanted
-      logical :: is_wanted(size(is_read)), takes(self%reduced%guided%n)
+      logical :: is_wanted(size(is_read)), takes(self%reduced%one_dof%n)
       integer :: k
 
       is_wanted = is_read
-      associate (known => self%reduced%known, guided => self%reduced%guided, n_v => self%coordinates%n_v)
+      associate (known => self%reduced%known, one_dof => self%reduced%one_dof, n_v => self%coordinates%n_v)
          do k = 1, known%n
-            wanted%has_known = wanted%has_known .or. is_one_read(known%held(k)%row(:n_v))
+            wanted%has_prescribed = wanted%has_prescribed .or. is_one_read(known%held(k)%row(:n_v))
          end do
          do k = 1, known%n
-            if (wanted%has_known) call want(known%held(k)%row(:n_v))
+            if (wanted%has_prescribed) call want(known%held(k)%row(:n_v))
          end do
-         do k = 1, guided%n
-            takes(k) = is_one_read(guided%held(k)%row(:n_v - 1)) .or. (wanted%has_known .and. guided%held(k)%base > 0)
-            if (takes(k)) call want(guided%held(k)%row(:n_v - 1))
+         do k = 1, one_dof%n
+            takes(k) = is_one_read(one_dof%held(k)%row(:n_v - 1)) .or. (wanted%has_prescribed .and. one_dof%held(k)%base > 0)
+            if (takes(k)) call want(one_dof%held(k)%row(:n_v - 1))
          end do
-         wanted%guided = pack([(k, k=1, guided%n)], takes)
+         wanted%one_dof = pack([(k, k=1, one_dof%n)], takes)
       end associate
       allocate (wanted%sets(0))
       do k = self%n_solved_set + 1, size(self%joints)
@@ -64,19 +64,19 @@ contains
       real(wp) :: inside
       integer :: k
 
-      inside = min(max(t, self%piece%low), self%piece%high)  ! in the smooth stretch: `smooth_piece`, without its call
+      inside = min(max(t, self%segment%low), self%segment%high)  ! in the smooth stretch: `smooth_segment`, without its call
       do k = 1, size(wanted%sets)
          call self%joints(wanted%sets(k))%set%evaluate(inside, self%motion, self%rows)
       end do
-      associate (known => self%reduced%known, guided => self%reduced%guided, solution => self%solution)
-         do k = 1, size(wanted%guided)
-            call copy(guided%held(wanted%guided(k))%body)
+      associate (known => self%reduced%known, one_dof => self%reduced%one_dof, solution => self%solution)
+         do k = 1, size(wanted%one_dof)
+            call copy(one_dof%held(wanted%one_dof(k))%body)
          end do
-         if (size(wanted%guided) > 0) then
-            call guided%find_multipliers(size(wanted%guided), wanted%guided, self%coordinates%n_v, self%bodies%n, self%rows, &
+         if (size(wanted%one_dof) > 0) then
+            call one_dof%find_multipliers(size(wanted%one_dof), wanted%one_dof, self%coordinates%n_v, self%bodies%n, self%rows, &
                                          self%mass, g, solution%a, solution%lambda)
          end if
-         if (.not. wanted%has_known) return
+         if (.not. wanted%has_prescribed) return
          do k = 1, known%n
             call copy(known%held(k)%body)
          end do

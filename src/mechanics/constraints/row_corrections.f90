@@ -9,7 +9,7 @@ module row_corrections
    use linkage, only: linkage_t
    implicit none (type, external)
    private
-   public :: change_weights, coordinate_scale, evaluate_rows, least_correction, limit_step, rank_tolerance, rates, &
+   public :: change_weights, coordinate_scale, evaluate_rows, min_correction, limit_step, rank_tolerance, rates, &
       scaled_jacobian, wants_sparse, worst_violation
 
    real(wp), parameter :: rank_tolerance = 1.0e-9_wp    !! least ratio of singular values [1]
@@ -29,10 +29,10 @@ contains
       call linkage%place_bodies(q, v)
       linkage%motion%t = t
       do k = 1, size(linkage%joints)
-         call linkage%joints(k)%set%evaluate(linkage%piece%inside(t), linkage%motion, linkage%rows)
+         call linkage%joints(k)%set%evaluate(linkage%segment%inside(t), linkage%motion, linkage%rows)
       end do
       do k = 1, size(linkage%ideal)
-         call linkage%ideal(k)%set%evaluate(linkage%piece%inside(t), linkage%motion, linkage%rows)
+         call linkage%ideal(k)%set%evaluate(linkage%segment%inside(t), linkage%motion, linkage%rows)
       end do
       if (size(linkage%solution%set_aside) > 0) call linkage%set_rows_aside()
    end subroutine evaluate_rows
@@ -88,7 +88,7 @@ contains
    end subroutine scaled_jacobian
 
    !> Least change x of the coordinates (or rates) with Phi_q x = right, in the scaled norm of x / ease.
-   subroutine least_correction(linkage, right, ease, x, rank, tolerance)
+   subroutine min_correction(linkage, right, ease, x, rank, tolerance)
       type(linkage_t), intent(in) :: linkage        !! the bodies and their rows, rows evaluated
       real(wp), intent(in) :: right(:)              !! (rows) what the rows should change by [m or rad, or rates]
       real(wp), intent(in) :: ease(:)               !! (n_v bodies) how easily each of them changes [1]
@@ -97,12 +97,12 @@ contains
       real(wp), intent(in), optional :: tolerance   !! least ratio of singular values of theirs, if another than usual [1]
 
       real(wp), allocatable :: b(:, :), jac(:, :), s(:), work(:)
-      real(wp) :: least
+      real(wp) :: minimum
       integer, allocatable :: iwork(:)
       integer :: info, k, length, m, n
 
-      least = rank_tolerance
-      if (present(tolerance)) least = tolerance
+      minimum = rank_tolerance
+      if (present(tolerance)) minimum = tolerance
       m = linkage%rows%n
       n = size(x)
       call scaled_jacobian(linkage, jac)
@@ -112,13 +112,13 @@ contains
       allocate (b(max(m, n), 1), s(min(m, n)), work(1), source=0.0_wp)
       allocate (iwork(max(1, 40*min(m, n))), source=0)
       b(1:m, 1) = right*linkage%solution%row_weight
-      call dgelsd(m, n, 1, jac, m, b, max(m, n), s, least, rank, work, -1, iwork, info)
+      call dgelsd(m, n, 1, jac, m, b, max(m, n), s, minimum, rank, work, -1, iwork, info)
       length = int(work(1))
       deallocate (work)
       allocate (work(length), source=0.0_wp)
-      call dgelsd(m, n, 1, jac, m, b, max(m, n), s, least, rank, work, size(work), iwork, info)
+      call dgelsd(m, n, 1, jac, m, b, max(m, n), s, minimum, rank, work, size(work), iwork, info)
       x = b(1:n, 1)*ease*linkage%coordinates%scales(linkage%scales%length, linkage%bodies%n)
-   end subroutine least_correction
+   end subroutine min_correction
 
    !> A correction cut so that no body turns by more than a third of a radian.
    pure function limit_step(linkage, x) result(limited)
@@ -128,7 +128,7 @@ contains
 
       real(wp), parameter :: longest_turn = 1.0_wp/3.0_wp  ! of a body in one correction [rad]
 
-      limited = x*min(1.0_wp, longest_turn/max(linkage%coordinates%greatest_turn(linkage%bodies%n, x), longest_turn))
+      limited = x*min(1.0_wp, longest_turn/max(linkage%coordinates%max_turn(linkage%bodies%n, x), longest_turn))
    end function limit_step
 
    !> Squares of how much each coordinate may change, for lengths in sizes of the bodies; nothing for the ground.

@@ -3,12 +3,12 @@
 !> Their text is `row_kernels.inc`.
 module row_kernels
    use kinds, only: wp
-   use row_kernels_planar, only: planar_side => right_hand_side, take_known_planar => take_known
-   use row_kernels_spatial, only: spatial_side => right_hand_side, take_known_spatial => take_known
+   use row_kernels_planar, only: planar_side => right_hand_side, take_prescribed_planar => take_prescribed
+   use row_kernels_spatial, only: spatial_side => right_hand_side, take_prescribed_spatial => take_prescribed
    use rows, only: n_v_planar, rows_t
    implicit none (type, external)
    private
-   public :: right_hand_side, take_known
+   public :: right_hand_side, take_prescribed
 
 contains
 
@@ -33,7 +33,7 @@ contains
    end subroutine right_hand_side
 
    !> Take what the accelerations of known bodies do to the rows off the right-hand side.
-   pure subroutine take_known(rows, n_body, a, angular, b)
+   pure subroutine take_prescribed(rows, n_body, a, angular, b)
       type(rows_t), intent(in) :: rows              !! rows, evaluated
       integer, intent(in) :: n_body                 !! number of bodies
       real(wp), intent(in) :: a(3, 0:n_body)        !! (3, 0:bodies) accelerations, of known bodies [m/s^2]
@@ -41,10 +41,10 @@ contains
       real(wp), intent(inout) :: b(rows%n)          !! (rows) right-hand side [m/s^2 or rad/s^2]
 
       if (rows%n_v == n_v_planar) then
-         call take_known_planar(rows, n_body, a, angular, b)
+         call take_prescribed_planar(rows, n_body, a, angular, b)
       else
-         call take_known_spatial(rows, n_body, a, angular, b)
+         call take_prescribed_spatial(rows, n_body, a, angular, b)
       end if
-   end subroutine take_known
+   end subroutine take_prescribed
 
 end module row_kernels

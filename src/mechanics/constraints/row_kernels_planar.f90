@@ -4,7 +4,7 @@ module row_kernels_planar
    use rows, only: n_v => n_v_planar, rows_t
    implicit none (type, external)
    private
-   public :: right_hand_side, take_known
+   public :: right_hand_side, take_prescribed
 
    integer, parameter :: n_length = 2       !! rates of a body that are no rotation
    integer, parameter :: n_shift = n_v - 3  !! what the number of a rate of rotation is beyond that of its axis

@@ -8,7 +8,7 @@
 !> decides what is good enough.
 !> Signs: the reaction on the bodies is -Phi_q^T lambda. Source: Flores et al. (2008), eqs. (2.15), (2.23).
 module solution
-   use augmented, only: augmented_t, least_pivots
+   use augmented, only: augmented_t, min_pivots
    use rows, only: rows_t
    use kinds, only: i8, wp
    implicit none (type, external)
@@ -38,11 +38,11 @@ module solution
       integer(i8) :: n_damped = 0                        !! evaluations in which rows were dependent, or nearly so
       integer, allocatable :: left_out(:)                !! rows that the form of index 2 leaves out, which depend on others
       integer, allocatable :: set_aside(:)               !! redundant rows that do not quite agree, held by no one: `closing_fit`
-      real(wp) :: least_pivot = least_pivots(1)          !! of independent rows, of the diagonal it came from [1]
+      real(wp) :: min_pivot = min_pivots(1)          !! of independent rows, of the diagonal it came from [1]
       integer :: bad_row = 0                             !! row at which the last evaluation was singular, 0: none
    contains
       procedure :: find => solution_find, set_gains => solution_set_gains
-      procedure :: judge_pivots, take_least_pivot
+      procedure :: judge_pivots, take_min_pivot
    end type solution_t
 
 contains
@@ -76,22 +76,22 @@ contains
       b = 0.0_wp
       n_before = self%solver%n_factorisations
       do level = 1, 2
-         call self%take_least_pivot(least_pivots(level))
+         call self%take_min_pivot(min_pivots(level))
          call self%solver%solve(inverse_mass, rows, g, b, a, lambda, bad_row)
          if (bad_row == 0) exit
       end do
-      call self%take_least_pivot(least_pivots(merge(3, 1, level == 2)))
+      call self%take_min_pivot(min_pivots(merge(3, 1, level == 2)))
       self%solver%n_factorisations = n_before  ! those of the motion are counted
    end subroutine judge_pivots
 
    !> Take the least pivot of independent rows.
-   subroutine take_least_pivot(self, least)
+   subroutine take_min_pivot(self, minimum)
       class(solution_t), intent(inout) :: self   !! the solution
-      real(wp), intent(in) :: least              !! of the diagonal it came from [1]
+      real(wp), intent(in) :: minimum              !! of the diagonal it came from [1]
 
-      self%least_pivot = least
-      call self%solver%set_least_pivot(least)
-   end subroutine take_least_pivot
+      self%min_pivot = minimum
+      call self%solver%set_min_pivot(minimum)
+   end subroutine take_min_pivot
 
    !> Accelerations of the unknown bodies and multipliers of the solved rows, of which there are some, as rows and b were set.
    !> Status 1 if rows that always depend on others contradict them, or if there is no solution.

@@ -39,7 +39,7 @@ module cylinder_family
       procedure :: fit => family_fit
       procedure :: force => family_force
       procedure :: potential => family_potential
-      procedure :: story => family_story
+      procedure :: description => family_description
    end type cylinder_family_t
 
    abstract interface
@@ -170,14 +170,14 @@ contains
    end function family_potential
 
    !> The range in words.
-   function family_story(self, parameters) result(words)
+   function family_description(self, parameters) result(words)
       class(cylinder_family_t), intent(in) :: self         !! the law
       real(wp), intent(in) :: parameters(n_law_parameter)  !! (n_law_parameter) a, a B, range [m/N, m, m]
       character(:), allocatable :: words                   !! for `gudgeon explain`
 
       words = "valid for penetration up to "//real_text(1.0e3_wp*parameters(3), 6)//" mm"
       if (self%hysteresis > 0.0_wp) words = words//", damping factor "//real_text(self%hysteresis, 6)
-   end function family_story
+   end function family_description
 
    !> Elastic force, its derivative and its potential; zero where delta is not positive.
    pure subroutine invert(parameters, delta, f, df_ddelta, energy)

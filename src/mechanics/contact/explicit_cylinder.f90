@@ -31,7 +31,7 @@ module explicit_cylinder
       procedure :: fit => explicit_fit
       procedure :: force => explicit_force
       procedure :: potential => explicit_potential
-      procedure :: story => explicit_story
+      procedure :: description => explicit_description
    end type explicit_cylinder_t
 
    abstract interface
@@ -147,7 +147,7 @@ contains
    end function explicit_potential
 
    !> Range and damping in words.
-   function explicit_story(self, parameters) result(words)
+   function explicit_description(self, parameters) result(words)
       class(explicit_cylinder_t), intent(in) :: self       !! the law
       real(wp), intent(in) :: parameters(n_law_parameter)  !! (n_law_parameter) constants, range [any]
       character(:), allocatable :: words                   !! for `gudgeon explain`
@@ -157,6 +157,6 @@ contains
          words = "valid for penetration up to "//real_text(1.0e3_wp*parameters(parameter_deepest), 6)//" mm"
       end if
       if (self%hysteresis > 0.0_wp) words = words//", damping factor "//real_text(self%hysteresis, 6)
-   end function explicit_story
+   end function explicit_description
 
 end module explicit_cylinder

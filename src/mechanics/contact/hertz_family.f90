@@ -30,7 +30,7 @@ module hertz_family
       procedure :: fit => family_fit
       procedure :: force => family_force
       procedure :: potential => family_potential
-      procedure :: story => family_story
+      procedure :: description => family_description
    end type hertz_family_t
 
    abstract interface
@@ -128,14 +128,14 @@ contains
    end function family_potential
 
    !> The stiffness in words.
-   function family_story(self, parameters) result(words)
+   function family_description(self, parameters) result(words)
       class(hertz_family_t), intent(in) :: self            !! the law
       real(wp), intent(in) :: parameters(n_law_parameter)  !! (n_law_parameter) stiffness first [N/m^1.5]
       character(:), allocatable :: words                   !! for `gudgeon explain`
 
       words = "stiffness "//real_text(parameters(1), 6)//" N/m^1.5"
       if (self%hertz_damping > 0.0_wp) words = words//", damping factor "//real_text(self%hertz_damping, 6)
-   end function family_story
+   end function family_description
 
    include "hertz_force.inc"
 

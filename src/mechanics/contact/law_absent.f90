@@ -21,7 +21,7 @@ module law_absent
       procedure :: fit => absent_fit
       procedure :: force => absent_force
       procedure :: potential => absent_potential
-      procedure :: story => absent_story
+      procedure :: description => absent_description
    end type law_absent_t
 
 contains
@@ -87,12 +87,12 @@ contains
    end function absent_potential
 
    !> In words.
-   function absent_story(self, parameters) result(words)
+   function absent_description(self, parameters) result(words)
       class(law_absent_t), intent(in) :: self              !! the law
       real(wp), intent(in) :: parameters(n_law_parameter)  !! (n_law_parameter) from `fit` [any]
       character(:), allocatable :: words                   !! that there is none
 
       words = "no contact"
-   end function absent_story
+   end function absent_description
 
 end module law_absent

@@ -30,7 +30,7 @@ module law_expression
       procedure :: fit => expression_fit
       procedure :: force => expression_force
       procedure :: potential => expression_potential
-      procedure :: story => expression_story
+      procedure :: description => expression_description
    end type law_expression_t
 
 contains
@@ -120,13 +120,13 @@ contains
    end function expression_potential
 
    !> The expression in words.
-   function expression_story(self, parameters) result(words)
+   function expression_description(self, parameters) result(words)
       class(law_expression_t), intent(in) :: self          !! the law
       real(wp), intent(in) :: parameters(n_law_parameter)  !! (n_law_parameter) depth last [m]
       character(:), allocatable :: words                   !! for `gudgeon explain`
 
       words = "force = "//self%whole%source
       if (parameters(parameter_deepest) < huge(1.0_wp)) words = words//" within its valid range"
-   end function expression_story
+   end function expression_description
 
 end module law_expression

@@ -33,7 +33,7 @@ module law_faded
       procedure :: fit => faded_fit
       procedure :: force => faded_force
       procedure :: potential => faded_potential
-      procedure :: story => faded_story
+      procedure :: description => faded_description
    end type law_faded_t
 
 contains
@@ -130,12 +130,12 @@ contains
    end function faded_potential
 
    !> The other law in words, and the depth.
-   function faded_story(self, parameters) result(words)
+   function faded_description(self, parameters) result(words)
       class(law_faded_t), intent(in) :: self               !! the law
       real(wp), intent(in) :: parameters(n_law_parameter)  !! (n_law_parameter) of the other law [any]
       character(:), allocatable :: words                   !! as "stiffness 6.6e10 N/m^1.5, comes in over 0.005 mm"
 
-      words = self%law%story(parameters)//", fades in over "//to_text(1.0e3_wp*self%depth)//" mm"
-   end function faded_story
+      words = self%law%description(parameters)//", fades in over "//to_text(1.0e3_wp*self%depth)//" mm"
+   end function faded_description
 
 end module law_faded

@@ -6,7 +6,7 @@
 !> energy = K delta^2 / 2,   m the reduced mass of the two bodies
 !>
 !> Two free bodies part with ce in the form `squared`, with sqrt(ce) in the book's. These two jump where the penetration
-!> turns, which is located; where a load lies between both forces the contact rests (`turn_watch`). The dashpot would give
+!> turns, which is located; where a load lies between both forces the contact rests (`turn_monitor`). The dashpot would give
 !> ce if it pulled at the end; it does not, and for ce = 0.9 and 0.5 gives 0.902 and 0.550; its force jumps by C v0 at the
 !> onset, and what the spring still holds when the force is cut off is counted as lost.
 !>
@@ -35,7 +35,7 @@ module law_kelvin_voigt
       procedure :: fit => kelvin_voigt_fit
       procedure :: force => kelvin_voigt_force
       procedure :: potential => kelvin_voigt_potential
-      procedure :: story => kelvin_voigt_story
+      procedure :: description => kelvin_voigt_description
    end type law_kelvin_voigt_t
 
 contains
@@ -135,7 +135,7 @@ contains
    end function kelvin_voigt_potential
 
    !> The stiffness in words.
-   function kelvin_voigt_story(self, parameters) result(words)
+   function kelvin_voigt_description(self, parameters) result(words)
       class(law_kelvin_voigt_t), intent(in) :: self        !! the law
       real(wp), intent(in) :: parameters(n_law_parameter)  !! (n_law_parameter) stiffness, damping [N/m, N.s/m]
       character(:), allocatable :: words                   !! for `gudgeon explain`
@@ -144,6 +144,6 @@ contains
       if (self%returned < 1.0_wp) words = words//", force during separation "//real_text(self%returned, 6)//" times the "// &
          "elastic force"
       if (parameters(2) > 0.0_wp) words = words//", dashpot "//real_text(parameters(2), 6)//" N.s/m"
-   end function kelvin_voigt_story
+   end function kelvin_voigt_description
 
 end module law_kelvin_voigt

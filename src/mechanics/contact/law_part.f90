@@ -27,7 +27,7 @@ module law_part
       procedure :: fit => part_fit
       procedure :: force => part_force
       procedure :: potential => part_potential
-      procedure :: story => part_story
+      procedure :: description => part_description
    end type law_part_t
 
 contains
@@ -104,12 +104,12 @@ contains
    end function part_potential
 
    !> The other law in words, and the share.
-   function part_story(self, parameters) result(words)
+   function part_description(self, parameters) result(words)
       class(law_part_t), intent(in) :: self                !! the law
       real(wp), intent(in) :: parameters(n_law_parameter)  !! (n_law_parameter) of the other law [any]
       character(:), allocatable :: words                   !! as "stiffness 6.6e10 N/m^1.5, at each base 0.5 of it"
 
-      words = self%law%story(parameters)//", at each end "//to_text(self%share)//" times the law"
-   end function part_story
+      words = self%law%description(parameters)//", at each end "//to_text(self%share)//" times the law"
+   end function part_description
 
 end module law_part

@@ -22,7 +22,7 @@ module law_pereira
    public :: law_pereira_t
 
    real(wp), parameter :: a = 0.965_wp, b = 0.0965_wp              !! of an internal contact [1/mm, 1]
-   real(wp), parameter :: least = 0.005_wp, greatest = 10.0_wp     !! clearances of the fit [mm]
+   real(wp), parameter :: minimum = 0.005_wp, maximum = 10.0_wp     !! clearances of the fit [mm]
    real(wp), parameter :: change = 0.34954_wp                      !! clearance at which the fit of n changes [mm]
    real(wp), parameter :: mm = 1.0e-3_wp                           !! one millimetre [m]
 
@@ -71,7 +71,7 @@ contains
       real(wp) :: c, y
 
       c = clearance/mm
-      if (c < least .or. c > greatest) then
+      if (c < minimum .or. c > maximum) then
          message = "law '"//self%name//"' is fitted to clearances of 5 um to 10 mm, the clearance here is "//real_text(c, 4)//" mm"
          help = "use another law of cylinders: johnson, liu"
          return

@@ -35,7 +35,7 @@ module law_plane_face
       procedure :: fit => plane_face_fit
       procedure :: force => plane_face_force
       procedure :: potential => plane_face_potential
-      procedure :: story => plane_face_story
+      procedure :: description => plane_face_description
    end type law_plane_face_t
 
 contains
@@ -117,13 +117,13 @@ contains
    end function plane_face_potential
 
    !> The stiffness in words.
-   function plane_face_story(self, parameters) result(words)
+   function plane_face_description(self, parameters) result(words)
       class(law_plane_face_t), intent(in) :: self          !! the law
       real(wp), intent(in) :: parameters(n_law_parameter)  !! (n_law_parameter) stiffness first [N/m]
       character(:), allocatable :: words                   !! for `gudgeon explain`
 
       words = "stiffness "//real_text(parameters(1), 6)//" N/m"
       if (self%hysteresis > 0.0_wp) words = words//", damping factor "//real_text(self%hysteresis, 6)
-   end function plane_face_story
+   end function plane_face_description
 
 end module law_plane_face

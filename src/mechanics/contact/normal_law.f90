@@ -40,7 +40,7 @@ module normal_law
       procedure(fit_interface), deferred :: fit
       procedure(force_interface), deferred :: force
       procedure(potential_interface), deferred :: potential
-      procedure(story_interface), deferred :: story
+      procedure(description_interface), deferred :: description
       procedure :: mistake => normal_mistake
       procedure :: contact_time => normal_contact_time
    end type normal_law_t
@@ -100,13 +100,13 @@ module normal_law
       end function potential_interface
 
       !> The parameters of a contact in words, for `gudgeon explain`.
-      function story_interface(self, parameters) result(words)
+      function description_interface(self, parameters) result(words)
          import :: n_law_parameter, normal_law_t, wp
          implicit none (type, external)
          class(normal_law_t), intent(in) :: self              !! the law
          real(wp), intent(in) :: parameters(n_law_parameter)  !! (n_law_parameter) from `fit` [any]
          character(:), allocatable :: words                   !! as "stiffness 6.6e10 N/m^1.5"
-      end function story_interface
+      end function description_interface
    end interface
 
 contains

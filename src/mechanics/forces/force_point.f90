@@ -11,7 +11,7 @@ module force_point
    use kind_info, only: add_channel, add_expression, add_reference, dim_force, in_plane, kind_info_t
    use kinds, only: wp
    use motion, only: apply_force, loads_t, motion_t, point_position, point_velocity
-   use seen_motion, only: value_of
+   use observed_motion, only: value_of
    implicit none (type, external)
    private
    public :: force_point_t

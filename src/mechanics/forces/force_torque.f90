@@ -12,7 +12,7 @@ module force_torque
    use kind_info, only: add_channel, add_expression, add_reference, dim_moment, in_plane, kind_info_t
    use kinds, only: wp
    use motion, only: loads_t, motion_t
-   use seen_motion, only: value_of
+   use observed_motion, only: value_of
    implicit none (type, external)
    private
    public :: force_torque_t

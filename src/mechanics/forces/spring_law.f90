@@ -16,7 +16,7 @@ module spring_law
    use kinds, only: wp
    use motion, only: motion_t
    use quadrature, only: integral_of
-   use seen_motion, only: value_of
+   use observed_motion, only: value_of
    implicit none (type, external)
    private
    public :: add_turning_law, spring_law_t

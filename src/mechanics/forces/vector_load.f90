@@ -4,7 +4,7 @@ module vector_load
    use item, only: item_t, place_of
    use kinds, only: wp
    use motion, only: motion_t
-   use seen_motion, only: value_of
+   use observed_motion, only: value_of
    implicit none (type, external)
    private
    public :: vector_load_t

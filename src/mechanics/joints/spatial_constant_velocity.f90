@@ -95,11 +95,11 @@ contains
       type(motion_t), intent(in) :: motion                    !! positions
       character(:), allocatable :: fault                      !! what is wrong; blank: nothing
 
-      real(wp), parameter :: least = 1.0e-6_wp  ! 1 + cosine of the angle of the shafts [1]
+      real(wp), parameter :: minimum = 1.0e-6_wp  ! 1 + cosine of the angle of the shafts [1]
 
       fault = ""
       if (1.0_wp + dot_product(axis_of(motion, self%body(1, k), self%axes%frame_i(:, 3, k)), &
-                               axis_of(motion, self%body(2, k), self%axes%frame_j(:, 3, k))) > least) return
+                               axis_of(motion, self%body(2, k), self%axes%frame_j(:, 3, k))) > minimum) return
       fault = "is assembled in the reversed configuration: the angle between its shafts is 180 deg, so the plane of the angle "// &
          "is undefined"// &
               new_line("a")//"  = rotate one of its bodies, or reverse axis_i or axis_j, in the deck"

@@ -25,14 +25,14 @@ module spatial_gear
    use rows, only: rows_t
    use spatial_joint, only: add_axis_columns, add_joint_columns, add_spatial_channels, degrees_between, element_t, &
       set_joint_frames
-   use spatial_rows, only: angle_of, axis_of, dot_of_axes, dot_with_span, put_row, scalar_t, seen_from_other, wrapped
+   use spatial_rows, only: angle_of, axis_of, dot_of_axes, dot_with_span, put_row, scalar_t, observed_from_other, wrapped
    use text, only: real_text
    implicit none (type, external)
    private
    public :: gear_is_lost, spatial_gear_t, words_of_lost_gear
 
    real(wp), parameter :: parallel = 1.0e-6_wp  !! sine of an angle of axes that is none [1]
-   real(wp), parameter :: least = 0.25_wp       !! least part of what is between the gears at the start that they still mesh at [1]
+   real(wp), parameter :: minimum = 0.25_wp  !! least part of what is between the gears at the start that they still mesh at [1]
 
    !> All pairs of gears of a spatial scene.
    type, extends(counted_joint_t) :: spatial_gear_t
@@ -125,10 +125,10 @@ contains
          do a = 1, 2
             if (self%is_parallel(k)) then
                across(a, 1) = dot_with_span(motion, body, of_i(:, a), s_i, s_j)
-               across(a, 2) = seen_from_other(dot_with_span(motion, body([2, 1]), of_j(:, a), s_j, s_i))
+               across(a, 2) = observed_from_other(dot_with_span(motion, body([2, 1]), of_j(:, a), s_j, s_i))
             else
                across(a, 1) = dot_of_axes(motion, body, of_i(:, a), of_j(:, 3))
-               across(a, 2) = seen_from_other(dot_of_axes(motion, body([2, 1]), of_j(:, a), of_i(:, 3)))
+               across(a, 2) = observed_from_other(dot_of_axes(motion, body([2, 1]), of_j(:, a), of_i(:, 3)))
             end if
          end do
       end associate
@@ -200,9 +200,9 @@ contains
 
       between = between_gears(self, k, motion)
       if (self%is_parallel(k)) then
-         is_off = between(2) < least*self%between(2, k) .or. between(1) > 1.0_wp - least
+         is_off = between(2) < minimum*self%between(2, k) .or. between(1) > 1.0_wp - minimum
       else
-         is_off = between(1) < least*self%between(1, k)
+         is_off = between(1) < minimum*self%between(1, k)
       end if
    end function gear_is_lost
 

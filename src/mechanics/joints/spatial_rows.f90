@@ -24,7 +24,7 @@ module spatial_rows
    implicit none (type, external)
    private
    public :: angle_between, angle_of, axis_of, dot_of_axes, dot_with_span, length_of_span, put_across_rows, put_row, &
-      put_vector_rows, row_of, scalar_t, seen_from_other, twist_of_frames, wrapped
+      put_vector_rows, row_of, scalar_t, observed_from_other, twist_of_frames, wrapped
 
    !> A scalar of two bodies, and what moves it.
    type :: scalar_t
@@ -195,7 +195,7 @@ contains
    end function angle_of
 
    !> A scalar of two bodies as of the same two in the other order.
-   pure function seen_from_other(x) result(y)
+   pure function observed_from_other(x) result(y)
       type(scalar_t), intent(in) :: x   !! the scalar, of j and i
       type(scalar_t) :: y               !! the same, of i and j
 
@@ -203,7 +203,7 @@ contains
       y%force = -x%force
       y%turn_i = x%turn_j
       y%turn_j = x%turn_i
-   end function seen_from_other
+   end function observed_from_other
 
    !> An angle less the whole turns nearest to it.
    elemental real(wp) function wrapped(angle)

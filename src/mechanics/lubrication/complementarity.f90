@@ -192,25 +192,25 @@ contains
       class(complementarity_t), intent(inout) :: self  !! the problem
       logical, intent(out) :: is_done                  !! all conditions hold
 
-      real(wp) :: inflow, least_flow, least_pressure
+      real(wp) :: inflow, min_flow, min_pressure
       integer :: before, j, k, next
 
       is_done = .true.
-      least_pressure = -round_off*maxval(self%p)
-      least_flow = round_off*maxval(abs(self%source))
+      min_pressure = -round_off*maxval(self%p)
+      min_flow = round_off*maxval(abs(self%source))
       do k = 1, self%n
          next = modulo(k, self%n) + 1
          before = modulo(k - 2, self%n) + 1
          do j = 1, self%m
             if (self%is_known(j, k)) cycle
             if (self%place(j, k) > 0) then
-               self%is_wet(j, k) = self%p(j, k) >= least_pressure
+               self%is_wet(j, k) = self%p(j, k) >= min_pressure
                if (.not. self%is_wet(j, k)) is_done = .false.
             else
                inflow = self%source(j, k) + self%around(j, k)*self%p(j, next) + self%around(j, before)*self%p(j, before)
                if (j < self%m) inflow = inflow + self%along(j, k)*self%p(j + 1, k)
                if (j > 1) inflow = inflow + self%along(j - 1, k)*self%p(j - 1, k)
-               self%is_wet(j, k) = inflow > least_flow
+               self%is_wet(j, k) = inflow > min_flow
                if (self%is_wet(j, k)) is_done = .false.
             end if
          end do

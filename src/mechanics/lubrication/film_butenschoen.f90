@@ -43,7 +43,7 @@ module film_butenschoen
       procedure :: fit => butenschoen_fit
       procedure :: components => butenschoen_components
       procedure :: halves => butenschoen_halves
-      procedure :: story => butenschoen_story
+      procedure :: description => butenschoen_description
    end type film_butenschoen_t
 
 contains
@@ -115,7 +115,7 @@ contains
    end subroutine butenschoen_components
 
    !> What the polynomials do not cover.
-   function butenschoen_story(self, parameters) result(words)
+   function butenschoen_description(self, parameters) result(words)
       class(film_butenschoen_t), intent(in) :: self  !! the film
       real(wp), intent(in) :: parameters(n_film_parameter)  !! (n_film_parameter) from `fit` [any]
       character(:), allocatable :: words  !! as "supplied at 2 bar"
@@ -124,6 +124,6 @@ contains
       associate (b => parameters(first_own))
          if (b < shortest .or. b > longest) words = "L/D = "//to_text(b)//" is outside 1/8 to 1, the range of the approximation"
       end associate
-   end function butenschoen_story
+   end function butenschoen_description
 
 end module film_butenschoen

@@ -9,7 +9,7 @@
 module film_finite
    use film_law, only: basic_parameters, film_bearing_t, film_law_t, film_motion_t, n_film_parameter, own_parameters, &
       parameter_clearance, parameter_eps_max
-   use finite_bearing, only: finite_force, finite_weights, greatest_ratio, least_ratio, n_ratio
+   use finite_bearing, only: finite_force, finite_weights, max_ratio, min_ratio, n_ratio
    use item, only: item_t
    use kind_info, only: kind_info_t
    use kinds, only: wp
@@ -67,7 +67,7 @@ contains
       help = ""
       call basic_parameters(bearing, parameters)
       ratio = 0.5_wp*bearing%length/bearing%radius
-      if (ratio < least_ratio*(1.0_wp - slack) .or. ratio > greatest_ratio*(1.0_wp + slack)) then
+      if (ratio < min_ratio*(1.0_wp - slack) .or. ratio > max_ratio*(1.0_wp + slack)) then
          message = "L/D = "//to_text(ratio)//" is outside the range of 'finite', 0.25 to 4"
          help = "shorter: short_exact, longer: long_exact, any length: grid"
          return

@@ -17,7 +17,7 @@
 !> as the program: all films with the same supplies, resolution and boundary share them, each solution begins with the wet cells of
 !> the one before and does not depend on it.
 module film_grid
-   use film_law, only: basic_parameters, film_bearing_t, film_law_t, film_motion_t, greatest_eccentricity, n_film_parameter, &
+   use film_law, only: basic_parameters, film_bearing_t, film_law_t, film_motion_t, max_eccentricity, n_film_parameter, &
       own_parameters, parameter_clearance, parameter_eps_max, parameter_length, parameter_radius, parameter_viscosity
    use item, only: item_t
    use kind_info, only: add_number, add_word, dim_angle, dim_none, dim_pressure, kind_info_t
@@ -67,7 +67,7 @@ module film_grid
       procedure, nopass :: knows_tilt => grid_has
       procedure :: field => grid_field
       procedure :: mistake => grid_mistake
-      procedure :: story => grid_story
+      procedure :: description => grid_description
    end type film_grid_t
 
 contains
@@ -319,7 +319,7 @@ contains
       associate (c => parameters(parameter_clearance), g => motion%tilt, e => motion%e)
          part = 1.0_wp/c
          longest = parameters(parameter_eps_max)*c
-         reach = greatest_eccentricity(motion)
+         reach = max_eccentricity(motion)
          if (reach > longest) part = part*longest/reach
          state%e = turned(part*e)
          state%g = turned(part*g)
@@ -340,13 +340,13 @@ contains
    end function state_of
 
    !> The grid of a bearing.
-   function grid_story(self, parameters) result(words)
+   function grid_description(self, parameters) result(words)
       class(film_grid_t), intent(in) :: self                !! the film
       real(wp), intent(in) :: parameters(n_film_parameter)  !! (n_film_parameter) from `fit` [any]
       character(:), allocatable :: words                    !! as "160 x 16 cells"
 
       words = to_text(columns_of(self%resolution))//" x "//to_text(rows_of(self%resolution))//" cells"
       if (size(self%supply) > 0) words = words//", supplied at "//to_text(self%supply(1)%pressure)//" Pa"
-   end function grid_story
+   end function grid_description
 
 end module film_grid

@@ -24,7 +24,7 @@ module film_law
    implicit none (type, external)
    private
    public :: basic_parameters, film_bearing_t, film_law_t, film_motion_t, film_slopes_t, film_slot_t, gap_at, n_film_parameter
-   public :: film_halves, greatest_eccentricity, own_parameters
+   public :: film_halves, max_eccentricity, own_parameters
    public :: squeezing_velocity
    public :: parameter_clearance, parameter_eps_max, parameter_length, parameter_radius, parameter_viscosity
 
@@ -84,7 +84,7 @@ module film_law
       procedure, nopass :: has_field => film_false
       procedure :: field => film_field
       procedure :: mistake => film_mistake
-      procedure :: story => film_story
+      procedure :: description => film_description
    end type film_law_t
 
    !> A place for a film of any kind.
@@ -188,11 +188,11 @@ contains
    end subroutine force_of_one
 
    !> Eccentricity of the journal at the end where it is greater.
-   pure real(wp) function greatest_eccentricity(motion) result(distance)
+   pure real(wp) function max_eccentricity(motion) result(distance)
       type(film_motion_t), intent(in) :: motion  !! motion of the bearing
 
       distance = max(norm2(motion%e + motion%tilt), norm2(motion%e - motion%tilt))
-   end function greatest_eccentricity
+   end function max_eccentricity
 
    !> Whether the film is that of a ball in a socket, whether its `tilted_force` is right for any tilt, whether it has
    !> pressures that `field` gives, not only a force: one for which that holds overrides this.
@@ -384,12 +384,12 @@ contains
    end function film_mistake
 
    !> The parameters of a bearing in words, for `gudgeon explain`; blank: nothing beyond the bearing itself.
-   function film_story(self, parameters) result(words)
+   function film_description(self, parameters) result(words)
       class(film_law_t), intent(in) :: self                 !! the film
       real(wp), intent(in) :: parameters(n_film_parameter)  !! (n_film_parameter) from `fit` [any]
       character(:), allocatable :: words                    !! as "supplied at 2 bar"
 
       words = repeat("", len(self%name) + size(parameters))
-   end function film_story
+   end function film_description
 
 end module film_law

@@ -23,20 +23,20 @@ module finite_bearing
    use kinds, only: wp
    implicit none (type, external)
    private
-   public :: basis, finite_force, finite_place, finite_place_t, finite_weights, greatest_lambda, greatest_ratio, knot_distance
-   public :: least_ratio, n_local, n_mu, n_nu, n_ratio
+   public :: basis, finite_force, finite_place, finite_place_t, finite_weights, max_lambda, max_ratio, knot_distance
+   public :: min_ratio, n_local, n_mu, n_nu, n_ratio
 
    integer, parameter :: n_ratio = 8   !! polynomials of log(L/D)
    integer, parameter :: n_nu = 12     !! splines over nu: 0 to n_nu, two more below zero that are mirrored
    integer, parameter :: n_mu = 12     !! splines over mu: -n_mu to n_mu
    integer, parameter :: n_local = 6   !! splines that are not zero at a place, one more than their degree
    real(wp), parameter :: knot_distance = 0.5_wp    !! of the splines [1]
-   real(wp), parameter :: least_ratio = 0.25_wp     !! least L/D [1]
-   real(wp), parameter :: greatest_ratio = 4.0_wp   !! greatest L/D [1]
+   real(wp), parameter :: min_ratio = 0.25_wp     !! least L/D [1]
+   real(wp), parameter :: max_ratio = 4.0_wp   !! greatest L/D [1]
    real(wp), parameter :: fitted_lambda = 4.2_wp    !! up to here S is that of the grid [1]
-   real(wp), parameter :: greatest_lambda = 4.6_wp  !! where it ends [1]
+   real(wp), parameter :: max_lambda = 4.6_wp  !! where it ends [1]
    real(wp), parameter :: blend = 2.0_wp            !! of short and long powers [1]
-   real(wp), parameter :: least_nu = 1.0e-6_wp      !! S is even in nu: closer to zero it does not matter [1]
+   real(wp), parameter :: min_nu = 1.0e-6_wp      !! S is even in nu: closer to zero it does not matter [1]
 
    include "finite_table.inc"
 
@@ -60,7 +60,7 @@ contains
       real(wp) :: z
       integer :: k
 
-      z = log(ratio/sqrt(least_ratio*greatest_ratio))/log(sqrt(greatest_ratio/least_ratio))
+      z = log(ratio/sqrt(min_ratio*max_ratio))/log(sqrt(max_ratio/min_ratio))
       weights(1:2) = [1.0_wp, z]
       do k = 3, n_ratio
          weights(k) = 2.0_wp*z*weights(k - 1) - weights(k - 2)
@@ -88,9 +88,9 @@ contains
       lambda = log((1.0_wp + eps)/q)
       place%mu = sign(log(large/q), x)
       place%narrowed = 1.0_wp
-      if (lambda > fitted_lambda) place%narrowed = (fitted_lambda + (greatest_lambda - fitted_lambda) &
-                                                    *tanh((lambda - fitted_lambda)/(greatest_lambda - fitted_lambda)))/lambda
-      place%nu = place%narrowed*max(sqrt(max((lambda - place%mu)*(lambda + place%mu), 0.0_wp)), least_nu)
+      if (lambda > fitted_lambda) place%narrowed = (fitted_lambda + (max_lambda - fitted_lambda) &
+                                                    *tanh((lambda - fitted_lambda)/(max_lambda - fitted_lambda)))/lambda
+      place%nu = place%narrowed*max(sqrt(max((lambda - place%mu)*(lambda + place%mu), 0.0_wp)), min_nu)
       place%mu = place%narrowed*place%mu
    end subroutine finite_place
 

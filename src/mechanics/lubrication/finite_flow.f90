@@ -19,8 +19,8 @@ module finite_flow
    integer, parameter :: n_flow_eps = 2     !! degree in eps^2
    integer, parameter :: n_flow_x = 4       !! degree in x
    integer, parameter :: n_flow_terms = (n_flow_ratio + 1)*(n_flow_eps + 1)*(n_flow_x + 1)  !! coefficients
-   real(wp), parameter :: least_ratio = 0.25_wp   !! least L/D of the fit [1]
-   real(wp), parameter :: greatest_ratio = 4.0_wp !! greatest [1]
+   real(wp), parameter :: min_ratio = 0.25_wp   !! least L/D of the fit [1]
+   real(wp), parameter :: max_ratio = 4.0_wp !! greatest [1]
 
    include "finite_flow.inc"
 
@@ -36,7 +36,7 @@ contains
       real(wp) :: t(0:n_flow_ratio), z
       integer :: a, b, k, n
 
-      z = log(ratio)/log(greatest_ratio)
+      z = log(ratio)/log(max_ratio)
       t(0:1) = [1.0_wp, z]
       do k = 2, n_flow_ratio
          t(k) = 2.0_wp*z*t(k - 1) - t(k - 2)
@@ -56,9 +56,9 @@ contains
       real(wp), intent(in) :: eps     !! eccentricity ratio, at most 1 [1]
       real(wp), intent(in) :: x       !! its part along v [1]
 
-      phi = exp(sum(flow_coefficient*flow_terms(min(max(ratio, least_ratio), greatest_ratio), eps, x)))
-      if (ratio < least_ratio) phi = 1.0_wp - (1.0_wp - phi)*(ratio/least_ratio)**2
-      if (ratio > greatest_ratio) phi = phi*greatest_ratio/ratio
+      phi = exp(sum(flow_coefficient*flow_terms(min(max(ratio, min_ratio), max_ratio), eps, x)))
+      if (ratio < min_ratio) phi = 1.0_wp - (1.0_wp - phi)*(ratio/min_ratio)**2
+      if (ratio > max_ratio) phi = phi*max_ratio/ratio
    end function flow_part
 
 end module finite_flow

@@ -122,7 +122,7 @@ contains
       self%weight = self%y(1:m) - self%y(0:m - 1)
       self%weight(m) = end_weight*self%weight(m)
       if (self%is_whole) self%weight(1) = end_weight*self%weight(1)
-      call set_known(self)
+      call set_prescribed(self)
       call set_around(self)
       call set_along(self)
       call self%film%solve(status)
@@ -151,7 +151,7 @@ contains
    end function is_supplied
 
    !> Which cells lie in supplies, their pressures, and the sources of all.
-   pure subroutine set_known(self)
+   pure subroutine set_prescribed(self)
       class(reynolds_grid_t), intent(inout) :: self  !! the grid
 
       real(wp) :: u(2), y
@@ -169,7 +169,7 @@ contains
             end do
          end do
       end associate
-   end subroutine set_known
+   end subroutine set_prescribed
 
    !> Integral of u over a column.
    pure function integral_of_u(from, to) result(u)

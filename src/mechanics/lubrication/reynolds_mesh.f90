@@ -17,7 +17,7 @@ module reynolds_mesh
 
    real(wp), parameter :: ring_grading = 3.0_wp    !! k of the columns over eps/sqrt(1 - eps^2) [1]
    real(wp), parameter :: length_grading = 0.2_wp  !! k of the rows over (L/D)/sqrt(1 - eps^2) [1]
-   real(wp), parameter :: least_grading = 1.0e-6_wp  !! below it cells are as good as equal [1]
+   real(wp), parameter :: min_grading = 1.0e-6_wp  !! below it cells are as good as equal [1]
 
    !> Where lubricant comes in: a groove along the bearing, or a hole (as wide as long), in the middle of the length.
    type :: supply_t
@@ -175,7 +175,7 @@ contains
       real(wp), intent(in) :: k  !! how steep, not below 0 [1]
 
       graded = x
-      if (k > least_grading) graded = asinh(k*x)/asinh(k)
+      if (k > min_grading) graded = asinh(k*x)/asinh(k)
    end function graded
 
    !> Its inverse.
@@ -184,7 +184,7 @@ contains
       real(wp), intent(in) :: k  !! how steep, not below 0 [1]
 
       ungraded = s
-      if (k > least_grading) ungraded = sinh(asinh(k)*s)/k
+      if (k > min_grading) ungraded = sinh(asinh(k)*s)/k
    end function ungraded
 
    !> Graded coordinate of an angle; it grows by 2 in a turn.

@@ -17,8 +17,8 @@ module reynolds_results
       real(wp) :: side_flow = 0.0_wp  !! flow out of both ends over c R^3/(3 L) [1/s]
       real(wp) :: shear_all = 0.0_wp  !! J of a gap that is full all round [1]
       real(wp) :: shear_wet = 0.0_wp  !! J of the part with pressure [1]
-      real(wp) :: p_greatest = 0.0_wp !! greatest P [1/s]
-      real(wp) :: h_least = 0.0_wp    !! least gap over c [1]
+      real(wp) :: p_max = 0.0_wp !! greatest P [1/s]
+      real(wp) :: h_min = 0.0_wp    !! least gap over c [1]
    end type film_result_t
 
 contains
@@ -53,8 +53,8 @@ contains
          end do
          result%side_flow = part*result%side_flow
          if (.not. self%is_whole) result%f_1 = 0.0_wp
-         result%p_greatest = maxval(p)
-         result%h_least = 1.0_wp - max(norm2(e + g), norm2(e - g))
+         result%p_max = maxval(p)
+         result%h_min = 1.0_wp - max(norm2(e + g), norm2(e - g))
       end associate
    end subroutine get_result
 

@@ -1,6 +1,6 @@
 !> Bodies that are left out of the unknowns, wholly or but for one coordinate: who they are, and what hangs on them.
 module reduced
-   use reduced_bodies, only: guided_bodies_t, known_bodies_t
+   use reduced_bodies, only: one_dof_bodies_t, prescribed_bodies_t
    implicit none (type, external)
    private
    public :: reduced_t
@@ -8,8 +8,8 @@ module reduced
    !> Bodies that are not unknown.
    type :: reduced_t
       logical, allocatable :: is_known(:)             !! (bodies) whether the motion of a body is a known function of time
-      class(known_bodies_t), allocatable :: known     !! those of them whose motion is a known function of time
-      class(guided_bodies_t), allocatable :: guided   !! bodies with one coordinate only
+      class(prescribed_bodies_t), allocatable :: known     !! those of them whose motion is a known function of time
+      class(one_dof_bodies_t), allocatable :: one_dof   !! bodies with one coordinate only
       integer, allocatable :: carried(:, :)           !! (3, sides) sides that are known bodies, of rows whose multipliers
                                                       !! are found without them: row, place in the Jacobian, body
       integer, allocatable :: driven(:)               !! (bodies) known bodies, and those guided by them

@@ -22,7 +22,7 @@ module reduced_bodies
    use rows, only: rows_t
    implicit none (type, external)
    private
-   public :: guided_bodies_t, held_t, known_bodies_t
+   public :: one_dof_bodies_t, held_t, prescribed_bodies_t
 
    !> How a body is held.
    type :: held_t
@@ -35,46 +35,46 @@ module reduced_bodies
    end type held_t
 
    !> Bodies of known motion, each after the body that it is tied to.
-   type, abstract :: known_bodies_t
+   type, abstract :: prescribed_bodies_t
       integer :: n = 0                          !! number of known bodies
       type(held_t), allocatable :: held(:)      !! (n) how they are held
       real(wp) :: t = -huge(1.0_wp)             !! time of the motion that is set [s]
       logical :: is_finite = .true.             !! whether that motion is finite numbers
    contains
-      procedure(known_move_interface), deferred :: move
-      procedure(known_power_interface), deferred, nopass :: power
-      procedure(known_multipliers_interface), deferred, nopass :: find_multipliers
-   end type known_bodies_t
+      procedure(prescribed_move_interface), deferred :: move
+      procedure(prescribed_power_interface), deferred, nopass :: power
+      procedure(prescribed_multipliers_interface), deferred, nopass :: find_multipliers
+   end type prescribed_bodies_t
 
    !> Bodies with one coordinate: those that turn, then those that slide.
-   type, abstract :: guided_bodies_t
+   type, abstract :: one_dof_bodies_t
       integer :: n = 0                          !! number of guided bodies
       integer :: n_turning = 0                  !! those of them that turn, the first ones
       type(held_t), allocatable :: held(:)      !! (n) how they are held
    contains
-      procedure(guided_move_interface), deferred :: move
-      procedure(guided_rates_interface), deferred :: rates
-      procedure(guided_response_interface), deferred :: response
-      procedure(guided_acceleration_interface), deferred :: set_acceleration
-      procedure(guided_coordinates_interface), deferred :: read_coordinates
-      procedure(guided_multipliers_interface), deferred :: find_multipliers
-   end type guided_bodies_t
+      procedure(one_dof_move_interface), deferred :: move
+      procedure(one_dof_rates_interface), deferred :: rates
+      procedure(one_dof_response_interface), deferred :: response
+      procedure(one_dof_acceleration_interface), deferred :: set_acceleration
+      procedure(one_dof_coordinates_interface), deferred :: read_coordinates
+      procedure(one_dof_multipliers_interface), deferred :: find_multipliers
+   end type one_dof_bodies_t
 
    abstract interface
       !> Positions, velocities and accelerations of the known bodies at a time; nothing to do if that is their present time.
-      subroutine known_move_interface(self, joints, t, motion)
-         import :: joint_slot_t, known_bodies_t, motion_t, wp
+      subroutine prescribed_move_interface(self, joints, t, motion)
+         import :: joint_slot_t, prescribed_bodies_t, motion_t, wp
          implicit none (type, external)
-         class(known_bodies_t), intent(inout) :: self             !! the bodies
+         class(prescribed_bodies_t), intent(inout) :: self             !! the bodies
          type(joint_slot_t), intent(in), contiguous :: joints(:)  !! (sets) joints and drivers
          real(wp), intent(in) :: t                                !! time [s]
          type(motion_t), intent(inout) :: motion                  !! the motion of the known bodies is set
-      end subroutine known_move_interface
+      end subroutine prescribed_move_interface
 
       !> Power that the drivers of known bodies give to the mechanism, with the bodies that they guide counted among them. The rows
       !> that fix these bodies are fulfilled, so that it is lambda^T Phi_t = -lambda^T Phi_q v: what accelerates the bodies and what
       !> the solved rows take from them, times their speed.
-      pure real(wp) function known_power_interface(driven, rows, mass, g, lambda, motion) result(power)
+      pure real(wp) function prescribed_power_interface(driven, rows, mass, g, lambda, motion) result(power)
          import :: motion_t, rows_t, wp
          implicit none (type, external)
          integer, intent(in), contiguous :: driven(:)        !! the known bodies, and those that they guide
@@ -83,11 +83,11 @@ module reduced_bodies
          real(wp), intent(in), contiguous :: g(:, 0:)        !! (n_v, 0:bodies) applied loads [N or N.m]
          real(wp), intent(in), contiguous :: lambda(:)       !! (rows) multipliers of the solved rows [N or N.m]
          type(motion_t), intent(in) :: motion                !! motion, with accelerations
-      end function known_power_interface
+      end function prescribed_power_interface
 
       !> Multipliers of the rows that fix the known bodies. Those of other rows with known bodies are there, and all these rows are
       !> evaluated.
-      subroutine known_multipliers_interface(n_rate, n_body, n_row, held, carried, jac, mass, g, a, rest, lambda)
+      subroutine prescribed_multipliers_interface(n_rate, n_body, n_row, held, carried, jac, mass, g, a, rest, lambda)
          import :: held_t, wp
          implicit none (type, external)
          integer, intent(in) :: n_rate                         !! rates of a body
@@ -101,23 +101,23 @@ module reduced_bodies
          real(wp), intent(in) :: a(n_rate, 0:n_body)           !! (n_v, 0:bodies) accelerations of the rates [m/s^2 or rad/s^2]
          real(wp), intent(inout) :: rest(n_rate, 0:n_body)     !! (n_v, 0:bodies) scratch: what the rows of a body carry [N or N.m]
          real(wp), intent(inout) :: lambda(n_row)              !! (rows) multipliers; those of the fixing rows are set [N or N.m]
-      end subroutine known_multipliers_interface
+      end subroutine prescribed_multipliers_interface
 
       !> Positions and velocities of the guided bodies; the motion of their bases is set, accelerations too. No allocation.
-      pure subroutine guided_move_interface(self, x, x_dot, motion)
-         import :: guided_bodies_t, motion_t, wp
+      pure subroutine one_dof_move_interface(self, x, x_dot, motion)
+         import :: one_dof_bodies_t, motion_t, wp
          implicit none (type, external)
-         class(guided_bodies_t), intent(inout) :: self   !! the bodies
+         class(one_dof_bodies_t), intent(inout) :: self   !! the bodies
          real(wp), intent(in) :: x(self%n)               !! (n) coordinates [rad or m]
          real(wp), intent(in) :: x_dot(self%n)           !! (n) their rates [rad/s or m/s]
          type(motion_t), intent(inout) :: motion         !! the motion of the guided bodies is set
-      end subroutine guided_move_interface
+      end subroutine one_dof_move_interface
 
       !> Rates of the coordinates and their derivatives at the motion that is set. Status 1 if one is not a finite number.
-      pure subroutine guided_rates_interface(self, n_v, n_body, g, x_dot, rate, x_ddot, status)
-         import :: guided_bodies_t, wp
+      pure subroutine one_dof_rates_interface(self, n_v, n_body, g, x_dot, rate, x_ddot, status)
+         import :: one_dof_bodies_t, wp
          implicit none (type, external)
-         class(guided_bodies_t), intent(in) :: self          !! the bodies, moved
+         class(one_dof_bodies_t), intent(in) :: self          !! the bodies, moved
          integer, intent(in) :: n_v                          !! rates of a body
          integer, intent(in) :: n_body                       !! number of bodies
          real(wp), intent(in) :: g(n_v, 0:n_body)            !! (n_v, 0:bodies) applied loads [N or N.m]
@@ -125,44 +125,44 @@ module reduced_bodies
          real(wp), intent(inout) :: rate(self%n)             !! (n) the same, derivatives of the coordinates [rad/s or m/s]
          real(wp), intent(inout) :: x_ddot(self%n)           !! (n) second derivatives [rad/s^2 or m/s^2]
          integer, intent(out) :: status                      !! 0: all finite
-      end subroutine guided_rates_interface
+      end subroutine one_dof_rates_interface
 
       !> Accelerations of the guided bodies under loads, with those that they have by their motion or without: then what the loads
       !> add to them.
-      pure subroutine guided_response_interface(self, g, with_own, motion, a)
-         import :: guided_bodies_t, motion_t, wp
+      pure subroutine one_dof_response_interface(self, g, with_own, motion, a)
+         import :: one_dof_bodies_t, motion_t, wp
          implicit none (type, external)
-         class(guided_bodies_t), intent(in) :: self          !! the bodies, moved
+         class(one_dof_bodies_t), intent(in) :: self          !! the bodies, moved
          real(wp), intent(in), contiguous :: g(:, 0:)        !! (n_v, 0:bodies) loads [N or N.m]
          logical, intent(in) :: with_own                     !! with the accelerations by the motion
          type(motion_t), intent(in) :: motion                !! accelerations of the bases
          real(wp), intent(inout), contiguous :: a(:, 0:)     !! (n_v, 0:bodies) accelerations of the rates [m/s^2 or rad/s^2]
-      end subroutine guided_response_interface
+      end subroutine one_dof_response_interface
 
       !> Accelerations of the guided bodies from the second derivatives of their coordinates, at the motion that is set.
-      pure subroutine guided_acceleration_interface(self, x_ddot, motion)
-         import :: guided_bodies_t, motion_t, wp
+      pure subroutine one_dof_acceleration_interface(self, x_ddot, motion)
+         import :: one_dof_bodies_t, motion_t, wp
          implicit none (type, external)
-         class(guided_bodies_t), intent(in) :: self      !! the bodies, moved
+         class(one_dof_bodies_t), intent(in) :: self      !! the bodies, moved
          real(wp), intent(in) :: x_ddot(self%n)          !! (n) second derivatives [rad/s^2 or m/s^2]
          type(motion_t), intent(inout) :: motion         !! accelerations of the guided bodies are set
-      end subroutine guided_acceleration_interface
+      end subroutine one_dof_acceleration_interface
 
       !> Coordinates and rates from a motion of all bodies that fulfils the joints.
-      pure subroutine guided_coordinates_interface(self, motion, x, x_dot)
-         import :: guided_bodies_t, motion_t, wp
+      pure subroutine one_dof_coordinates_interface(self, motion, x, x_dot)
+         import :: one_dof_bodies_t, motion_t, wp
          implicit none (type, external)
-         class(guided_bodies_t), intent(in) :: self      !! the bodies
+         class(one_dof_bodies_t), intent(in) :: self      !! the bodies
          type(motion_t), intent(in) :: motion            !! positions and velocities
          real(wp), intent(out) :: x(self%n)              !! (n) coordinates [rad or m]
          real(wp), intent(out) :: x_dot(self%n)          !! (n) their rates [rad/s or m/s]
-      end subroutine guided_coordinates_interface
+      end subroutine one_dof_coordinates_interface
 
       !> Multipliers of the rows of guided bodies' joints, which are evaluated.
-      subroutine guided_multipliers_interface(self, n_which, which, n_v, n_body, rows, mass, g, a, lambda)
-         import :: guided_bodies_t, rows_t, wp
+      subroutine one_dof_multipliers_interface(self, n_which, which, n_v, n_body, rows, mass, g, a, lambda)
+         import :: one_dof_bodies_t, rows_t, wp
          implicit none (type, external)
-         class(guided_bodies_t), intent(in) :: self          !! the bodies
+         class(one_dof_bodies_t), intent(in) :: self          !! the bodies
          integer, intent(in) :: n_which                      !! how many are meant
          integer, intent(in) :: which(n_which)               !! (n_which) their numbers
          integer, intent(in) :: n_v                          !! rates of a body
@@ -172,7 +172,7 @@ module reduced_bodies
          real(wp), intent(in) :: g(n_v, 0:n_body)            !! (n_v, 0:bodies) applied loads [N or N.m]
          real(wp), intent(in) :: a(n_v, 0:n_body)            !! (n_v, 0:bodies) accelerations of the rates [m/s^2 or rad/s^2]
          real(wp), intent(inout) :: lambda(rows%n)           !! (rows) multipliers; those of the joints are set [N or N.m]
-      end subroutine guided_multipliers_interface
+      end subroutine one_dof_multipliers_interface
    end interface
 
 end module reduced_bodies

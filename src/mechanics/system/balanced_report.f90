@@ -9,7 +9,7 @@
 !> moment times the rate of its coordinate.
 !>
 !> Signs: force and moment of a joint are those on the body of i; that of a driver acts on the body of j.
-!> Source: Flores et al. (2008), eqs. (2.15), (2.24). Limits: see `planar_known`, `planar_guided`; what is read of the rows
+!> Source: Flores et al. (2008), eqs. (2.15), (2.24). Limits: see `planar_prescribed`, `planar_one_dof`; what is read of the rows
 !> themselves, and reactions that requests tell, are found as in any other scene.
 module balanced_report
    use balance_plan, only: balance_plan_t, held_reading_t
@@ -19,8 +19,8 @@ module balanced_report
    use linkage, only: linkage_t
    use mechanism, only: mechanism_t
    use motion, only: loads_t, motion_t
-   use planar_guided, only: planar_guide_t, planar_guided_t
-   use planar_known, only: planar_known_t
+   use planar_one_dof, only: planar_guide_t, planar_one_dof_t
+   use planar_prescribed, only: planar_prescribed_t
    use readings, only: reading_plan_t, reading_t
    use reduced_bodies, only: held_t
    implicit none (type, external)
@@ -86,7 +86,7 @@ contains
       integer :: k
 
       select type (known => linkage%reduced%known)
-      type is (planar_known_t)
+      type is (planar_prescribed_t)
          do k = 1, known%n
             call look(known%held(k), known%held(k)%slot > 0)
             if (known%held(k)%slot == slot .and. known%held(k)%item == item) then
@@ -95,9 +95,9 @@ contains
             end if
          end do
       end select
-      associate (guided => linkage%reduced%guided)
-         do k = 1, guided%n
-            call look(guided%held(k), k <= guided%n_turning)
+      associate (one_dof => linkage%reduced%one_dof)
+         do k = 1, one_dof%n
+            call look(one_dof%held(k), k <= one_dof%n_turning)
          end do
       end associate
 
@@ -161,15 +161,15 @@ contains
       do k = 1, balance%n_reading
          if (balance%of(k)%code /= turn_of_driver) is_needed(balance%of(k)%body) = .true.
       end do
-      associate (known => linkage%reduced%known%held, guided => linkage%reduced%guided%held)
+      associate (known => linkage%reduced%known%held, one_dof => linkage%reduced%one_dof%held)
          do k = 1, size(known)  ! each after its base
             is_needed(known(k)%body) = is_needed(known(k)%body) .or. is_needed(known(k)%base)
          end do
-         do k = 1, size(guided)
-            is_needed(guided(k)%body) = is_needed(guided(k)%body) .or. is_needed(guided(k)%base)
+         do k = 1, size(one_dof)
+            is_needed(one_dof(k)%body) = is_needed(one_dof(k)%body) .or. is_needed(one_dof(k)%base)
          end do
-         balance%body = [guided%body, (known(k)%body, k=size(known), 1, -1)]
-         balance%base = [guided%base, (known(k)%base, k=size(known), 1, -1)]
+         balance%body = [one_dof%body, (known(k)%body, k=size(known), 1, -1)]
+         balance%base = [one_dof%base, (known(k)%base, k=size(known), 1, -1)]
          balance%base = pack(balance%base, is_needed(balance%body))
          balance%body = pack(balance%body, is_needed(balance%body))
          balance%n = size(balance%body)
@@ -187,10 +187,10 @@ contains
 
       associate (linkage => system%linkage, motion => system%linkage%motion, loads => system%loading%loads, &
                  balance => plan%balance, n_body => system%linkage%bodies%n)
-         select type (guided => linkage%reduced%guided)
-         type is (planar_guided_t)
-            call accelerate(guided%n, guided%n_turning, guided%held, guided%item, &
-                            ydot(linkage%n_position + linkage%n_rate - guided%n + 1:), n_body, motion%a, motion%alpha)
+         select type (one_dof => linkage%reduced%one_dof)
+         type is (planar_one_dof_t)
+            call accelerate(one_dof%n, one_dof%n_turning, one_dof%held, one_dof%item, &
+                            ydot(linkage%n_position + linkage%n_rate - one_dof%n + 1:), n_body, motion%a, motion%alpha)
          end select
          if (plan%bodies%n > 0) then
             call report_bodies(plan%bodies%n, plan%bodies%of, n_body, motion%r, motion%v, motion%a, motion%angle, motion%omega, &

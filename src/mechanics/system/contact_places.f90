@@ -63,11 +63,11 @@ contains
    end function place_of_joint_loss
 
    !> Number of the quadrature of what films take, the last one of the ledger, if there are any.
-   pure integer function place_of_film_loss(n_contact, rubs) result(place)
+   pure integer function place_of_film_loss(n_contact, has_friction) result(place)
       integer, intent(in) :: n_contact  !! contacts of all sets
-      logical, intent(in) :: rubs       !! any ideal joint rubs
+      logical, intent(in) :: has_friction       !! any ideal joint rubs
 
-      place = n_quadratures(n_contact) + merge(2, 1, rubs)
+      place = n_quadratures(n_contact) + merge(2, 1, has_friction)
    end function place_of_film_loss
 
    !> Number of the quadrature of a loss.

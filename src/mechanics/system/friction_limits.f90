@@ -36,10 +36,10 @@ contains
       real(wp), intent(inout) :: x(n_tangent*n)         !! (n_tangent n) forces to begin with, then those found [N]
       real(wp), intent(out) :: against(n_tangent*n)     !! (n_tangent n) r - A x: against the sliding accelerations [m/s^2]
 
-      real(wp) :: before(2), change, greatest, rest(2)
+      real(wp) :: before(2), change, maximum, rest(2)
       integer :: a, c, first, last, sweep
 
-      greatest = maxval([(abs(matrix(a, a)), a=1, n_tangent*n)])
+      maximum = maxval([(abs(matrix(a, a)), a=1, n_tangent*n)])
       do c = 1, n
          first = n_tangent*(c - 1) + 1
          call shorten(n_tangent, limit(c), x(first))
@@ -54,11 +54,11 @@ contains
                rest(a - first + 1) = r(a) - dot_product(matrix(a, :), x) + dot_product(matrix(a, first:last), x(first:last))
             end do
             if (n_tangent == 1) then
-               if (matrix(first, first) > singular*greatest) then
+               if (matrix(first, first) > singular*maximum) then
                   x(first) = min(max(rest(1)/matrix(first, first), -limit(c)), limit(c))
                end if
             else
-               call limit_pair(matrix(first:last, first:last), rest, limit(c), singular*greatest, x(first:last))
+               call limit_pair(matrix(first:last, first:last), rest, limit(c), singular*maximum, x(first:last))
             end if
             change = max(change, maxval(abs(x(first:last) - before(:n_tangent))))
          end do
@@ -82,11 +82,11 @@ contains
    end subroutine shorten
 
    !> The force of one contact in space with all others as they are: x = (A + mu I)^-1 r, mu = 0 or |x| = L.
-   pure subroutine limit_pair(matrix, r, limit, least, x)
+   pure subroutine limit_pair(matrix, r, limit, minimum, x)
       real(wp), intent(in) :: matrix(2, 2)   !! (2, 2) A of the contact [1/kg]
       real(wp), intent(in) :: r(2)           !! (2) r less what other forces do [m/s^2]
       real(wp), intent(in) :: limit          !! L [N]
-      real(wp), intent(in) :: least          !! mobility taken as zero [1/kg]
+      real(wp), intent(in) :: minimum          !! mobility taken as zero [1/kg]
       real(wp), intent(inout) :: x(2)        !! (2) the force; left alone where it moves nothing [N]
 
       real(wp) :: along(2, 2), length, mean, mobility(2), mu, part(2), slope, spread
@@ -94,12 +94,12 @@ contains
 
       mean = 0.5_wp*(matrix(1, 1) + matrix(2, 2))
       spread = hypot(0.5_wp*(matrix(1, 1) - matrix(2, 2)), matrix(1, 2))
-      if (mean + spread <= least) return
+      if (mean + spread <= minimum) return
       if (limit <= 0.0_wp) then
          x = 0.0_wp
          return
       end if
-      mobility = [mean + spread, max(mean - spread, least)]
+      mobility = [mean + spread, max(mean - spread, minimum)]
       along(:, 1) = [1.0_wp, 0.0_wp]
       if (spread > epsilon(1.0_wp)*mean) then
          along(:, 1) = [0.5_wp*(matrix(1, 1) - matrix(2, 2)) + spread, matrix(1, 2)]

@@ -13,7 +13,7 @@
 !>
 !> Source: Flores et al. (2008), eqs. (2.15), (2.23), (2.24).
 module mechanism
-   use hold, only: hold_t
+   use stabilisation, only: stabilisation_t
    use kinds, only: wp
    use mechanism_state, only: mechanism_state_t
    implicit none (type, external)
@@ -35,9 +35,9 @@ module mechanism
       procedure, private :: evaluate_terms, evaluate_any, ledger_rates
       procedure :: events => mechanism_events, last_events => mechanism_last_events, settle => mechanism_settle
       procedure :: set_step => mechanism_set_step
-      procedure :: hold => mechanism_hold, mend => mechanism_mend, take_way => mechanism_take_way
+      procedure :: hold => mechanism_stabilise, project_state => mechanism_project, take_way => mechanism_take_way
       procedure :: stick => mechanism_stick, decide_slips => mechanism_decide_slips
-      procedure :: rub => mechanism_rub, rub_by_multipliers => mechanism_rub_by_multipliers
+      procedure :: rub => mechanism_add_friction, friction_by_multipliers => mechanism_friction_by_multipliers
       procedure :: friction_events => mechanism_friction_events, turns => mechanism_turns
       procedure :: evaluate_unheld => mechanism_evaluate_unheld
    end type mechanism_t
@@ -101,22 +101,22 @@ module mechanism
       end subroutine mechanism_gather_loads
 
       !> Correct a state at the end of a step; what that does to the energy is work of the stabilisation.
-      module subroutine mechanism_hold(self, t, y, status)
+      module subroutine mechanism_stabilise(self, t, y, status)
          implicit none (type, external)
          class(mechanism_t), intent(inout) :: self  !! the system
          real(wp), intent(in) :: t                  !! time [s]
          real(wp), intent(inout) :: y(:)            !! (n) state [any]
          integer, intent(out) :: status             !! 0: done
-      end subroutine mechanism_hold
+      end subroutine mechanism_stabilise
 
       !> Bring a state that was made by interpolation onto the constraints, by projection.
-      module subroutine mechanism_mend(self, t, y, status)
+      module subroutine mechanism_project(self, t, y, status)
          implicit none (type, external)
          class(mechanism_t), intent(inout) :: self  !! the system
          real(wp), intent(in) :: t                  !! time [s]
          real(wp), intent(inout) :: y(:)            !! (n) state [any]
          integer, intent(out) :: status             !! 0: done
-      end subroutine mechanism_mend
+      end subroutine mechanism_project
 
       !> Forces of the contacts that stick, and the accelerations with them.
       module subroutine mechanism_stick(self, status)
@@ -126,20 +126,20 @@ module mechanism
       end subroutine mechanism_stick
 
       !> Friction forces in ideal joints, those of contacts that stick, and the accelerations with them.
-      module subroutine mechanism_rub(self, status)
+      module subroutine mechanism_add_friction(self, status)
          implicit none (type, external)
          class(mechanism_t), intent(inout) :: self  !! the system, accelerations without these forces found
          integer, intent(out) :: status             !! 0: found
-      end subroutine mechanism_rub
+      end subroutine mechanism_add_friction
 
       !> Friction forces in ideal joints by the multipliers that are set, into the loads.
-      module subroutine mechanism_rub_by_multipliers(self, is_steady, is_added, change)
+      module subroutine mechanism_friction_by_multipliers(self, is_steady, is_added, change)
          implicit none (type, external)
          class(mechanism_t), intent(inout) :: self  !! the system, its motion and multipliers set
          logical, intent(in) :: is_steady           !! forces of steady sliding: no deflections are integrated
          logical, intent(in) :: is_added            !! whether the loads have the last forces in them already
          real(wp), intent(out) :: change            !! greatest change of a force, of the greatest force [1]
-      end subroutine mechanism_rub_by_multipliers
+      end subroutine mechanism_friction_by_multipliers
 
       !> Event functions of friction: slip that ends, and sticking that gives way. Evaluates the system at the state.
       module subroutine mechanism_friction_events(self, t, y, g, rate)
@@ -239,12 +239,12 @@ contains
    !> Take a way of holding the constraints. The coordinates are counted.
    subroutine mechanism_take_way(self, way)
       class(mechanism_t), intent(inout) :: self         !! the system
-      class(hold_t), allocatable, intent(inout) :: way  !! the way, configured; gone afterwards
+      class(stabilisation_t), allocatable, intent(inout) :: way  !! the way, configured; gone afterwards
 
       call move_alloc(way, self%way)
       self%holds = self%way%at_steps
       self%traits%follows_step = self%way%follows_step
-      self%traits%has_films = self%loose%has_films
+      self%traits%has_films = self%clearance_joints%has_films
       allocate (self%held(merge(self%linkage%n_position + self%linkage%n_rate, 0, self%way%at_stages)), source=0.0_wp)
    end subroutine mechanism_take_way
 
@@ -253,7 +253,7 @@ contains
       class(mechanism_t), intent(inout) :: self  !! the system
       real(wp), intent(in) :: h                  !! length of the step [s]
 
-      if (h < huge(1.0_wp)) self%friction%grips%h = h
+      if (h < huge(1.0_wp)) self%friction%stick_slips%h = h
       call self%way%begin_step(self%linkage, h)
    end subroutine mechanism_set_step
 

@@ -7,8 +7,8 @@ contains
 
    !> Entries of the state before the deflection of a contact.
    module procedure mechanism_bristle_place
-      associate (grip => self%loose%sets(slot)%set%grip)
-         place = self%linkage%n_position + self%linkage%n_rate + grip%first_bristle + grip%n_component*(contact - 1)
+      associate (stick_slip => self%clearance_joints%sets(slot)%set%stick_slip)
+         place = self%linkage%n_position + self%linkage%n_rate + stick_slip%first_bristle + stick_slip%n_component*(contact - 1)
       end associate
    end procedure mechanism_bristle_place
 
@@ -23,11 +23,11 @@ contains
    module procedure mechanism_take_bristles
       integer :: k, place
 
-      do k = 1, size(self%loose%sets)
-         associate (set => self%loose%sets(k)%set)
-            if (set%grip%memory /= memory_bristle) cycle
+      do k = 1, size(self%clearance_joints%sets)
+         associate (set => self%clearance_joints%sets(k)%set)
+            if (set%stick_slip%memory /= memory_bristle) cycle
             place = self%bristle_place(k, 1)
-            call set%bend_bristles(y(place + 1:place + size(set%grip%z)))
+            call set%bend_bristles(y(place + 1:place + size(set%stick_slip%z)))
          end associate
       end do
       do k = 1, self%friction%rubbing%n
@@ -42,13 +42,14 @@ contains
    module procedure mechanism_bristle_rates
       integer :: contact, k, place
 
-      do k = 1, size(self%loose%sets)
-         associate (set => self%loose%sets(k)%set)
-            if (set%grip%memory /= memory_bristle) cycle
+      do k = 1, size(self%clearance_joints%sets)
+         associate (set => self%clearance_joints%sets(k)%set)
+            if (set%stick_slip%memory /= memory_bristle) cycle
             do contact = 1, set%n_contact
                place = self%bristle_place(k, contact)
-               ydot(place + 1:place + set%grip%n_component) = 0.0_wp
-               if (set%contact(contact)%is_touching) ydot(place + 1:place + set%grip%n_component) = set%grip%z_rate(:, contact)
+               ydot(place + 1:place + set%stick_slip%n_component) = 0.0_wp
+               if (set%contact(contact)%is_touching) ydot(place + 1:place &
+                                                          + set%stick_slip%n_component) = set%stick_slip%z_rate(:, contact)
             end do
          end associate
       end do
@@ -64,11 +65,11 @@ contains
    module procedure mechanism_bristle_weights
       integer :: k, place
 
-      do k = 1, size(self%loose%sets)
-         associate (set => self%loose%sets(k)%set)
-            if (set%grip%memory /= memory_bristle) cycle
+      do k = 1, size(self%clearance_joints%sets)
+         associate (set => self%clearance_joints%sets(k)%set)
+            if (set%stick_slip%memory /= memory_bristle) cycle
             place = self%bristle_place(k, 1)
-            scale(place + 1:place + size(set%grip%z)) = set%laws%friction%bristle_scale()
+            scale(place + 1:place + size(set%stick_slip%z)) = set%laws%friction%bristle_scale()
          end associate
       end do
       do k = 1, self%friction%rubbing%n

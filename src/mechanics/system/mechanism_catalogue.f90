@@ -5,7 +5,8 @@
 module mechanism_catalogue
    use balanced_report, only: bind_balance
    use catalogue, only: catalogue_t, names_of_channels
-   use catalogue_rooms, only: room_bodies, room_clearances, room_contacts, room_drivers, room_energy, room_forces, room_joints
+   use groups_of_catalogue, only: group_bodies, group_clearances, group_contacts, group_drivers, group_energy, group_forces, &
+        group_joints
    use joint_friction, only: friction_channels
    use joint_set, only: joint_set_t, of_coordinate
    use kind_info, only: add_channel, channel_t, kind_info_t
@@ -87,37 +88,37 @@ contains
       info = system%linkage%coordinates%bodies_info()
       channels = names_of_channels(info)
       do k = 1, system%linkage%bodies%n
-         call catalogue%add_item(room_bodies, system%linkage%bodies%names(k)%s, channels=channels)
+         call catalogue%add_item(group_bodies, system%linkage%bodies%names(k)%s, channels=channels)
       end do
-      call catalogue%add_kind(room_bodies, info)
-      call catalogue%list(room_bodies, info, catalogue%offer%bodies)
+      call catalogue%add_kind(group_bodies, info)
+      call catalogue%list(group_bodies, info, catalogue%offer%bodies)
       call add_joints(system, catalogue)
-      call add_loose(system, catalogue)
+      call add_clearance_joint(system, catalogue)
       allocate (catalogue%offer%ideal(size(system%linkage%ideal)))
       do k = 1, size(system%linkage%ideal)
          call ideal_info(info)
-         call catalogue%add_kind(room_clearances, info)
-         call catalogue%list(room_clearances, info, catalogue%offer%ideal(k))
+         call catalogue%add_kind(group_clearances, info)
+         call catalogue%list(group_clearances, info, catalogue%offer%ideal(k))
          do i = 1, system%linkage%ideal(k)%set%n
-            call catalogue%add_item(room_clearances, system%linkage%ideal(k)%set%names(i)%s, channels=names_of_channels(info))
+            call catalogue%add_item(group_clearances, system%linkage%ideal(k)%set%names(i)%s, channels=names_of_channels(info))
          end do
       end do
       allocate (catalogue%offer%forces(size(system%loading%forces)))
       do k = 1, size(system%loading%forces)
          associate (set => system%loading%forces(k)%set)
             info = set%info()
-            call catalogue%add_kind(room_forces, info)
-            call catalogue%list(room_forces, info, catalogue%offer%forces(k))
+            call catalogue%add_kind(group_forces, info)
+            call catalogue%list(group_forces, info, catalogue%offer%forces(k))
             do i = 1, set%n
-               call catalogue%add_item(room_forces, set%names(i)%s, channels=names_of_channels(info))
+               call catalogue%add_item(group_forces, set%names(i)%s, channels=names_of_channels(info))
             end do
          end associate
       end do
       if (system%ledger%has_energies) then
-         call catalogue%add_item(room_energy, "energy")
-         info = energy_info(system%ledger%is_kept, system%loose%has_films)
-         call catalogue%add_kind(room_energy, info)
-         call catalogue%list(room_energy, info, catalogue%offer%energy)
+         call catalogue%add_item(group_energy, "energy")
+         info = energy_info(system%ledger%is_kept, system%clearance_joints%has_films)
+         call catalogue%add_kind(group_energy, info)
+         call catalogue%list(group_energy, info, catalogue%offer%energy)
       end if
       call add_requests(system%requests, catalogue)
       call catalogue%allocate_data()
@@ -136,9 +137,9 @@ contains
       associate (plan => catalogue%readings, offer => catalogue%offer)
          call catalogue%bind(offer%bodies, plan%bodies, [(k, k=1, system%linkage%bodies%n)])
          call catalogue%bind(offer%energy, plan%energy)
-         if (allocated(plan%joints)) deallocate (plan%joints, plan%ideal, plan%loose, plan%forces)
+         if (allocated(plan%joints)) deallocate (plan%joints, plan%ideal, plan%clearance_joints, plan%forces)
          allocate (plan%joints(size(offer%joints)), plan%ideal(size(offer%ideal)))
-         allocate (plan%loose(size(offer%loose)), plan%forces(size(offer%forces)))
+         allocate (plan%clearance_joints(size(offer%clearance_joints)), plan%forces(size(offer%forces)))
          do k = 1, size(plan%joints)
             call catalogue%bind(offer%joints(k), plan%joints(k), system%linkage%joints(k)%set%column)
          end do
@@ -147,14 +148,14 @@ contains
          end do
          call bind_balance(system, plan)
          call list_rows(system, plan)
-         do k = 1, size(plan%loose)
-            call catalogue%bind(offer%loose(k), plan%loose(k))
+         do k = 1, size(plan%clearance_joints)
+            call catalogue%bind(offer%clearance_joints(k), plan%clearance_joints(k))
          end do
          do k = 1, size(plan%forces)
             call catalogue%bind(offer%forces(k), plan%forces(k))
          end do
          plan%of_joints = pack([(k, k=1, size(plan%joints))], plan%joints%n > 0)
-         plan%of_loose = pack([(k, k=1, size(plan%loose))], plan%loose%n > 0)
+         plan%of_clearance_joints = pack([(k, k=1, size(plan%clearance_joints))], plan%clearance_joints%n > 0)
       end associate
    end subroutine bind_channels
 
@@ -210,8 +211,8 @@ contains
             info = set%info()
             if (set%friction%n > 0) channels(2, k)%s = names_of_channels(info)
             if (set%friction%n == 0) call take_out(friction_channels, info)
-            call catalogue%add_kind(merge(room_drivers, room_joints, set%is_driver), info)
-            call catalogue%list(merge(room_drivers, room_joints, set%is_driver), info, catalogue%offer%joints(k))
+            call catalogue%add_kind(merge(group_drivers, group_joints, set%is_driver), info)
+            call catalogue%list(merge(group_drivers, group_joints, set%is_driver), info, catalogue%offer%joints(k))
             if (set%friction%n > 0) call take_out(friction_channels, info)
             channels(1, k)%s = names_of_channels(info)
          end associate
@@ -231,7 +232,7 @@ contains
          logical, intent(in) :: is_driver   !! drivers, not joints
          integer, intent(in) :: n           !! number of items
 
-         integer :: i, item(n), k, rubs, slot(n)
+         integer :: i, item(n), k, has_friction, slot(n)
 
          do k = 1, size(system%linkage%joints)
             associate (set => system%linkage%joints(k)%set)
@@ -242,9 +243,9 @@ contains
          end do
          do i = 1, n
             associate (set => system%linkage%joints(slot(i))%set)
-               rubs = merge(2, 1, any(set%friction%item == item(i)))
-               call catalogue%add_item(merge(room_drivers, room_joints, is_driver), set%names(item(i))%s, &
-                                       channels=channels(rubs, slot(i))%s)
+               has_friction = merge(2, 1, any(set%friction%item == item(i)))
+               call catalogue%add_item(merge(group_drivers, group_joints, is_driver), set%names(item(i))%s, &
+                                       channels=channels(has_friction, slot(i))%s)
             end associate
          end do
       end subroutine add_items
@@ -252,7 +253,7 @@ contains
    end subroutine add_joints
 
    !> Loose joints and their contacts, with the channels of films where there are some.
-   subroutine add_loose(system, catalogue)
+   subroutine add_clearance_joint(system, catalogue)
       class(mechanism_t), intent(in) :: system       !! the system
       type(catalogue_t), intent(inout) :: catalogue  !! items and channels are added
 
@@ -260,9 +261,9 @@ contains
       character(:), allocatable :: contact_names, joint_names, missing
       integer :: c, i, k
 
-      allocate (catalogue%offer%loose(size(system%loose%sets)))
-      do k = 1, size(system%loose%sets)
-         associate (set => system%loose%sets(k)%set)
+      allocate (catalogue%offer%clearance_joints(size(system%clearance_joints%sets)))
+      do k = 1, size(system%clearance_joints%sets)
+         associate (set => system%clearance_joints%sets(k)%set)
             info = set%info()
             missing = film_channels
             if (allocated(set%laws%films)) then
@@ -271,21 +272,21 @@ contains
             end if
             call take_out(missing, info)
             call split_channels(info, of_joint, of_contact)
-            call catalogue%add_kind(room_clearances, of_joint)
-            call catalogue%add_kind(room_contacts, of_contact)
-            call catalogue%list(room_clearances, info, catalogue%offer%loose(k))
+            call catalogue%add_kind(group_clearances, of_joint)
+            call catalogue%add_kind(group_contacts, of_contact)
+            call catalogue%list(group_clearances, info, catalogue%offer%clearance_joints(k))
             joint_names = names_of_channels(of_joint)
             contact_names = names_of_channels(of_contact)
             do i = 1, set%n
-               call catalogue%add_item(room_clearances, set%names(i)%s, channels=joint_names, &
+               call catalogue%add_item(group_clearances, set%names(i)%s, channels=joint_names, &
                                        radius=merge(set%items%clearance(i), not_a_number(), set%traits%is_round))
                do c = 1, set%n_contact_item
-                  call catalogue%add_item(room_contacts, set%names(i)%s, label=set%label_of(c), channels=contact_names)
+                  call catalogue%add_item(group_contacts, set%names(i)%s, label=set%label_of(c), channels=contact_names)
                end do
             end do
          end associate
       end do
-   end subroutine add_loose
+   end subroutine add_clearance_joint
 
    !> Take some channels out of what a kind tells.
    pure subroutine take_out(names, info)

@@ -33,15 +33,15 @@ contains
       n_state = self%n - self%n_quadrature
       m = self%n_row
       self%n_evaluations = self%n_evaluations + 1
-      if (self%friction%grips%n_bristle > 0) call self%take_bristles(y)
+      if (self%friction%stick_slips%n_bristle > 0) call self%take_bristles(y)
       call self%linkage%set_motion(t, y)
       call self%evaluate_terms(t, status)
       if (status /= 0) return
       if (self%friction%rubbing%n > 0) then  ! friction in joints, into g
          self%linkage%solution%lambda(:m) = lambda
-         call self%rub_by_multipliers(.false., .false., change)
+         call self%friction_by_multipliers(.false., .false., change)
       end if
-      if (self%friction%grips%n_slip > 0) then  ! forces of contacts that stick, into g
+      if (self%friction%stick_slips%n_slip > 0) then  ! forces of contacts that stick, into g
          call self%linkage%find_accelerations(self%loading%g, .true., .true., status)
          if (status == 0) call self%stick(status)
          if (status /= 0) return
@@ -55,12 +55,12 @@ contains
          call spread_rows(rows, m, linkage%inverse_mass, mu, a)
          a = -a
          call linkage%coordinates%add_rates(rows%n_unknown, rows%unknown, linkage%motion, a, r_y)
-         if (self%friction%grips%n_bristle > 0) call self%bristle_rates(r_y)
+         if (self%friction%stick_slips%n_bristle > 0) call self%bristle_rates(r_y)
          if (self%ledger%is_kept) then
             linkage%solution%lambda(:m) = lambda
             call self%ledger_rates(r_y(n_state + 1:))
          end if
-         call impulse_rates(self%n_impulse, self%loose%integrands, r_y(self%n - self%n_impulse + 1:))
+         call impulse_rates(self%n_impulse, self%clearance_joints%integrands, r_y(self%n - self%n_impulse + 1:))
          r_y = ydot - r_y
          r_lambda = linkage%solution%phi_dot(:m)
          r_mu = rows%phi(:m)

@@ -92,8 +92,8 @@ contains
          energy%elastic = energy%elastic + system%loading%forces(k)%set%elastic_energy(system%linkage%motion)
       end do
       if (.not. any_acts(system)) return
-      do k = 1, size(system%loose%sets)
-         energy%elastic = energy%elastic + system%loose%sets(k)%set%elastic_energy(system%linkage%motion)
+      do k = 1, size(system%clearance_joints%sets)
+         energy%elastic = energy%elastic + system%clearance_joints%sets(k)%set%elastic_energy(system%linkage%motion)
       end do
    end subroutine add_mechanical
 
@@ -127,8 +127,8 @@ contains
       energy%load_work = y(first + work_load)
       energy%stabilisation_work = y(first + work_stabilisation)
       energy%dissipated_damper = y(first + lost_damper)
-      do k = 1, size(system%loose%sets)
-         associate (set => system%loose%sets(k)%set)
+      do k = 1, size(system%clearance_joints%sets)
+         associate (set => system%clearance_joints%sets(k)%set)
             do i = 1, set%n_contact
                z = first + place_of_loss(set%before%contacts + i, loss_contact)
                energy%dissipated_contact = energy%dissipated_contact + lost_by_damping(set, i, system%linkage%motion, y(z))
@@ -138,10 +138,10 @@ contains
          end associate
       end do
       if (system%friction%rubbing%n > 0) then
-         energy%dissipated_friction = energy%dissipated_friction + y(first + place_of_joint_loss(system%loose%n_contact))
+         energy%dissipated_friction = energy%dissipated_friction + y(first + place_of_joint_loss(system%clearance_joints%n_contact))
       end if
-      if (system%loose%has_films) then
-         energy%dissipated_film = y(first + place_of_film_loss(system%loose%n_contact, system%friction%rubbing%n > 0))
+      if (system%clearance_joints%has_films) then
+         energy%dissipated_film = y(first + place_of_film_loss(system%clearance_joints%n_contact, system%friction%rubbing%n > 0))
       end if
    end function energy_of
 
@@ -152,8 +152,9 @@ contains
       integer :: k
 
       any_acts = .false.
-      do k = 1, size(system%loose%sets)
-         any_acts = any_acts .or. system%loose%sets(k)%set%n_touching > 0 .or. system%loose%sets(k)%set%laws%normal%acts_apart
+      do k = 1, size(system%clearance_joints%sets)
+         any_acts = any_acts .or. system%clearance_joints%sets(k)%set%n_touching > 0 &
+              .or. system%clearance_joints%sets(k)%set%laws%normal%acts_apart
       end do
    end function any_acts
 

@@ -2,7 +2,7 @@
 submodule(mechanism) mechanism_evaluation
    use clearance_set, only: clearance_slot_t, n_integrand
    use loading, only: loading_t, start_loads
-   use mechanism_parts, only: loose_t
+   use mechanism_parts, only: clearance_joints_t
    use motion, only: loads_t, motion_t
    implicit none (type, external)
 
@@ -10,7 +10,7 @@ contains
 
    !> Rates of the coordinates and their derivatives, and those of bristles, in any scene.
    module procedure evaluate_any
-      if (self%friction%grips%n_bristle > 0) call self%take_bristles(y)
+      if (self%friction%stick_slips%n_bristle > 0) call self%take_bristles(y)
       if (self%way%at_stages) then
          call move_corrected(self, t, y, status)
          if (status /= 0) return
@@ -19,29 +19,29 @@ contains
       end if
       call evaluate_terms(self, inside, status)
       if (status /= 0) return
-      if (self%linkage%rows%n_unknown > 0 .or. self%friction%grips%n_slip > 0) then
-         call self%linkage%find_accelerations(self%loading%g, .true., self%friction%grips%n_slip > 0, status)
+      if (self%linkage%rows%n_unknown > 0 .or. self%friction%stick_slips%n_slip > 0) then
+         call self%linkage%find_accelerations(self%loading%g, .true., self%friction%stick_slips%n_slip > 0, status)
          if (status == 0 .and. self%friction%rubbing%n > 0) then
             call self%rub(status)  ! and what sticks
-         else if (status == 0 .and. self%friction%grips%n_slip > 0) then
+         else if (status == 0 .and. self%friction%stick_slips%n_slip > 0) then
             call self%stick(status)
          end if
          if (status /= 0) return
       end if
-      associate (linkage => self%linkage, n => self%linkage%rows%n_unknown, guided => self%linkage%reduced%guided, &
+      associate (linkage => self%linkage, n => self%linkage%rows%n_unknown, one_dof => self%linkage%reduced%one_dof, &
                  nq => self%linkage%n_position)
          if (n > 0) then
             call linkage%coordinates%rates(n, linkage%rows%unknown, linkage%motion, linkage%solution%a, ydot, ydot(nq + 1:), status)
             if (status /= 0) return
          end if
-         if (guided%n > 0) then
-            associate (last => nq + linkage%n_rate - guided%n)
-               call guided%rates(linkage%coordinates%n_v, linkage%bodies%n, self%loading%g, y(last + 1:), &
-                                 ydot(nq - guided%n + 1:), ydot(last + 1:), status)
+         if (one_dof%n > 0) then
+            associate (last => nq + linkage%n_rate - one_dof%n)
+               call one_dof%rates(linkage%coordinates%n_v, linkage%bodies%n, self%loading%g, y(last + 1:), &
+                                 ydot(nq - one_dof%n + 1:), ydot(last + 1:), status)
             end associate
          end if
       end associate
-      if (self%friction%grips%n_bristle > 0) call self%bristle_rates(ydot)
+      if (self%friction%stick_slips%n_bristle > 0) call self%bristle_rates(ydot)
    end procedure evaluate_any
 
    !> Loads and solved rows at the present motion. Status 1 if a known motion is not finite.
@@ -56,7 +56,8 @@ contains
    !> Loads of gravity, force elements, touching contacts and films at the present motion, on the rates.
    module procedure mechanism_evaluate_loads
       associate (linkage => self%linkage, loading => self%loading)
-         call sum_loads(min(max(t, linkage%piece%low), linkage%piece%high), linkage%motion, linkage%bodies%n, loading, self%loose)
+         call sum_loads(min(max(t, linkage%segment%low), linkage%segment%high), linkage%motion, linkage%bodies%n, loading, &
+                        self%clearance_joints)
       end associate
       call self%gather_loads()
    end procedure mechanism_evaluate_loads

@@ -5,7 +5,7 @@
 !>
 !> v_T' = -2 kappa v_T:   A x = -(G a_0 + drift + 2 kappa v_T),   A = G K^-1 G^T,
 !>
-!> with G their tangential rows (`contact_grip`), a_0 the accelerations without these forces and K the augmented matrix: one
+!> with G their tangential rows (`contact_stick_slip`), a_0 the accelerations without these forces and K the augmented matrix: one
 !> solution of the augmented equations for each of them and one with all loads. kappa, a multiple of the mechanism's pace
 !> (`mechanism_scales`), keeps the sliding velocity at round-off.
 !> Where contacts share a load, as two corners of one block do, each takes the same part of what it can hold.
@@ -17,11 +17,11 @@
 !> (1996), section 5.3. Limits: none.
 submodule(mechanism) mechanism_friction
    use clearance_set, only: clearance_set_t, loss_friction
-   use contact_grip, only: sticks
+   use contact_stick_slip, only: sticks
    use coordinates, only: most_rates
    use friction_law, only: memory_slip
-   use floors, only: at_rest, captured, contact_lever, least_mobility, no_acceleration, settling, standstill, widest_band
-   use grip_forces, only: gripped_t, share_of_grips, solve_grips
+   use floors, only: at_rest, captured, contact_lever, min_mobility, no_acceleration, settling, standstill, widest_band
+   use stick_slip_forces, only: gripped_t, share_of_stick_slips, solve_stick_slips
    implicit none (type, external)
 
    real(wp), parameter :: shared = 1.0e-6_wp   !! share of a force in combinations that change no acceleration: it is not unique [1]
@@ -30,21 +30,22 @@ contains
 
    !> Forces of the contacts that stick, and the accelerations with them.
    module procedure mechanism_stick
-      real(wp) :: least    ! mobility taken as zero, of that of free bodies [1]
+      real(wp) :: minimum    ! mobility taken as zero, of that of free bodies [1]
       real(wp) :: nothing  ! sliding acceleration taken as zero [m/s^2]
       integer :: c, m
 
       status = 0
-      call list_grips(self, .true., m)
+      call list_stick_slips(self, .true., m)
       if (m == 0) return
-      associate (grips => self%friction%grips)
-         least = mobility_of_depth(self, m)
-         call find_mobilities(self, m, least, nothing, status)
+      associate (stick_slips => self%friction%stick_slips)
+         minimum = mobility_of_depth(self, m)
+         call find_mobilities(self, m, minimum, nothing, status)
          if (status /= 0) return
-         call solve_grips(m, size(grips%matrix, 1), grips%matrix(:, :m), grips%mobility(:m), least, grips%root(:m), &
-                          grips%force(:m), grips%left(:m), grips%eigenvalue(:m), grips%work)
+         call solve_stick_slips(m, size(stick_slips%matrix, 1), stick_slips%matrix(:, :m), stick_slips%mobility(:m), minimum, &
+                                stick_slips%root(:m), &
+                          stick_slips%force(:m), stick_slips%left(:m), stick_slips%eigenvalue(:m), stick_slips%work)
          do c = 1, m
-            call add_pair(self, c, grips%force(c), self%loading%g)
+            call add_pair(self, c, stick_slips%force(c), self%loading%g)
             call keep_force(self, c, nothing)
          end do
       end associate
@@ -56,28 +57,29 @@ contains
       class(mechanism_t), intent(inout) :: self   !! the system, accelerations found; they are those of unit forces afterwards
       real(wp), intent(in) :: t                   !! time [s]
 
-      real(wp) :: least, nothing
+      real(wp) :: minimum, nothing
       integer :: c, m, status
 
-      call list_grips(self, .false., m)
+      call list_stick_slips(self, .false., m)
       if (m == 0) return
-      associate (grips => self%friction%grips, sets => self%loose%sets)
-         if (m == sets(grips%at(1)%slot)%set%grip%n_tangent) return
-         if (all([(sets(grips%at(c)%slot)%set%grip%shared_from(grips%at(c)%contact) <= t, c=1, m)])) return
-         least = mobility_of_depth(self, m)
-         call find_mobilities(self, m, least, nothing, status)
+      associate (stick_slips => self%friction%stick_slips, sets => self%clearance_joints%sets)
+         if (m == sets(stick_slips%at(1)%slot)%set%stick_slip%n_tangent) return
+         if (all([(sets(stick_slips%at(c)%slot)%set%stick_slip%shared_from(stick_slips%at(c)%contact) <= t, c=1, m)])) return
+         minimum = mobility_of_depth(self, m)
+         call find_mobilities(self, m, minimum, nothing, status)
          if (status /= 0) return
-         call share_of_grips(m, size(grips%matrix, 1), grips%matrix(:, :m), grips%mobility(:m), least, grips%force(:m), &
-                             grips%eigenvalue(:m), grips%work)
+         call share_of_stick_slips(m, size(stick_slips%matrix, 1), stick_slips%matrix(:, :m), stick_slips%mobility(:m), &
+                                   minimum, stick_slips%force(:m), &
+                             stick_slips%eigenvalue(:m), stick_slips%work)
          do c = 1, m
-            if (grips%is_fixed(c) .or. .not. grips%force(c) > shared) cycle
-            call sets(grips%at(c)%slot)%set%note_shared(grips%at(c)%contact, t)
+            if (stick_slips%is_fixed(c) .or. .not. stick_slips%force(c) > shared) cycle
+            call sets(stick_slips%at(c)%slot)%set%note_shared(stick_slips%at(c)%contact, t)
          end do
       end associate
    end subroutine note_shared_forces
 
    !> List the tangents of the contacts that stick.
-   subroutine list_grips(self, with_driven, m)
+   subroutine list_stick_slips(self, with_driven, m)
       class(mechanism_t), intent(inout) :: self   !! the system, its list is made
       logical, intent(in) :: with_driven          !! with contacts that drivers alone move
       integer, intent(out) :: m                   !! tangents
@@ -85,27 +87,27 @@ contains
       integer :: axis, d, k
 
       m = 0
-      do d = 1, size(self%loose%sets)
-         associate (set => self%loose%sets(d)%set)
-            if (set%grip%memory /= memory_slip .or. set%n_touching == 0) cycle
+      do d = 1, size(self%clearance_joints%sets)
+         associate (set => self%clearance_joints%sets(d)%set)
+            if (set%stick_slip%memory /= memory_slip .or. set%n_touching == 0) cycle
             do k = 1, set%n_contact
-               if (.not. set%contact(k)%is_touching .or. set%grip%slip(k) /= sticks) cycle
-               if (.not. with_driven .and. set%grip%tangent(k)%is_driven) cycle
-               do axis = 1, set%grip%n_tangent
+               if (.not. set%contact(k)%is_touching .or. set%stick_slip%slip(k) /= sticks) cycle
+               if (.not. with_driven .and. set%stick_slip%tangent(k)%is_driven) cycle
+               do axis = 1, set%stick_slip%n_tangent
                   m = m + 1
-                  self%friction%grips%at(m) = gripped_t(d, k, axis)
+                  self%friction%stick_slips%at(m) = gripped_t(d, k, axis)
                end do
             end do
          end associate
       end do
-   end subroutine list_grips
+   end subroutine list_stick_slips
 
    !> What unit forces along the tangents on the list do to their sliding accelerations, and, into `force`, the sliding
    !> accelerations that the forces are to give them. Accelerations are those of unit forces afterwards.
-   subroutine find_mobilities(self, m, least, nothing, status)
+   subroutine find_mobilities(self, m, minimum, nothing, status)
       class(mechanism_t), intent(inout) :: self    !! the system, accelerations found
       integer, intent(in) :: m                     !! tangents on the list
-      real(wp), intent(in) :: least                !! mobility taken as zero, of that of free bodies [1]
+      real(wp), intent(in) :: minimum                !! mobility taken as zero, of that of free bodies [1]
       real(wp), intent(out) :: nothing             !! sliding acceleration taken as zero [m/s^2]
       integer, intent(out) :: status               !! 0: found
 
@@ -113,47 +115,48 @@ contains
 
       status = 0
       nothing = 0.0_wp
-      associate (grips => self%friction%grips, n => self%linkage%rows%n_solve)
+      associate (stick_slips => self%friction%stick_slips, n => self%linkage%rows%n_solve)
          do c = 1, m
-            associate (tangent => self%loose%sets(grips%at(c)%slot)%set%grip%tangent(grips%at(c)%contact))
-               grips%root(c) = sqrt(max(tangent%f_n, tiny(1.0_wp)))
-               grips%force(c) = -(sliding_acceleration(self, c, .true.) + tangent%drift(grips%at(c)%axis) &
-                                  + 2.0_wp*settling*self%linkage%scales%pace*tangent%v(grips%at(c)%axis))
-               grips%mobility(c) = mobility_of(self, c)
-               nothing = nothing + abs(tangent%drift(grips%at(c)%axis)) &
-                         + 2.0_wp*settling*self%linkage%scales%pace*abs(tangent%v(grips%at(c)%axis))
+            associate (tangent => &
+                       self%clearance_joints%sets(stick_slips%at(c)%slot)%set%stick_slip%tangent(stick_slips%at(c)%contact))
+               stick_slips%root(c) = sqrt(max(tangent%f_n, tiny(1.0_wp)))
+               stick_slips%force(c) = -(sliding_acceleration(self, c, .true.) + tangent%drift(stick_slips%at(c)%axis) &
+                                  + 2.0_wp*settling*self%linkage%scales%pace*tangent%v(stick_slips%at(c)%axis))
+               stick_slips%mobility(c) = mobility_of(self, c)
+               nothing = nothing + abs(tangent%drift(stick_slips%at(c)%axis)) &
+                         + 2.0_wp*settling*self%linkage%scales%pace*abs(tangent%v(stick_slips%at(c)%axis))
             end associate
          end do
-         nothing = nothing + sqrt(least)*maxval(abs(grips%force(:m)))
-         grips%load%b(:n) = self%linkage%solution%b(:n)
+         nothing = nothing + sqrt(minimum)*maxval(abs(stick_slips%force(:m)))
+         stick_slips%load%b(:n) = self%linkage%solution%b(:n)
          self%linkage%solution%b(:n) = 0.0_wp
          do d = 1, m
-            grips%load%unit = 0.0_wp
-            call add_pair(self, d, 1.0_wp, grips%load%unit)
-            call self%linkage%find_accelerations(grips%load%unit, .false., .true., status)
+            stick_slips%load%unit = 0.0_wp
+            call add_pair(self, d, 1.0_wp, stick_slips%load%unit)
+            call self%linkage%find_accelerations(stick_slips%load%unit, .false., .true., status)
             if (status /= 0) exit
             do c = 1, m
-               grips%matrix(c, d) = sliding_acceleration(self, c, .false.)
+               stick_slips%matrix(c, d) = sliding_acceleration(self, c, .false.)
             end do
-            grips%is_fixed(d) = grips%matrix(d, d) <= least_mobility*grips%mobility(d)
+            stick_slips%is_fixed(d) = stick_slips%matrix(d, d) <= min_mobility*stick_slips%mobility(d)
          end do
-         self%linkage%solution%b(:n) = grips%load%b(:n)
+         self%linkage%solution%b(:n) = stick_slips%load%b(:n)
       end associate
    end subroutine find_mobilities
 
    !> Mobility taken as zero, of that of free bodies. A contact in space acts anywhere within its penetration: no friction
    !> force holds a combination of tangents that moves only as the bodies turn about that lever, as corners of one face have.
-   real(wp) function mobility_of_depth(self, m) result(least)
+   real(wp) function mobility_of_depth(self, m) result(minimum)
       class(mechanism_t), intent(in) :: self   !! the system
       integer, intent(in) :: m                 !! tangents on the list
 
-      real(wp) :: delta(self%loose%n_contact), rate(self%loose%n_contact), turned
+      real(wp) :: delta(self%clearance_joints%n_contact), rate(self%clearance_joints%n_contact), turned
       integer :: body, c, side
 
-      least = least_mobility
+      minimum = min_mobility
       do c = 1, m
-         associate (at => self%friction%grips%at(c))
-            associate (set => self%loose%sets(at%slot)%set, n => self%linkage%coordinates%n_v)
+         associate (at => self%friction%stick_slips%at(c))
+            associate (set => self%clearance_joints%sets(at%slot)%set, n => self%linkage%coordinates%n_v)
                if (at%axis == 1) cycle
                call set%gaps(self%linkage%motion, delta, rate)
                turned = 0.0_wp
@@ -161,7 +164,7 @@ contains
                   body = set%items%body(side, set%item_of(at%contact))
                   turned = turned + maxval(self%linkage%inverse_mass(4:n, body))
                end do
-               least = max(least, (contact_lever*delta(set%before%contacts + at%contact))**2*turned &
+               minimum = max(minimum, (contact_lever*delta(set%before%contacts + at%contact))**2*turned &
                                   /max(mobility_of(self, c), tiny(1.0_wp)))
             end associate
          end associate
@@ -183,12 +186,12 @@ contains
       integer, intent(in) :: slot              !! set of the contact
       integer, intent(in) :: k                 !! contact of the set
 
-      real(wp) :: delta(self%loose%n_contact), rate(self%loose%n_contact), turning(3)
+      real(wp) :: delta(self%clearance_joints%n_contact), rate(self%clearance_joints%n_contact), turning(3)
       integer :: item
 
       speed = at_rest*own_speed(self)
-      associate (set => self%loose%sets(slot)%set, motion => self%linkage%motion)
-         if (set%grip%n_tangent == 1) return
+      associate (set => self%clearance_joints%sets(slot)%set, motion => self%linkage%motion)
+         if (set%stick_slip%n_tangent == 1) return
          call set%gaps(motion, delta, rate)
          item = set%item_of(k)
          turning = motion%omega(:, set%items%body(2, item)) - motion%omega(:, set%items%body(1, item))
@@ -204,7 +207,7 @@ contains
       integer, intent(in) :: slot              !! set of the contact
       integer, intent(in) :: k                 !! contact of the set
 
-      if (self%loose%sets(slot)%set%grip%n_tangent == 1) then
+      if (self%clearance_joints%sets(slot)%set%stick_slip%n_tangent == 1) then
          speed = standstill*own_speed(self)
       else
          speed = 0.5_wp*rest_speed(self, slot, k)
@@ -218,10 +221,10 @@ contains
       integer, intent(in) :: k                 !! contact of the set
 
       is_slow = .false.
-      associate (set => self%loose%sets(slot)%set)
-         if (set%grip%memory /= memory_slip) return
-         if (.not. set%contact(k)%is_touching .or. abs(set%grip%slip(k)) /= 1) return
-         is_slow = size_of(set%grip%tangent(k)%v) < merge(0.5_wp, 1.0_wp, set%grip%n_tangent == 1) &
+      associate (set => self%clearance_joints%sets(slot)%set)
+         if (set%stick_slip%memory /= memory_slip) return
+         if (.not. set%contact(k)%is_touching .or. abs(set%stick_slip%slip(k)) /= 1) return
+         is_slow = size_of(set%stick_slip%tangent(k)%v) < merge(0.5_wp, 1.0_wp, set%stick_slip%n_tangent == 1) &
                    *rest_speed(self, slot, k)
       end associate
    end function slides_slowly
@@ -247,51 +250,53 @@ contains
       logical :: is_driven
       integer :: first
 
-      associate (grips => self%friction%grips, set => self%loose%sets(self%friction%grips%at(c)%slot)%set, &
-                 k => self%friction%grips%at(c)%contact)
-         associate (tangent => set%grip%tangent(k))
-            first = c - grips%at(c)%axis + 1
-            is_driven = all(grips%is_fixed(first:first + set%grip%n_tangent - 1)) &
-                        .or. any(abs(grips%left(first:c)) > nothing + no_acceleration*grips%mobility(first:c)*grips%root(c)**2)
+      associate (stick_slips => self%friction%stick_slips, &
+                 set => self%clearance_joints%sets(self%friction%stick_slips%at(c)%slot)%set, &
+                 k => self%friction%stick_slips%at(c)%contact)
+         associate (tangent => set%stick_slip%tangent(k))
+            first = c - stick_slips%at(c)%axis + 1
+            is_driven = all(stick_slips%is_fixed(first:first + set%stick_slip%n_tangent - 1)) &
+                        .or. any(abs(stick_slips%left(first:c)) > nothing &
+                                 + no_acceleration*stick_slips%mobility(first:c)*stick_slips%root(c)**2)
             force = tangent%f_t
-            force(grips%at(c)%axis) = force(grips%at(c)%axis) + grips%force(c)
+            force(stick_slips%at(c)%axis) = force(stick_slips%at(c)%axis) + stick_slips%force(c)
             call set%stick_with(k, force, is_driven)
-            self%loose%integrands(loss_friction, set%before%contacts + k) = -dot_product(tangent%f_t, tangent%v)
+            self%clearance_joints%integrands(loss_friction, set%before%contacts + k) = -dot_product(tangent%f_t, tangent%v)
          end associate
       end associate
    end subroutine keep_force
 
    !> Part of the rate of the sliding velocity of a contact on the list that comes from the accelerations.
-   pure real(wp) function sliding_acceleration(self, c, with_known) result(a)
+   pure real(wp) function sliding_acceleration(self, c, with_prescribed) result(a)
       class(mechanism_t), intent(in) :: self   !! the system, accelerations found
       integer, intent(in) :: c                     !! place on the list of contacts that stick
-      logical, intent(in) :: with_known            !! with those of bodies whose motion is known
+      logical, intent(in) :: with_prescribed            !! with those of bodies whose motion is known
 
-      associate (at => self%friction%grips%at(c))
-         a = tangential(self, at%slot, at%contact, at%axis, with_known)
+      associate (at => self%friction%stick_slips%at(c))
+         a = tangential(self, at%slot, at%contact, at%axis, with_prescribed)
       end associate
    end function sliding_acceleration
 
    !> The same for any contact.
-   pure real(wp) function tangential(self, slot, k, axis, with_known) result(a)
+   pure real(wp) function tangential(self, slot, k, axis, with_prescribed) result(a)
       class(mechanism_t), intent(in) :: self   !! the system, accelerations found
       integer, intent(in) :: slot                  !! set of the contact
       integer, intent(in) :: k                     !! contact of the set
       integer, intent(in) :: axis                  !! tangent of the contact
-      logical, intent(in) :: with_known            !! with those of bodies whose motion is known
+      logical, intent(in) :: with_prescribed            !! with those of bodies whose motion is known
 
       real(wp) :: acceleration(most_rates), row(most_rates)
       integer :: body, side
 
       a = 0.0_wp
-      associate (set => self%loose%sets(slot)%set, linkage => self%linkage)
+      associate (set => self%clearance_joints%sets(slot)%set, linkage => self%linkage)
          do side = 1, 2
             body = set%items%body(side, set%item_of(k))
             if (body == 0) cycle
             call sliding_row(self, slot, k, axis, side, row)
             if (.not. linkage%reduced%is_known(body)) then
                a = a + dot_product(row(:linkage%coordinates%n_v), linkage%solution%a(:, body))
-            else if (with_known) then
+            else if (with_prescribed) then
                call linkage%coordinates%find_acceleration(linkage%motion, body, acceleration)
                a = a + dot_product(row(:linkage%coordinates%n_v), acceleration(:linkage%coordinates%n_v))
             end if
@@ -308,11 +313,11 @@ contains
       integer :: body, side
 
       mobility = 0.0_wp
-      associate (slot => self%friction%grips%at(c)%slot, k => self%friction%grips%at(c)%contact)
-         associate (set => self%loose%sets(slot)%set)
+      associate (slot => self%friction%stick_slips%at(c)%slot, k => self%friction%stick_slips%at(c)%contact)
+         associate (set => self%clearance_joints%sets(slot)%set)
             do side = 1, 2
                body = set%items%body(side, set%item_of(k))
-               call sliding_row(self, slot, k, self%friction%grips%at(c)%axis, side, row)
+               call sliding_row(self, slot, k, self%friction%stick_slips%at(c)%axis, side, row)
                mobility = mobility + sum(self%linkage%inverse_mass(:, body)*row(:self%linkage%coordinates%n_v)**2)
             end do
          end associate
@@ -329,11 +334,11 @@ contains
       real(wp) :: row(most_rates)
       integer :: body, side
 
-      associate (slot => self%friction%grips%at(c)%slot, k => self%friction%grips%at(c)%contact)
-         associate (set => self%loose%sets(slot)%set)
+      associate (slot => self%friction%stick_slips%at(c)%slot, k => self%friction%stick_slips%at(c)%contact)
+         associate (set => self%clearance_joints%sets(slot)%set)
             do side = 1, 2
                body = set%items%body(side, set%item_of(k))
-               call sliding_row(self, slot, k, self%friction%grips%at(c)%axis, side, row)
+               call sliding_row(self, slot, k, self%friction%stick_slips%at(c)%axis, side, row)
                g(:, body) = g(:, body) + force*row(:size(g, 1))
             end do
          end associate
@@ -351,8 +356,8 @@ contains
 
       integer :: body
 
-      body = self%loose%sets(slot)%set%items%body(side, self%loose%sets(slot)%set%item_of(k))
-      associate (tangent => self%loose%sets(slot)%set%grip%tangent(k), coordinates => self%linkage%coordinates, &
+      body = self%clearance_joints%sets(slot)%set%items%body(side, self%clearance_joints%sets(slot)%set%item_of(k))
+      associate (tangent => self%clearance_joints%sets(slot)%set%stick_slip%tangent(k), coordinates => self%linkage%coordinates, &
                  motion => self%linkage%motion)
          if (side == 1) then
             call coordinates%along(tangent%t(:, axis), tangent%arm_i, motion, body, row(:coordinates%n_v))

@@ -1,7 +1,7 @@
 !> The correction of states at the ends of steps, with its place in the ledger.
 submodule(mechanism) mechanism_holding
    use contact_places, only: work_stabilisation
-   use hold_projection, only: hold_projection_t
+   use stabilisation_projection, only: stabilisation_projection_t
    use mechanism_energy, only: mechanical_energy
    implicit none (type, external)
 
@@ -15,17 +15,17 @@ contains
    end procedure move_corrected
 
    !> Correct a state at the end of a step.
-   module procedure mechanism_hold
+   module procedure mechanism_stabilise
       real(wp) :: before
 
       before = energy_before(self, t, y)
       call self%way%correct_step(self%linkage, t, y, status)
       if (status == 0) call book(self, before, y)
-   end procedure mechanism_hold
+   end procedure mechanism_stabilise
 
    !> Project a state that was made by interpolation, in whatever way the constraints are held.
-   module procedure mechanism_mend
-      type(hold_projection_t) :: projection
+   module procedure mechanism_project
+      type(stabilisation_projection_t) :: projection
       real(wp) :: before
 
       status = 0
@@ -33,7 +33,7 @@ contains
       before = energy_before(self, t, y)
       call projection%correct_step(self%linkage, t, y, status)
       if (status == 0) call book(self, before, y)
-   end procedure mechanism_mend
+   end procedure mechanism_project
 
    !> Mechanical energy of a state that is to be corrected; nothing without a ledger. The motion is set.
    real(wp) function energy_before(self, t, y) result(before)

@@ -2,15 +2,15 @@
 module mechanism_parts
    use clearance_set, only: clearance_slot_t
    use contact_places, only: event_functions_t
-   use grip_forces, only: grip_forces_t
+   use stick_slip_forces, only: stick_slip_forces_t
    use kinds, only: wp
    use rubbing, only: rubbing_t
    implicit none (type, external)
    private
-   public :: friction_t, ledger_t, loose_t
+   public :: friction_t, ledger_t, clearance_joints_t
 
    !> Loose joints.
-   type :: loose_t
+   type :: clearance_joints_t
       type(clearance_slot_t), allocatable :: sets(:)   !! loose joints, one set per combination of laws
       integer :: n_set = 0                             !! how many: bounds of arrays are looked up longer
       integer :: n = 0                                 !! loose joints in all
@@ -19,11 +19,11 @@ module mechanism_parts
       real(wp) :: film_clearance = huge(1.0_wp)        !! least clearance with a film [m]
       real(wp), allocatable :: integrands(:, :)        !! (3, contacts) power lost by contact and friction [W], normal force [N]
       type(event_functions_t) :: functions             !! which event functions their contacts have
-   end type loose_t
+   end type clearance_joints_t
 
    !> Friction that is solved for.
    type :: friction_t
-      type(grip_forces_t) :: grips    !! contacts whose friction remembers
+      type(stick_slip_forces_t) :: stick_slips    !! contacts whose friction remembers
       type(rubbing_t) :: rubbing      !! ideal joints that rub
    end type friction_t
 

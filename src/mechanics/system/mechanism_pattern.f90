@@ -129,8 +129,8 @@ contains
          do k = 1, size(self%linkage%ideal)
             if (.not. self%linkage%ideal(k)%set%sides_apart) call couple_all(self%linkage%ideal(k)%set%body, .true.)
          end do
-         do k = 1, size(self%loose%sets)
-            call couple_all(self%loose%sets(k)%set%items%body, .false.)
+         do k = 1, size(self%clearance_joints%sets)
+            call couple_all(self%clearance_joints%sets(k)%set%items%body, .false.)
          end do
          do k = 1, size(self%loading%forces)
             do i = 1, self%loading%forces(k)%set%n

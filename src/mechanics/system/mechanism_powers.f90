@@ -30,17 +30,17 @@ contains
          power(lost_damper) = power(lost_damper) + self%loading%forces(k)%set%lost_power(self%linkage%motion)
       end do
       place = place_of_loss(1, 0)
-      do k = 1, self%loose%n_contact
-         power(place + loss_contact) = self%loose%integrands(loss_contact, k)
-         power(place + loss_friction) = self%loose%integrands(loss_friction, k)
+      do k = 1, self%clearance_joints%n_contact
+         power(place + loss_contact) = self%clearance_joints%integrands(loss_contact, k)
+         power(place + loss_friction) = self%clearance_joints%integrands(loss_friction, k)
          place = place + n_loss
       end do
-      if (self%friction%rubbing%n > 0) power(place_of_joint_loss(self%loose%n_contact)) = self%friction%rubbing%power
-      if (.not. self%loose%has_films) return
-      place = place_of_film_loss(self%loose%n_contact, self%friction%rubbing%n > 0)
+      if (self%friction%rubbing%n > 0) power(place_of_joint_loss(self%clearance_joints%n_contact)) = self%friction%rubbing%power
+      if (.not. self%clearance_joints%has_films) return
+      place = place_of_film_loss(self%clearance_joints%n_contact, self%friction%rubbing%n > 0)
       power(place) = 0.0_wp
-      do k = 1, size(self%loose%sets)
-         associate (set => self%loose%sets(k)%set)
+      do k = 1, size(self%clearance_joints%sets)
+         associate (set => self%clearance_joints%sets(k)%set)
             if (allocated(set%laws%films)) power(place) = power(place) + set%laws%films%power
          end associate
       end do

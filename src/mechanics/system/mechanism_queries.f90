@@ -8,27 +8,32 @@ contains
 
    !> Event functions: penetrations of free contacts, their negatives of touching ones.
    module procedure mechanism_events
-      if (self%friction%grips%n_slip > 0 .and. size(g) > self%loose%n_contact) then
+      if (self%friction%stick_slips%n_slip > 0 .and. size(g) > self%clearance_joints%n_contact) then
          call self%friction_events(t, y, g, rate)
       else
          call self%linkage%set_motion(t, y)
       end if
-      if (self%loose%functions%has_turn .and. size(g) > self%loose%n_contact) call turn_events(self, t, y, g, rate)
+      if (self%clearance_joints%functions%has_turn .and. size(g) > self%clearance_joints%n_contact) call turn_events(self, t, &
+                                                                                                                     y, g, rate)
       call contact_events(self, g, rate)
-      if (self%loose%functions%has_transition .and. size(g) > self%loose%n_contact) call transition_events(self, g, rate)
+      if (self%clearance_joints%functions%has_transition &
+          .and. size(g) > self%clearance_joints%n_contact) call transition_events(self, g, rate)
    end procedure mechanism_events
 
    !> The same at the present motion.
    module procedure mechanism_last_events
-      if (self%friction%grips%n_slip > 0 .and. size(g) > self%loose%n_contact) call self%friction_events(t, y, g, rate)
-      if (self%loose%functions%has_turn .and. size(g) > self%loose%n_contact) call turn_events(self, t, y, g, rate)
+      if (self%friction%stick_slips%n_slip > 0 .and. size(g) > self%clearance_joints%n_contact) call self%friction_events(t, y, &
+                                                                                                                          g, rate)
+      if (self%clearance_joints%functions%has_turn .and. size(g) > self%clearance_joints%n_contact) call turn_events(self, t, &
+                                                                                                                     y, g, rate)
       call contact_events(self, g, rate)
-      if (self%loose%functions%has_transition .and. size(g) > self%loose%n_contact) call transition_events(self, g, rate)
+      if (self%clearance_joints%functions%has_transition &
+          .and. size(g) > self%clearance_joints%n_contact) call transition_events(self, g, rate)
    end procedure mechanism_last_events
 
    !> Leave the system at a state: its motion is enough, but for friction and turns, whose event functions evaluate.
    module procedure mechanism_settle
-      if (self%friction%grips%n_slip > 0 .or. self%loose%functions%has_turn) then
+      if (self%friction%stick_slips%n_slip > 0 .or. self%clearance_joints%functions%has_turn) then
          call self%events(t, y, g, rate)
       else
          call self%linkage%set_motion(t, y)
@@ -44,22 +49,23 @@ contains
       real(wp), intent(inout) :: g(:)                !! (n_event) event functions, those of turns are set [m/s]
       real(wp), intent(inout) :: rate(:)             !! (n_event) their rates [m/s^2]
 
-      real(wp) :: acceleration(self%loose%n_contact), speed(self%loose%n_contact)
+      real(wp) :: acceleration(self%clearance_joints%n_contact), speed(self%clearance_joints%n_contact)
       integer :: i, k, number, place
 
-      place = self%loose%functions%place(turn_function, 0)
-      g(place + 1:place + self%loose%n_contact) = -1.0_wp
-      rate(place + 1:place + self%loose%n_contact) = 0.0_wp
-      if (.not. any([(self%loose%sets(k)%set%laws%normal%jumps_at_turn .and. self%loose%sets(k)%set%n_touching > 0, &
-                      k=1, size(self%loose%sets))])) return
+      place = self%clearance_joints%functions%place(turn_function, 0)
+      g(place + 1:place + self%clearance_joints%n_contact) = -1.0_wp
+      rate(place + 1:place + self%clearance_joints%n_contact) = 0.0_wp
+      if (.not. any([(self%clearance_joints%sets(k)%set%laws%normal%jumps_at_turn &
+                      .and. self%clearance_joints%sets(k)%set%n_touching > 0, &
+                      k=1, size(self%clearance_joints%sets))])) return
       call self%turns(t, y, speed, acceleration)
-      do k = 1, self%loose%n_set
-         associate (set => self%loose%sets(k)%set)
+      do k = 1, self%clearance_joints%n_set
+         associate (set => self%clearance_joints%sets(k)%set)
             if (.not. set%laws%normal%jumps_at_turn .or. set%n_touching == 0) cycle
             do i = 1, set%n_contact
                if (.not. set%contact(i)%is_touching) cycle
                number = set%before%contacts + i
-               place = self%loose%functions%place(turn_function, number)
+               place = self%clearance_joints%functions%place(turn_function, number)
                if (set%contact(i)%course == rests) then
                   g(place) = abs(speed(number)) - set%contact(i)%rest_speed
                   rate(place) = sign(1.0_wp, speed(number))*acceleration(number)
@@ -74,18 +80,18 @@ contains
 
    !> Rates of all penetrations and their rates.
    module procedure mechanism_turns
-      real(wp) :: delta(self%loose%n_contact), moment, ydot(size(y))
+      real(wp) :: delta(self%clearance_joints%n_contact), moment, ydot(size(y))
       integer :: k, status
 
       moment = self%time_of_difference(t)
       call self%evaluate(t, y, ydot, status)
       call self%linkage%set_motion(t + moment, y + moment*ydot)
-      do k = 1, self%loose%n_set
-         call self%loose%sets(k)%set%gaps(self%linkage%motion, delta, acceleration)
+      do k = 1, self%clearance_joints%n_set
+         call self%clearance_joints%sets(k)%set%gaps(self%linkage%motion, delta, acceleration)
       end do
       call self%evaluate(t, y, ydot, status)
-      do k = 1, self%loose%n_set
-         call self%loose%sets(k)%set%gaps(self%linkage%motion, delta, rate)
+      do k = 1, self%clearance_joints%n_set
+         call self%clearance_joints%sets(k)%set%gaps(self%linkage%motion, delta, rate)
       end do
       acceleration = (acceleration - rate)/moment
    end procedure mechanism_turns
@@ -98,8 +104,8 @@ contains
 
       integer :: first, i, k
 
-      do k = 1, self%loose%n_set
-         associate (set => self%loose%sets(k)%set)
+      do k = 1, self%clearance_joints%n_set
+         associate (set => self%clearance_joints%sets(k)%set)
             call set%gaps(self%linkage%motion, g, rate)
             if (set%n_touching == 0) cycle
             first = set%before%contacts
@@ -121,11 +127,11 @@ contains
       real(wp) :: side
       integer :: i, k, number, place
 
-      do k = 1, self%loose%n_set
-         associate (set => self%loose%sets(k)%set)
+      do k = 1, self%clearance_joints%n_set
+         associate (set => self%clearance_joints%sets(k)%set)
             do i = 1, set%n_contact
                number = set%before%contacts + i
-               place = self%loose%functions%place(transition_function, number)
+               place = self%clearance_joints%functions%place(transition_function, number)
                g(place) = -1.0_wp
                rate(place) = 0.0_wp
                if (.not. allocated(set%laws%films)) cycle

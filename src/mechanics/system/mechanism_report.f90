@@ -112,9 +112,9 @@ contains
       integer :: k, m
 
       associate (linkage => system%linkage, plan => catalogue%readings, values => catalogue%values)
-         do m = 1, size(plan%of_loose)
-            k = plan%of_loose(m)
-            call system%loose%sets(k)%set%report(plan%loose(k), linkage%motion, values)
+         do m = 1, size(plan%of_clearance_joints)
+            k = plan%of_clearance_joints(m)
+            call system%clearance_joints%sets(k)%set%report(plan%clearance_joints(k), linkage%motion, values)
          end do
          if (size(plan%ideal) > 0) call report_ideal(system, plan%ideal, values)
          if (size(plan%forces) > 0) call report_forces(system, t, plan%forces, values)
@@ -150,7 +150,7 @@ contains
       real(wp) :: force(3), moment(3)
       integer :: at, i, k, m, n
 
-      n = system%loose%n
+      n = system%clearance_joints%n
       associate (linkage => system%linkage)
          do k = 1, size(readings)
             do i = 1, linkage%ideal(k)%set%n
@@ -187,7 +187,7 @@ contains
             do m = 1, readings(k)%n
                associate (width => readings(k)%of(m)%width)
                   at = readings(k)%of(m)%place + width*column
-                  call report_set(set, readings(k)%of(m)%code, system%linkage%piece%inside(t), system%linkage%motion, width, &
+                  call report_set(set, readings(k)%of(m)%code, system%linkage%segment%inside(t), system%linkage%motion, width, &
                                   set%n, values(at + 1:at + width*set%n))
                end associate
             end do

@@ -29,7 +29,7 @@ submodule(mechanism) mechanism_rubbing
 contains
 
    !> Friction forces, and the accelerations with them.
-   module procedure mechanism_rub
+   module procedure mechanism_add_friction
       integer :: k, turn
 
       call slide(self)
@@ -41,16 +41,16 @@ contains
       do turn = 1, most_turns
          call solve_rubbing(self, status)
          if (status /= 0) return
-         if (self%friction%grips%n_slip == 0) exit
+         if (self%friction%stick_slips%n_slip == 0) exit
          call self%stick(status)
          if (status /= 0) return
-         if (maxval(abs(self%friction%rubbing%change)) <= tolerance*greatest(self)) exit
+         if (maxval(abs(self%friction%rubbing%change)) <= tolerance*maximum(self)) exit
       end do
       call note_power(self)
-   end procedure mechanism_rub
+   end procedure mechanism_add_friction
 
    !> Friction forces by the multipliers that are set, into the loads.
-   module procedure mechanism_rub_by_multipliers
+   module procedure mechanism_friction_by_multipliers
       real(wp) :: before, normal, slope(most_rows), z_rate
       integer :: k
 
@@ -74,9 +74,9 @@ contains
             call add_friction(self, k, rubbing%change(k), self%loading%g)
          end do
       end associate
-      change = change/max(greatest(self), tiny(1.0_wp))
+      change = change/max(maximum(self), tiny(1.0_wp))
       call note_power(self)
-   end procedure mechanism_rub_by_multipliers
+   end procedure mechanism_friction_by_multipliers
 
    !> How the joints that rub lie, at the present motion.
    subroutine slide(self)
@@ -96,7 +96,7 @@ contains
       class(mechanism_t), intent(inout) :: self   !! the system, accelerations found
       integer, intent(out) :: status              !! 0: found
 
-      real(wp) :: greatest_force
+      real(wp) :: max_force
       integer :: info, k
 
       call respond(self, status)
@@ -108,8 +108,8 @@ contains
          if (.not. all(ieee_is_finite(rubbing%lambda(:, :n)))) return   ! of a state far out, as of a stage that is given up
          if (maxval(abs(rubbing%lambda(:, :n))) > most_force) return
          do k = 1, most_iterations
-            call find_left(self, greatest_force)
-            if (maxval(abs(rubbing%left)) <= tolerance*greatest_force) then
+            call find_left(self, max_force)
+            if (maxval(abs(rubbing%left)) <= tolerance*max_force) then
                status = 0
                exit
             end if
@@ -128,7 +128,7 @@ contains
             call add_friction(self, k, rubbing%change(k), self%loading%g)
          end do
       end associate
-      call self%linkage%find_accelerations(self%loading%g, .true., self%friction%grips%n_slip > 0, status)
+      call self%linkage%find_accelerations(self%loading%g, .true., self%friction%stick_slips%n_slip > 0, status)
    end subroutine solve_rubbing
 
    !> Multipliers of the joints that rub, and what unit forces do to them.
@@ -154,14 +154,14 @@ contains
    end subroutine respond
 
    !> What is left of the equations of the forces, and their derivatives.
-   subroutine find_left(self, greatest_force)
+   subroutine find_left(self, max_force)
       class(mechanism_t), intent(inout) :: self     !! the system, responses found
-      real(wp), intent(out) :: greatest_force       !! of all joints [N]
+      real(wp), intent(out) :: max_force       !! of all joints [N]
 
       real(wp) :: beyond, force, lambda(most_rows), normal, slope(most_rows), steepness, x, z_rate
       integer :: d, k
 
-      greatest_force = tiny(1.0_wp)
+      max_force = tiny(1.0_wp)
       associate (rubbing => self%friction%rubbing)
          do k = 1, rubbing%n
             associate (set => self%linkage%joints(rubbing%slot(k))%set, m => rubbing%place(k))
@@ -183,7 +183,7 @@ contains
                   rubbing%matrix(k, d) = -steepness*dot_product(slope, rubbing%response(:, k, d))
                end do
                rubbing%matrix(k, k) = rubbing%matrix(k, k) + 1.0_wp
-               greatest_force = max(greatest_force, abs(x), abs(force))
+               max_force = max(max_force, abs(x), abs(force))
             end associate
          end do
       end associate
@@ -222,18 +222,18 @@ contains
    end subroutine add_friction
 
    !> The greatest friction force.
-   pure real(wp) function greatest(self)
+   pure real(wp) function maximum(self)
       class(mechanism_t), intent(in) :: self     !! the system
 
       integer :: k
 
-      greatest = 0.0_wp
+      maximum = 0.0_wp
       do k = 1, self%friction%rubbing%n
          associate (friction => self%linkage%joints(self%friction%rubbing%slot(k))%set%friction)
-            greatest = max(greatest, abs(friction%force(self%friction%rubbing%place(k))))
+            maximum = max(maximum, abs(friction%force(self%friction%rubbing%place(k))))
          end associate
       end do
-   end function greatest
+   end function maximum
 
    !> Power that friction in joints takes.
    subroutine note_power(self)

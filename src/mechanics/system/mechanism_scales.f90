@@ -42,22 +42,23 @@ contains
 
       associate (scales => self%linkage%scales)
          rate = max(rate_of(self, y), remembered*scales%pace, scales%late_rate)
-         if (self%loose%has_films) factors%in_film = min(in_film*self%loose%film_clearance/(scales%tolerance*scales%length), 1.0_wp)
+         if (self%clearance_joints%has_films) &
+            factors%in_film = min(in_film*self%clearance_joints%film_clearance/(scales%tolerance*scales%length), 1.0_wp)
          noise = noise_of_all()
          if (noise >= 0.0_wp) then
             factors%position = touching
             factors%speed = touching*max(1.0_wp, epsilon(1.0_wp)*noise/(scales%tolerance*scales%length*rate))
          end if
       end associate
-      associate (linkage => self%linkage, n_unknown => self%linkage%rows%n_unknown, guided => self%linkage%reduced%guided, &
+      associate (linkage => self%linkage, n_unknown => self%linkage%rows%n_unknown, one_dof => self%linkage%reduced%one_dof, &
                  nq => self%linkage%n_position, length => self%linkage%scales%length)
          associate (last => nq + linkage%n_rate)
-            call weigh_guided(guided%n, guided%n_turning, length, rate, factors, scale(nq - guided%n + 1:nq), &
-                              scale(last - guided%n + 1:last))
+            call weigh_one_dof(one_dof%n, one_dof%n_turning, length, rate, factors, scale(nq - one_dof%n + 1:nq), &
+                              scale(last - one_dof%n + 1:last))
          end associate
          if (n_unknown > 0) then
             call linkage%coordinates%weigh_positions(length, n_unknown, scale)
-            do k = 1, nq - guided%n
+            do k = 1, nq - one_dof%n
                scale(k) = factors%position*(factors%in_film*scale(k))
             end do
             associate (n_v => linkage%coordinates%n_v, is_turn => linkage%coordinates%is_turn)
@@ -69,19 +70,19 @@ contains
             end associate
          end if
       end associate
-      if (self%friction%grips%n_bristle > 0) call self%bristle_weights(scale)
+      if (self%friction%stick_slips%n_bristle > 0) call self%bristle_weights(scale)
 
    contains
 
       !> The greatest noise of all contacts that touch; negative if none does.
-      pure real(wp) function noise_of_all() result(greatest)
+      pure real(wp) function noise_of_all() result(maximum)
          integer :: slot
 
-         greatest = -1.0_wp  ! [m/s]
-         do slot = 1, self%loose%n_set
-            associate (set => self%loose%sets(slot)%set, linkage => self%linkage)
+         maximum = -1.0_wp  ! [m/s]
+         do slot = 1, self%clearance_joints%n_set
+            associate (set => self%clearance_joints%sets(slot)%set, linkage => self%linkage)
                if (set%n_touching == 0) cycle
-               greatest = max(greatest, noise_of(set%n_contact, set%contact, set%n_contact_item, set%n, set%items%body, &
+               maximum = max(maximum, noise_of(set%n_contact, set%contact, set%n_contact_item, set%n, set%items%body, &
                                                  linkage%scales%length, linkage%bodies%n, linkage%motion%r))
             end associate
          end do
@@ -112,12 +113,12 @@ contains
                reach = max(reach, abs(place(1)), abs(place(2)), abs(place(3)))
             end associate
          end do
-         noise = max(noise, contact(i)%swing*reach)
+         noise = max(noise, contact(i)%contact_rate*reach)
       end do
    end function noise_of
 
    !> Scales of the coordinates of guided bodies and of their rates.
-   pure subroutine weigh_guided(n, n_turning, length, rate, factors, position, speed)
+   pure subroutine weigh_one_dof(n, n_turning, length, rate, factors, position, speed)
       integer, intent(in) :: n                    !! number of guided bodies
       integer, intent(in) :: n_turning            !! those that turn, the first ones
       real(wp), intent(in) :: length              !! scale of lengths [m]
@@ -138,7 +139,7 @@ contains
          position(k) = factors%position*(factors%in_film*length)
          speed(k) = factors%speed*(factors%in_film*(length*rate))
       end do
-   end subroutine weigh_guided
+   end subroutine weigh_one_dof
 
    !> Greatest rate of the mechanism in a state; of bodies whose motion is known at the present motion.
    pure real(wp) function rate_of(self, y) result(rate)
@@ -146,19 +147,19 @@ contains
       real(wp), intent(in) :: y(self%n)             !! (n) state [any]
 
       associate (linkage => self%linkage, length => self%linkage%scales%length, known => self%linkage%reduced%known, &
-                 guided => self%linkage%reduced%guided)
-         rate = rate_of_known(known%n, known%held, linkage%bodies%n, linkage%motion%v, linkage%motion%omega, length)
+                 one_dof => self%linkage%reduced%one_dof)
+         rate = rate_of_prescribed(known%n, known%held, linkage%bodies%n, linkage%motion%v, linkage%motion%omega, length)
          associate (last => linkage%n_position + linkage%n_rate)
-            rate = max(rate, rate_of_guided(guided%n, guided%n_turning, y(last - guided%n + 1:last), length))
+            rate = max(rate, rate_of_one_dof(one_dof%n, one_dof%n_turning, y(last - one_dof%n + 1:last), length))
          end associate
          if (linkage%rows%n_unknown > 0) then
-            rate = max(rate, linkage%coordinates%greatest_rate(linkage%rows%n_unknown, y(linkage%n_position + 1:), length))
+            rate = max(rate, linkage%coordinates%max_rate(linkage%rows%n_unknown, y(linkage%n_position + 1:), length))
          end if
       end associate
    end function rate_of
 
    !> Greatest rate of bodies whose motion is known: of velocities over a length, and of angular velocities.
-   pure real(wp) function rate_of_known(n, held, n_body, v, omega, length) result(rate)
+   pure real(wp) function rate_of_prescribed(n, held, n_body, v, omega, length) result(rate)
       integer, intent(in) :: n                       !! number of such bodies
       type(held_t), intent(in) :: held(n)            !! (n) which they are
       integer, intent(in) :: n_body                  !! number of bodies
@@ -174,10 +175,10 @@ contains
             rate = max(rate, max(abs(u(1)), abs(u(2)), abs(u(3)))/length, abs(w(1)), abs(w(2)), abs(w(3)))
          end associate
       end do
-   end function rate_of_known
+   end function rate_of_prescribed
 
    !> Greatest rate of guided bodies.
-   pure real(wp) function rate_of_guided(n, n_turning, speed, length) result(rate)
+   pure real(wp) function rate_of_one_dof(n, n_turning, speed, length) result(rate)
       integer, intent(in) :: n           !! number of guided bodies
       integer, intent(in) :: n_turning   !! those that turn, the first ones
       real(wp), intent(in) :: speed(n)   !! (n) rates of their coordinates [rad/s or m/s]
@@ -197,7 +198,7 @@ contains
          sliding = max(sliding, abs(speed(k)))
       end do
       rate = max(rate, sliding/length)
-   end function rate_of_guided
+   end function rate_of_one_dof
 
    !> Raise the pace to that of a state.
    module procedure mechanism_follow_pace
@@ -212,11 +213,11 @@ contains
 
       integer :: k
 
-      associate (linkage => self%linkage, length => self%linkage%scales%length, guided => self%linkage%reduced%guided)
-         associate (nq => linkage%n_position, last => linkage%n_position + linkage%n_rate - guided%n)
-            rate = sqrt(linkage%coordinates%greatest_rate(linkage%rows%n_unknown, ydot(nq + 1:), length))
-            do k = 1, guided%n
-               rate = max(rate, sqrt(abs(ydot(last + k))/merge(1.0_wp, length, k <= guided%n_turning)))
+      associate (linkage => self%linkage, length => self%linkage%scales%length, one_dof => self%linkage%reduced%one_dof)
+         associate (nq => linkage%n_position, last => linkage%n_position + linkage%n_rate - one_dof%n)
+            rate = sqrt(linkage%coordinates%max_rate(linkage%rows%n_unknown, ydot(nq + 1:), length))
+            do k = 1, one_dof%n
+               rate = max(rate, sqrt(abs(ydot(last + k))/merge(1.0_wp, length, k <= one_dof%n_turning)))
             end do
          end associate
       end associate
@@ -224,7 +225,8 @@ contains
 
    !> The pace at the start.
    module procedure mechanism_begin_pace
-      real(wp) :: acceleration(most_rates), delta(self%loose%n_contact), rate(self%loose%n_contact), ydot(size(y))
+      real(wp) :: acceleration(most_rates), delta(self%clearance_joints%n_contact), rate(self%clearance_joints%n_contact), &
+           ydot(size(y))
       integer(i8) :: n_evaluations, n_factorisations
       integer :: i, k, status
 
@@ -233,13 +235,13 @@ contains
       n_factorisations = self%linkage%solution%solver%n_factorisations
       self%linkage%scales%pace = idle_part/end
       self%linkage%scales%late_rate = late/end
-      self%friction%grips%h = first*end
+      self%friction%stick_slips%h = first*end
       call self%linkage%set_motion(t, y)
-      do k = 1, self%loose%n_set
-         associate (set => self%loose%sets(k)%set)
+      do k = 1, self%clearance_joints%n_set
+         associate (set => self%clearance_joints%sets(k)%set)
             call set%gaps(self%linkage%motion, delta, rate)
             do i = 1, set%n_contact
-               if (set%contact(i)%is_touching) call set%note_swing(i, delta(set%before%contacts + i))
+               if (set%contact(i)%is_touching) call set%note_contact_rate(i, delta(set%before%contacts + i))
             end do
          end associate
       end do
@@ -252,7 +254,7 @@ contains
       associate (linkage => self%linkage, coordinates => self%linkage%coordinates, scales => self%linkage%scales)
          do k = 1, linkage%reduced%known%n
             call coordinates%find_acceleration(linkage%motion, linkage%reduced%known%held(k)%body, acceleration)
-            scales%pace = max(scales%pace, sqrt(coordinates%greatest_rate(1, acceleration, scales%length)))
+            scales%pace = max(scales%pace, sqrt(coordinates%max_rate(1, acceleration, scales%length)))
          end do
       end associate
    end procedure mechanism_begin_pace
@@ -279,7 +281,7 @@ contains
 
    !> Part of the step in hand, but more than time is rounded by.
    module procedure time_of_difference
-      time_of_difference = max(part*self%friction%grips%h, shortest_difference*epsilon(1.0_wp)*abs(t))
+      time_of_difference = max(part*self%friction%stick_slips%h, shortest_difference*epsilon(1.0_wp)*abs(t))
    end procedure time_of_difference
 
 end submodule mechanism_scales

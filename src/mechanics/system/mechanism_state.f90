@@ -7,13 +7,13 @@
 !> Here are the places in it, what is small beside it (error scales, the pace, round-off of event functions), small changes of it,
 !> where its residual has entries, and what of it a checkpoint keeps.
 module mechanism_state
-   use checkpoint, only: piece_t
+   use checkpoint, only: segment_t
    use dae_system, only: dae_system_t
-   use hold, only: hold_t
+   use stabilisation, only: stabilisation_t
    use kinds, only: i8, wp
    use linkage, only: linkage_t
    use loading, only: loading_t
-   use mechanism_parts, only: friction_t, ledger_t, loose_t
+   use mechanism_parts, only: friction_t, ledger_t, clearance_joints_t
    use requests, only: requests_t
    implicit none (type, external)
    private
@@ -24,9 +24,9 @@ module mechanism_state
    type, abstract, extends(dae_system_t) :: mechanism_state_t
       type(linkage_t) :: linkage                  !! bodies, ideal joints and drivers, and the solution of the equations
       type(loading_t) :: loading                  !! gravity and force elements
-      type(loose_t) :: loose                      !! loose joints
+      type(clearance_joints_t) :: clearance_joints                      !! loose joints
       type(friction_t) :: friction                !! friction that is solved for
-      class(hold_t), allocatable :: way           !! way of holding the constraints
+      class(stabilisation_t), allocatable :: way           !! way of holding the constraints
       type(ledger_t) :: ledger                    !! what is told of energies
       type(requests_t) :: requests                !! what is asked of the motion beside channels of its items
       integer :: n_impulse = 0                    !! contacts whose impulses are integrated: all, or none
@@ -185,10 +185,10 @@ module mechanism_state
       end subroutine mechanism_dae_spread
 
       !> List what the system saves, in the order in which it does.
-      module subroutine mechanism_list_memory(self, pieces)
+      module subroutine mechanism_list_memory(self, segments)
          implicit none (type, external)
          class(mechanism_state_t), intent(in) :: self            !! the system
-         type(piece_t), allocatable, intent(inout) :: pieces(:)  !! (any) the list, grown
+         type(segment_t), allocatable, intent(inout) :: segments(:)  !! (any) the list, grown
       end subroutine mechanism_list_memory
 
       !> Numbers that a checkpoint needs: those of all its pieces.

@@ -9,9 +9,9 @@ module reaction_at
    use linkage, only: linkage_t
    use mechanism, only: mechanism_t
    use motion, only: cross, motion_t, point_position
-   use requests, only: reaction_request_t, source_force, source_ideal, source_joint, source_loose, &
+   use requests, only: reaction_request_t, source_force, source_ideal, source_joint, source_clearance_joints, &
       source_none
-   use sight, only: place_t
+   use observable, only: place_t
    implicit none (type, external)
    private
    public :: bind_reactions, find_reaction
@@ -34,10 +34,10 @@ contains
             do k = 1, size(system%linkage%ideal)
                call look(source_ideal, system%linkage%ideal(k)%set, reaction)
             end do
-            do k = 1, size(system%loose%sets)
-               do i = 1, system%loose%sets(k)%set%n
-                  if (system%loose%sets(k)%set%names(i)%s /= reaction%joint) cycle
-                  reaction%source = source_loose
+            do k = 1, size(system%clearance_joints%sets)
+               do i = 1, system%clearance_joints%sets(k)%set%n
+                  if (system%clearance_joints%sets(k)%set%names(i)%s /= reaction%joint) cycle
+                  reaction%source = source_clearance_joints
                   reaction%slot = k
                   reaction%item = i
                end do
@@ -89,8 +89,8 @@ contains
             call of_joint(linkage, linkage%joints(reaction%slot)%set, reaction, force, moment, p)
          case (source_ideal)
             call of_joint(linkage, linkage%ideal(reaction%slot)%set, reaction, force, moment, p)
-         case (source_loose)
-            associate (set => system%loose%sets(reaction%slot)%set)
+         case (source_clearance_joints)
+            associate (set => system%clearance_joints%sets(reaction%slot)%set)
                call set%load_on_j(reaction%item, motion, force, moment)
                p = motion%r(:, set%items%body(2, reaction%item))
             end associate
@@ -100,7 +100,7 @@ contains
             end if
          case (source_force)
             associate (set => system%loading%forces(reaction%slot)%set)
-               call set%load_on(reaction%item, merge(2, 1, reaction%on_j), linkage%piece%inside(t), motion, force, moment, p)
+               call set%load_on(reaction%item, merge(2, 1, reaction%on_j), linkage%segment%inside(t), motion, force, moment, p)
             end associate
          case default
             force = not_a_number()
@@ -109,8 +109,8 @@ contains
          end select
          if (reaction%has_point) then
             moment = moment + cross(p - point_position(motion, reaction%place%body, reaction%place%s), force)
-         else if (reaction%source == source_loose) then
-            associate (set => system%loose%sets(reaction%slot)%set, k => reaction%item)
+         else if (reaction%source == source_clearance_joints) then
+            associate (set => system%clearance_joints%sets(reaction%slot)%set, k => reaction%item)
                moment = moment + cross(p - point_position(motion, set%items%body(2, k), set%items%s_j(:, k)), force)
             end associate
          end if

@@ -1,15 +1,15 @@
 !> What requests report: points, places, reactions at points, and expressions over channels.
 module request_report
    use catalogue, only: bound_formula_t, catalogue_t
-   use catalogue_rooms, only: n_rooms, room_contacts, room_motions, room_points, room_reactions, room_requests
+   use groups_of_catalogue, only: n_groups, group_contacts, group_motions, group_points, group_reactions, group_requests
    use kind_info, only: channel_t, kind_info_t
    use kinds, only: wp
    use mechanism, only: mechanism_t
    use reaction_at, only: find_reaction
    use readings, only: reading_plan_t, readings_t
    use requests, only: formula_t, motion_request_info, of_reaction_force, point_channels, reaction_info, requests_t, source_t
-   use seen_motion, only: place_values
-   use sight, only: place_t
+   use observed_motion, only: place_values
+   use observable, only: place_t
    implicit none (type, external)
    private
    public :: add_requests, bind_requests, report_requests
@@ -24,19 +24,19 @@ contains
       integer :: k
 
       if (.not. allocated(requests%points)) return  ! a system that was not made from a deck
-      if (size(requests%points) > 0) call add(room_points, point_channels(), catalogue%offer%points)
+      if (size(requests%points) > 0) call add(group_points, point_channels(), catalogue%offer%points)
       do k = 1, size(requests%points)
-         call catalogue%add_item(room_points, requests%points(k)%s)
+         call catalogue%add_item(group_points, requests%points(k)%s)
       end do
-      if (size(requests%motions) > 0) call add(room_motions, motion_request_info(), catalogue%offer%motions)
+      if (size(requests%motions) > 0) call add(group_motions, motion_request_info(), catalogue%offer%motions)
       do k = 1, size(requests%motions)
-         call catalogue%add_item(room_motions, requests%motions(k)%name)
+         call catalogue%add_item(group_motions, requests%motions(k)%name)
       end do
-      if (size(requests%reactions) > 0) call add(room_reactions, reaction_info(requests%is_spatial), catalogue%offer%reactions)
+      if (size(requests%reactions) > 0) call add(group_reactions, reaction_info(requests%is_spatial), catalogue%offer%reactions)
       do k = 1, size(requests%reactions)
-         call catalogue%add_item(room_reactions, requests%reactions(k)%name)
+         call catalogue%add_item(group_reactions, requests%reactions(k)%name)
       end do
-      if (size(requests%formulas) > 0) call catalogue%add_item(room_requests, "request")
+      if (size(requests%formulas) > 0) call catalogue%add_item(group_requests, "request")
       allocate (catalogue%formulas(size(requests%formulas)))
       do k = 1, size(requests%formulas)
          call add_formula(requests%formulas(k), catalogue, catalogue%formulas(k))
@@ -74,7 +74,7 @@ contains
       channel%unit = formula%unit
       channel%frame = "none"
       channel%help = formula%text
-      call catalogue%add_group(room_requests, channel)
+      call catalogue%add_group(group_requests, channel)
       bound%expression = formula%expression
       bound%group = catalogue%n_group
    end subroutine add_formula
@@ -90,7 +90,7 @@ contains
       place = 0
       do k = 1, catalogue%rooms(source%room)%n
          if (catalogue%rooms(source%room)%names(k)%s /= source%item) cycle
-         if (source%room == room_contacts) then
+         if (source%room == group_contacts) then
             if (catalogue%rooms(source%room)%labels(k)%s /= source%label) cycle
          end if
          place = [catalogue%find_group(source%room, source%channel), source%component, k]
@@ -105,9 +105,9 @@ contains
       integer :: k
 
       associate (plan => catalogue%readings, offer => catalogue%offer, rooms => catalogue%rooms)
-         call catalogue%bind(offer%points, plan%points, [(k, k=1, rooms(room_points)%n)])
-         call catalogue%bind(offer%motions, plan%motions, [(k, k=1, rooms(room_motions)%n)])
-         call catalogue%bind(offer%reactions, plan%reactions, [(k, k=1, rooms(room_reactions)%n)])
+         call catalogue%bind(offer%points, plan%points, [(k, k=1, rooms(group_points)%n)])
+         call catalogue%bind(offer%motions, plan%motions, [(k, k=1, rooms(group_motions)%n)])
+         call catalogue%bind(offer%reactions, plan%reactions, [(k, k=1, rooms(group_reactions)%n)])
       end associate
    end subroutine bind_requests
 

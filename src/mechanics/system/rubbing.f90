@@ -1,6 +1,6 @@
 !> Room for the friction of ideal joints of a mechanism: which joints rub, and the small system that their forces solve.
 module rubbing
-   use grip_forces, only: unit_load_t
+   use stick_slip_forces, only: unit_load_t
    use joint_friction, only: most_rows
    use joint_set, only: joint_slot_t
    use friction_law, only: memory_bristle

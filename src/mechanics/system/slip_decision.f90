@@ -5,7 +5,7 @@
 !> problem (`friction_limits`), L_c = c_s F_N: contacts within their limits stick, the others slip against their forces. These have
 !> the force of sliding then, L_c = c_f F_N, and the problem is solved again, until no further contact slips. A contact that gives
 !> way slips, whatever the last digits of the forces say. While all hold, contacts that share a load take the same part of what
-!> each can hold (`solve_grips`).
+!> each can hold (`solve_stick_slips`).
 !>
 !> Contacts that drivers move are decided before, each for itself: see `mechanism_friction`.
 !>
@@ -14,8 +14,8 @@
 !>
 !> Source and limits: see `friction_limits`.
 submodule(mechanism:mechanism_friction) slip_decision
-   use contact_grip, only: gives_way, is_undecided
-   use floors, only: at_rest, chatter_time, least_band, look_ahead, torn, widest_band
+   use contact_stick_slip, only: gives_way, is_undecided
+   use floors, only: at_rest, chatter_time, min_band, look_ahead, torn, widest_band
    use friction_limits, only: limit_forces
    implicit none (type, external)
 
@@ -30,17 +30,17 @@ contains
    module procedure mechanism_decide_slips
       integer :: status
 
-      if (self%friction%grips%n_slip == 0) return
+      if (self%friction%stick_slips%n_slip == 0) return
       call open_decisions(self)
       if (only_new .and. .not. any_undecided(self)) return
       if (.not. choose_candidates(self, t)) return
-      call self%evaluate(t, y, self%friction%grips%trial%ydot, status)
+      call self%evaluate(t, y, self%friction%stick_slips%trial%ydot, status)
       if (status /= 0) return
       call decide_driven(self, t, y)
-      if (.not. all_hold(self)) call limit_grips(self)
+      if (.not. all_hold(self)) call limit_stick_slips(self)
       call widen_bands(self)
       call note_shared_forces(self, t)
-      call self%evaluate(t, y, self%friction%grips%trial%ydot, status)
+      call self%evaluate(t, y, self%friction%stick_slips%trial%ydot, status)
    end procedure mechanism_decide_slips
 
    !> What contacts did until now that no event of their own has opened.
@@ -49,11 +49,12 @@ contains
 
       integer :: k, slot
 
-      do slot = 1, size(self%loose%sets)
-         associate (set => self%loose%sets(slot)%set)
-            if (set%grip%memory /= memory_slip .or. set%n_touching == 0) cycle
+      do slot = 1, size(self%clearance_joints%sets)
+         associate (set => self%clearance_joints%sets(slot)%set)
+            if (set%stick_slip%memory /= memory_slip .or. set%n_touching == 0) cycle
             do k = 1, set%n_contact
-               if (set%grip%slip(k) /= is_undecided .and. set%grip%slip(k) /= gives_way) call set%open_decision(k, set%grip%slip(k))
+               if (set%stick_slip%slip(k) /= is_undecided .and. set%stick_slip%slip(k) /= gives_way) call set%open_decision(k, &
+                    set%stick_slip%slip(k))
             end do
          end associate
       end do
@@ -66,10 +67,10 @@ contains
       integer :: slot
 
       any_undecided = .false.
-      do slot = 1, size(self%loose%sets)
-         associate (set => self%loose%sets(slot)%set)
-            if (set%grip%memory /= memory_slip .or. set%n_touching == 0) cycle
-            any_undecided = any_undecided .or. any(set%contact%is_touching .and. set%grip%slip == is_undecided)
+      do slot = 1, size(self%clearance_joints%sets)
+         associate (set => self%clearance_joints%sets(slot)%set)
+            if (set%stick_slip%memory /= memory_slip .or. set%n_touching == 0) cycle
+            any_undecided = any_undecided .or. any(set%contact%is_touching .and. set%stick_slip%slip == is_undecided)
          end associate
       end do
    end function any_undecided
@@ -84,24 +85,24 @@ contains
 
       is_any = .false.
       some_ended = .false.
-      do slot = 1, size(self%loose%sets)
-         associate (set => self%loose%sets(slot)%set)
-            if (set%grip%memory /= memory_slip .or. set%n_touching == 0) cycle
+      do slot = 1, size(self%clearance_joints%sets)
+         associate (set => self%clearance_joints%sets(slot)%set)
+            if (set%stick_slip%memory /= memory_slip .or. set%n_touching == 0) cycle
             do k = 1, set%n_contact
                if (.not. set%contact(k)%is_touching) cycle
                call look_at_contact(self, t, slot, k, is_candidate)
                is_any = is_any .or. is_candidate
-               some_ended = some_ended .or. (is_candidate .and. set%grip%slip(k) == is_undecided)
+               some_ended = some_ended .or. (is_candidate .and. set%stick_slip%slip(k) == is_undecided)
             end do
          end associate
       end do
       if (.not. is_any) return
-      do slot = 1, size(self%loose%sets)
-         associate (set => self%loose%sets(slot)%set)
-            if (set%grip%memory /= memory_slip .or. set%n_touching == 0) cycle
+      do slot = 1, size(self%clearance_joints%sets)
+         associate (set => self%clearance_joints%sets(slot)%set)
+            if (set%stick_slip%memory /= memory_slip .or. set%n_touching == 0) cycle
             do k = 1, set%n_contact
                if (.not. set%contact(k)%is_touching) cycle
-               if (abs(set%grip%slip(k)) == 1) then
+               if (abs(set%stick_slip%slip(k)) == 1) then
                   if (.not. (some_ended .and. slides_slowly(self, slot, k))) cycle
                   call note(self, t, slot, k)
                end if
@@ -122,13 +123,13 @@ contains
       logical :: slides
       real(wp) :: speed
 
-      associate (set => self%loose%sets(slot)%set)
-         is_candidate = abs(set%grip%slip(k)) /= 1
+      associate (set => self%clearance_joints%sets(slot)%set)
+         is_candidate = abs(set%stick_slip%slip(k)) /= 1
          call set%lay(k, self%linkage%motion)
-         speed = size_of(set%grip%tangent(k)%v)
-         select case (set%grip%slip(k))
+         speed = size_of(set%stick_slip%tangent(k)%v)
+         select case (set%stick_slip%slip(k))
          case (is_undecided)
-            slides = (set%grip%was(k) == is_undecided .or. set%grip%n_tangent > 1) &
+            slides = (set%stick_slip%was(k) == is_undecided .or. set%stick_slip%n_tangent > 1) &
                      .and. speed > rest_speed(self, slot, k)
          case (gives_way)
             slides = speed > 0.5_wp*torn*own_speed(self)
@@ -137,7 +138,7 @@ contains
          end select
          call note(self, t, slot, k)
          is_candidate = .not. slides
-         if (slides) call set%slip_toward(k, set%grip%tangent(k)%v)
+         if (slides) call set%slip_toward(k, set%stick_slip%tangent(k)%v)
       end associate
    end subroutine look_at_contact
 
@@ -148,14 +149,14 @@ contains
       integer, intent(in) :: slot                 !! set of the contact
       integer, intent(in) :: k                    !! contact of the set
 
-      real(wp) :: band, delta(self%loose%n_contact), rate(self%loose%n_contact), speed
+      real(wp) :: band, delta(self%clearance_joints%n_contact), rate(self%clearance_joints%n_contact), speed
 
       speed = own_speed(self)
-      associate (set => self%loose%sets(slot)%set)
+      associate (set => self%clearance_joints%sets(slot)%set)
          call set%gaps(self%linkage%motion, delta, rate)
          band = 0.0_wp
-         if (t - set%grip%since(k) < chatter_time*own_time(self, slot, k, delta(set%before%contacts + k))) then
-            band = speed*min(max(2.0_wp*set%grip%band(k)/speed, least_band), widest_band)
+         if (t - set%stick_slip%since(k) < chatter_time*own_time(self, slot, k, delta(set%before%contacts + k))) then
+            band = speed*min(max(2.0_wp*set%stick_slip%band(k)/speed, min_band), widest_band)
          end if
          call set%note_decision(k, t, band, rest_speed(self, slot, k))
       end associate
@@ -166,19 +167,19 @@ contains
    subroutine widen_bands(self)
       class(mechanism_t), intent(inout) :: self   !! the system, its contacts decided
 
-      real(wp) :: along, least
+      real(wp) :: along, minimum
       integer :: k, slot
 
-      do slot = 1, size(self%loose%sets)
-         associate (set => self%loose%sets(slot)%set)
-            if (set%grip%memory /= memory_slip .or. set%n_touching == 0 .or. set%grip%n_tangent == 1) cycle
+      do slot = 1, size(self%clearance_joints%sets)
+         associate (set => self%clearance_joints%sets(slot)%set)
+            if (set%stick_slip%memory /= memory_slip .or. set%n_touching == 0 .or. set%stick_slip%n_tangent == 1) cycle
             do k = 1, set%n_contact
-               if (.not. set%contact(k)%is_touching .or. abs(set%grip%slip(k)) /= 1) cycle
-               associate (tangent => set%grip%tangent(k), still => rest_speed(self, slot, k))
+               if (.not. set%contact(k)%is_touching .or. abs(set%stick_slip%slip(k)) /= 1) cycle
+               associate (tangent => set%stick_slip%tangent(k), still => rest_speed(self, slot, k))
                   along = dot_product(matmul(tangent%t, tangent%v), tangent%way)
                   if (along > still) cycle
-                  least = end_speed(self, slot, k) - merge(less_of_speed, more_of_speed, along > 0.0_wp)*along
-                  call set%note_decision(k, set%grip%since(k), max(set%grip%band(k), least), still)
+                  minimum = end_speed(self, slot, k) - merge(less_of_speed, more_of_speed, along > 0.0_wp)*along
+                  call set%note_decision(k, set%stick_slip%since(k), max(set%stick_slip%band(k), minimum), still)
                end associate
             end do
          end associate
@@ -193,18 +194,18 @@ contains
 
       integer :: k, slot, status
 
-      do slot = 1, size(self%loose%sets)
-         associate (set => self%loose%sets(slot)%set, still => at_rest*own_speed(self))
-            if (set%grip%memory /= memory_slip .or. set%n_touching == 0) cycle
+      do slot = 1, size(self%clearance_joints%sets)
+         associate (set => self%clearance_joints%sets(slot)%set, still => at_rest*own_speed(self))
+            if (set%stick_slip%memory /= memory_slip .or. set%n_touching == 0) cycle
             do k = 1, set%n_contact
-               associate (tangent => set%grip%tangent(k))
-                  if (.not. set%contact(k)%is_touching .or. set%grip%slip(k) /= sticks .or. .not. tangent%is_driven) cycle
-                  if (set%grip%was(k) == sticks) cycle
+               associate (tangent => set%stick_slip%tangent(k))
+                  if (.not. set%contact(k)%is_touching .or. set%stick_slip%slip(k) /= sticks .or. .not. tangent%is_driven) cycle
+                  if (set%stick_slip%was(k) == sticks) cycle
                   call set%note_decision(k, t, 0.0_wp, still)
                   call go_with_drivers(self, t, y, slot, k, still)
-                  if (set%grip%was(k) == gives_way .and. set%grip%slip(k) == sticks .and. &
+                  if (set%stick_slip%was(k) == gives_way .and. set%stick_slip%slip(k) == sticks .and. &
                       size_of(tangent%f_t) > set%laws%friction%stick_limit(tangent%f_n)) call set%slip_toward(k, -tangent%f_t)
-                  if (set%grip%slip(k) /= sticks) call self%evaluate(t, y, self%friction%grips%trial%ydot, status)
+                  if (set%stick_slip%slip(k) /= sticks) call self%evaluate(t, y, self%friction%stick_slips%trial%ydot, status)
                end associate
             end do
          end associate
@@ -218,13 +219,14 @@ contains
       integer :: k, slot
 
       all_hold = .true.
-      do slot = 1, size(self%loose%sets)
-         associate (set => self%loose%sets(slot)%set)
-            if (set%grip%memory /= memory_slip .or. set%n_touching == 0) cycle
+      do slot = 1, size(self%clearance_joints%sets)
+         associate (set => self%clearance_joints%sets(slot)%set)
+            if (set%stick_slip%memory /= memory_slip .or. set%n_touching == 0) cycle
             do k = 1, set%n_contact
-               if (.not. set%contact(k)%is_touching .or. set%grip%slip(k) /= sticks .or. set%grip%tangent(k)%is_driven) cycle
-               all_hold = all_hold .and. set%grip%was(k) /= gives_way &
-                          .and. size_of(set%grip%tangent(k)%f_t) <= limit_of(self, set, k)
+               if (.not. set%contact(k)%is_touching .or. set%stick_slip%slip(k) /= sticks &
+                   .or. set%stick_slip%tangent(k)%is_driven) cycle
+               all_hold = all_hold .and. set%stick_slip%was(k) /= gives_way &
+                          .and. size_of(set%stick_slip%tangent(k)%f_t) <= limit_of(self, set, k)
             end do
          end associate
       end do
@@ -236,21 +238,21 @@ contains
       class(clearance_set_t), intent(in) :: set        !! set of the contact
       integer, intent(in) :: k                         !! contact of the set
 
-      limit = set%laws%friction%stick_limit(set%grip%tangent(k)%f_n)
-      if (set%grip%was(k) /= sticks) limit = (1.0_wp - set%grip%band(k)/max(own_speed(self), tiny(1.0_wp)))*limit
+      limit = set%laws%friction%stick_limit(set%stick_slip%tangent(k)%f_n)
+      if (set%stick_slip%was(k) /= sticks) limit = (1.0_wp - set%stick_slip%band(k)/max(own_speed(self), tiny(1.0_wp)))*limit
    end function limit_of
 
    !> Let those of the contacts that are tried as sticking slip that cannot hold.
-   subroutine limit_grips(self)
+   subroutine limit_stick_slips(self)
       class(mechanism_t), intent(inout) :: self   !! the system, evaluated with all candidates sticking
 
       integer :: m, n_tangent
 
-      call list_grips(self, .false., m)
+      call list_stick_slips(self, .false., m)
       if (m == 0) return
-      n_tangent = self%loose%sets(self%friction%grips%at(1)%slot)%set%grip%n_tangent
+      n_tangent = self%clearance_joints%sets(self%friction%stick_slips%at(1)%slot)%set%stick_slip%n_tangent
       call limit_listed(self, m/n_tangent, n_tangent)
-   end subroutine limit_grips
+   end subroutine limit_stick_slips
 
    !> The same of the contacts on the list.
    subroutine limit_listed(self, n, n_tangent)
@@ -263,22 +265,22 @@ contains
       integer :: c, pass, status
       logical :: is_new, slips(n)
 
-      associate (grips => self%friction%grips, m => n_tangent*n)
+      associate (stick_slips => self%friction%stick_slips, m => n_tangent*n)
          do c = 1, m
-            associate (at => grips%at(c))
-               force(c) = self%loose%sets(at%slot)%set%grip%tangent(at%contact)%f_t(at%axis)
-               slips((c - 1)/n_tangent + 1) = self%loose%sets(at%slot)%set%grip%was(at%contact) == gives_way
+            associate (at => stick_slips%at(c))
+               force(c) = self%clearance_joints%sets(at%slot)%set%stick_slip%tangent(at%contact)%f_t(at%axis)
+               slips((c - 1)/n_tangent + 1) = self%clearance_joints%sets(at%slot)%set%stick_slip%was(at%contact) == gives_way
             end associate
          end do
          call find_mobilities(self, m, mobility_of_depth(self, m), nothing, status)
          if (status /= 0) return
-         r = matmul(grips%matrix(:m, :m), force)  ! what no force can change is left out
+         r = matmul(stick_slips%matrix(:m, :m), force)  ! what no force can change is left out
          asked = maxval(abs(r))
          do pass = 1, n + 1
             do c = 1, n
-               limit(c) = limit_of_listed(self, grips%at(n_tangent*c), slips(c))
+               limit(c) = limit_of_listed(self, stick_slips%at(n_tangent*c), slips(c))
             end do
-            call limit_forces(n, n_tangent, size(grips%matrix, 1), grips%matrix(:, :m), r, limit, force, against)
+            call limit_forces(n, n_tangent, size(stick_slips%matrix, 1), stick_slips%matrix(:, :m), r, limit, force, against)
             is_new = .false.
             do c = 1, n
                if (slips(c)) cycle
@@ -293,7 +295,8 @@ contains
          do c = 1, n
             if (.not. slips(c)) cycle
             associate (first => n_tangent*(c - 1) + 1, last => n_tangent*c)
-               call let_slip(self, grips%at(last)%slot, grips%at(last)%contact, n_tangent, force(first:last), against(first:last))
+               call let_slip(self, stick_slips%at(last)%slot, stick_slips%at(last)%contact, n_tangent, force(first:last), &
+                             against(first:last))
             end associate
          end do
       end associate
@@ -307,9 +310,9 @@ contains
 
       real(wp) :: f(1)
 
-      associate (set => self%loose%sets(at%slot)%set)
+      associate (set => self%clearance_joints%sets(at%slot)%set)
          if (slips) then
-            call set%laws%friction%force(1, [set%grip%tangent(at%contact)%f_n], [1.0_wp], f)
+            call set%laws%friction%force(1, [set%stick_slip%tangent(at%contact)%f_n], [1.0_wp], f)
             limit = f(1)
          else
             limit = limit_of(self, set, at%contact)
@@ -329,8 +332,8 @@ contains
       real(wp) :: way(2)
 
       way = 0.0_wp
-      associate (set => self%loose%sets(slot)%set)
-         associate (v => set%grip%tangent(k)%v)
+      associate (set => self%clearance_joints%sets(slot)%set)
+         associate (v => set%stick_slip%tangent(k)%v)
             if (any(abs(force) > 0.0_wp)) then
                way(:n_tangent) = -force/maxval(abs(force))  ! squares of small numbers are zero
                way = way/norm2(way)
@@ -357,16 +360,16 @@ contains
       real(wp) :: later, now(2), v(2)
       integer :: status
 
-      later = max(look_ahead*self%friction%grips%h, self%time_of_difference(t))
-      associate (set => self%loose%sets(slot)%set)
-         now = set%grip%tangent(k)%v
+      later = max(look_ahead*self%friction%stick_slips%h, self%time_of_difference(t))
+      associate (set => self%clearance_joints%sets(slot)%set)
+         now = set%stick_slip%tangent(k)%v
          v = now
          if (size_of(now) < 0.5_wp*still) then
-            self%friction%grips%trial%y = y + later*self%friction%grips%trial%ydot
-            call self%linkage%set_motion(t + later, self%friction%grips%trial%y)
+            self%friction%stick_slips%trial%y = y + later*self%friction%stick_slips%trial%ydot
+            call self%linkage%set_motion(t + later, self%friction%stick_slips%trial%y)
             call set%lay(k, self%linkage%motion)
-            v = set%grip%tangent(k)%v
-            call self%evaluate(t, y, self%friction%grips%trial%ydot, status)
+            v = set%stick_slip%tangent(k)%v
+            call self%evaluate(t, y, self%friction%stick_slips%trial%ydot, status)
          end if
          if (size_of(v) >= 0.5_wp*still) call set%slip_toward(k, v)
       end associate
@@ -382,9 +385,9 @@ contains
       real(wp) :: compliance
       integer :: item
 
-      associate (set => self%loose%sets(slot)%set)
+      associate (set => self%clearance_joints%sets(slot)%set)
          item = set%item_of(k)
-         compliance = sum(self%linkage%inverse_mass(1, set%items%body(:, item)))*set%grip%tangent(k)%f_n
+         compliance = sum(self%linkage%inverse_mass(1, set%items%body(:, item)))*set%stick_slip%tangent(k)%f_n
       end associate
       time = 0.0_wp
       if (compliance > 0.0_wp .and. delta > 0.0_wp) time = sqrt(delta/compliance)

@@ -10,7 +10,7 @@
 !>
 !> Source: see `mechanism_friction`. Limits: none.
 submodule(mechanism:mechanism_friction) slip_events
-   use contact_grip, only: is_undecided, tangent_t
+   use contact_stick_slip, only: is_undecided, tangent_t
    use contact_places, only: slip_function
    use floors, only: at_rest, torn
    implicit none (type, external)
@@ -22,29 +22,29 @@ contains
       real(wp) :: moment
       integer :: k, number, slot, status
 
-      number = self%loose%functions%place(slip_function, 0)
-      g(number + 1:number + self%loose%n_contact) = -1.0_wp
-      rate(number + 1:number + self%loose%n_contact) = 0.0_wp
+      number = self%clearance_joints%functions%place(slip_function, 0)
+      g(number + 1:number + self%clearance_joints%n_contact) = -1.0_wp
+      rate(number + 1:number + self%clearance_joints%n_contact) = 0.0_wp
       moment = self%time_of_difference(t)
       if (any_sticks(self)) then
-         call self%evaluate(t, y, self%friction%grips%trial%ydot, status)
-         self%friction%grips%trial%y = y + moment*self%friction%grips%trial%ydot
-         call self%evaluate(t + moment, self%friction%grips%trial%y, self%friction%grips%trial%ydot, status)
+         call self%evaluate(t, y, self%friction%stick_slips%trial%ydot, status)
+         self%friction%stick_slips%trial%y = y + moment*self%friction%stick_slips%trial%ydot
+         call self%evaluate(t + moment, self%friction%stick_slips%trial%y, self%friction%stick_slips%trial%ydot, status)
          call note_holds(self, rate)
       end if
-      call self%evaluate(t, y, self%friction%grips%trial%ydot, status)
-      do slot = 1, size(self%loose%sets)
-         associate (set => self%loose%sets(slot)%set)
-            if (set%grip%memory /= memory_slip .or. set%n_touching == 0) cycle
+      call self%evaluate(t, y, self%friction%stick_slips%trial%ydot, status)
+      do slot = 1, size(self%clearance_joints%sets)
+         associate (set => self%clearance_joints%sets(slot)%set)
+            if (set%stick_slip%memory /= memory_slip .or. set%n_touching == 0) cycle
             do k = 1, set%n_contact
-               number = self%loose%functions%place(slip_function, set%before%contacts + k)
-               if (.not. set%contact(k)%is_touching .or. set%grip%slip(k) == is_undecided) cycle
-               associate (tangent => set%grip%tangent(k), slip => set%grip%slip(k))
+               number = self%clearance_joints%functions%place(slip_function, set%before%contacts + k)
+               if (.not. set%contact(k)%is_touching .or. set%stick_slip%slip(k) == is_undecided) cycle
+               associate (tangent => set%stick_slip%tangent(k), slip => set%stick_slip%slip(k))
                   if (slip == sticks) then
                      g(number) = short_of(self, tangent, set%laws%friction%stick_limit(tangent%f_n))
                      rate(number) = (rate(number) - g(number))/moment
                   else
-                     g(number) = end_speed(self, slot, k) - slip*tangent%v(1) - set%grip%band(k)
+                     g(number) = end_speed(self, slot, k) - slip*tangent%v(1) - set%stick_slip%band(k)
                      rate(number) = -slip*(tangential(self, slot, k, 1, .true.) + tangent%drift(1))
                   end if
                end associate
@@ -60,13 +60,13 @@ contains
 
       integer :: k, slot
 
-      do slot = 1, size(self%loose%sets)
-         associate (set => self%loose%sets(slot)%set)
-            if (set%grip%memory /= memory_slip .or. set%n_touching == 0) cycle
+      do slot = 1, size(self%clearance_joints%sets)
+         associate (set => self%clearance_joints%sets(slot)%set)
+            if (set%stick_slip%memory /= memory_slip .or. set%n_touching == 0) cycle
             do k = 1, set%n_contact
-               if (.not. set%contact(k)%is_touching .or. set%grip%slip(k) /= sticks) cycle
-               g(self%loose%functions%place(slip_function, set%before%contacts + k)) = &
-                  short_of(self, set%grip%tangent(k), set%laws%friction%stick_limit(set%grip%tangent(k)%f_n))
+               if (.not. set%contact(k)%is_touching .or. set%stick_slip%slip(k) /= sticks) cycle
+               g(self%clearance_joints%functions%place(slip_function, set%before%contacts + k)) = &
+                  short_of(self, set%stick_slip%tangent(k), set%laws%friction%stick_limit(set%stick_slip%tangent(k)%f_n))
             end do
          end associate
       end do
@@ -91,10 +91,10 @@ contains
       integer :: k
 
       any_sticks = .false.
-      do k = 1, size(self%loose%sets)
-         associate (set => self%loose%sets(k)%set)
-            if (set%grip%memory /= memory_slip .or. set%n_touching == 0) cycle
-            any_sticks = any_sticks .or. any(set%contact%is_touching .and. set%grip%slip == sticks)
+      do k = 1, size(self%clearance_joints%sets)
+         associate (set => self%clearance_joints%sets(k)%set)
+            if (set%stick_slip%memory /= memory_slip .or. set%n_touching == 0) cycle
+            any_sticks = any_sticks .or. any(set%contact%is_touching .and. set%stick_slip%slip == sticks)
          end associate
       end do
    end function any_sticks

@@ -19,7 +19,7 @@ contains
    pure logical function must_follow(system)
       type(mechanism_t), intent(in) :: system   !! the system
 
-      must_follow = system%loading%counts_turns .or. system%friction%grips%have_ways
+      must_follow = system%loading%counts_turns .or. system%friction%stick_slips%have_ways
    end function must_follow
 
    !> Whether a motion can bring a joint to a branch that nobody means, or a joint or force element to where its angle has no value.
@@ -93,8 +93,8 @@ contains
          do k = 1, size(system%loading%forces)
             call system%loading%forces(k)%set%follow(motion)
          end do
-         do k = 1, size(system%loose%sets)
-            call system%loose%sets(k)%set%follow_sliding(motion)
+         do k = 1, size(system%clearance_joints%sets)
+            call system%clearance_joints%sets(k)%set%follow_sliding(motion)
          end do
       end associate
    end subroutine follow_motion

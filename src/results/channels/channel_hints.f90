@@ -1,7 +1,7 @@
 !> What a channel that does not exist may have meant.
 module channel_hints
    use catalogue, only: catalogue_t
-   use catalogue_rooms, only: n_rooms, room_contacts, room_energy
+   use groups_of_catalogue, only: n_groups, group_contacts, group_energy
    use channel_names, only: item_name
    use spelling, only: nearest_word
    use text, only: append_text, join, text_t
@@ -35,7 +35,7 @@ contains
       allocate (meant(0))
       items = names_of_items(catalogue)
       item = parts(1)%s
-      if (item == "energy" .and. size(catalogue%rooms(room_energy)%names) == 0) then
+      if (item == "energy" .and. size(catalogue%rooms(group_energy)%names) == 0) then
          hint = "energies need 'ledger = on' in [analysis.dynamic]"
          return
       end if
@@ -76,8 +76,8 @@ contains
       type(text_list_t) :: found
       integer :: item, room
 
-      do room = 1, n_rooms
-         if (room == room_contacts) cycle
+      do room = 1, n_groups
+         if (room == group_contacts) cycle
          do item = 1, size(catalogue%rooms(room)%names)
             call found%add(item_name(catalogue, room, item))
          end do

@@ -3,7 +3,7 @@
 !> A contact belongs to its joint. Its label stands in the name only if the joint has several contacts.
 module channel_names
    use catalogue, only: catalogue_t
-   use catalogue_rooms, only: room_contacts, room_energy
+   use groups_of_catalogue, only: group_contacts, group_energy
    implicit none (type, external)
    private
    public :: base_name, component_letter, item_name, label_in_name, scalar_name, scalar_t
@@ -43,7 +43,7 @@ contains
       character(:), allocatable :: name           !! what stands before the first dot
 
       name = catalogue%rooms(room)%names(item)%s
-      if (room == room_energy .and. len_trim(name) == 0) name = "energy"
+      if (room == group_energy .and. len_trim(name) == 0) name = "energy"
    end function item_name
 
    !> Label of a contact if its joint has several, else blank.
@@ -56,7 +56,7 @@ contains
       integer :: k
 
       label = ""
-      if (room /= room_contacts) return
+      if (room /= group_contacts) return
       associate (contacts => catalogue%rooms(room))
          do k = max(1, item - 1), min(size(contacts%names), item + 1)  ! those of a joint stand together
             if (k /= item .and. contacts%names(k)%s == contacts%names(item)%s) label = contacts%labels(item)%s

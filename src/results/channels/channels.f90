@@ -5,7 +5,7 @@
 !> stands for everything but points, which have channels only where they are named.
 module channels
    use catalogue, only: catalogue_t
-   use catalogue_rooms, only: n_rooms, room_contacts, room_points
+   use groups_of_catalogue, only: n_groups, group_contacts, group_points
    use channel_hints, only: is_same, suggest
    use channel_names, only: component_letter, item_name, scalar_t
    use name_table, only: name_table_t
@@ -35,7 +35,7 @@ module channels
    !> Finds the items that a part of a word names.
    type :: item_finder_t
       private
-      type(name_table_t) :: names(n_rooms)  !! (rooms) names of the items; of equal names the first
+      type(name_table_t) :: names(n_groups)  !! (rooms) names of the items; of equal names the first
    contains
       procedure :: start => start_finder
       procedure :: find => find_items
@@ -150,7 +150,7 @@ contains
 
       integer :: item, previous, room
 
-      do room = 1, n_rooms
+      do room = 1, n_groups
          call self%names(room)%start(size(catalogue%rooms(room)%names))
          do item = 1, size(catalogue%rooms(room)%names)
             call self%names(room)%enter(item_name(catalogue, room, item), item, previous)
@@ -170,7 +170,7 @@ contains
       associate (n => size(catalogue%rooms(room)%names))
          first = 1
          last = n
-         if (room == room_points .and. part == "*") last = 0
+         if (room == group_points .and. part == "*") last = 0
          if (part == "*") return
          last = 0
          if (n > 0) first = self%names(room)%find(part)
@@ -199,7 +199,7 @@ contains
       quantity = catalogue%groups(scalar%group)%channel%name
       letter = component_letter(catalogue%groups(scalar%group)%channel%components, scalar%component)
       label = ""
-      if (room == room_contacts) label = catalogue%rooms(room)%labels(scalar%item)%s
+      if (room == group_contacts) label = catalogue%rooms(room)%labels(scalar%item)%s
       fits = .false.
       select case (size(parts))
       case (1)

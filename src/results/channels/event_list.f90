@@ -6,7 +6,7 @@ module event_list
    use kinds, only: wp
    use recorder, only: event_t
    use name_table, only: name_table_t
-   use tape, only: tape_t
+   use archive, only: archive_t
    use text_list, only: text_list_t
    implicit none (type, external)
    private
@@ -69,7 +69,7 @@ contains
       type(event_t), intent(in) :: event          !! the event
       logical, intent(out) :: is_added            !! false: there is no memory for it
 
-      call make_room(self, is_added)
+      call make_storage(self, is_added)
       if (.not. is_added) return
       self%n = self%n + 1
       self%numbers(:, self%n) = [event%time, event%impact_speed, event%peak_force, event%peak_penetration, &
@@ -83,9 +83,9 @@ contains
    end subroutine add_event
 
    !> Make room for one more event.
-   subroutine make_room(self, has_room)
+   subroutine make_storage(self, has_capacity)
       class(event_list_t), intent(inout) :: self  !! the list
-      logical, intent(out) :: has_room            !! false: there is no memory
+      logical, intent(out) :: has_capacity            !! false: there is no memory
 
       real(wp), allocatable :: numbers(:, :)
       integer, allocatable :: codes(:, :)
@@ -94,18 +94,18 @@ contains
       if (.not. allocated(self%numbers)) then
          allocate (self%numbers(n_event_numbers, 64), self%codes(n_event_words, 64))
       end if
-      has_room = .true.
+      has_capacity = .true.
       capacity = size(self%numbers, 2)
       if (self%n < capacity) return
       allocate (numbers(n_event_numbers, 2*capacity), stat=status)
       if (status == 0) allocate (codes(n_event_words, 2*capacity), stat=status)
-      has_room = status == 0
-      if (.not. has_room) return
+      has_capacity = status == 0
+      if (.not. has_capacity) return
       numbers(:, 1:self%n) = self%numbers(:, 1:self%n)
       codes(:, 1:self%n) = self%codes(:, 1:self%n)
       call move_alloc(numbers, self%numbers)
       call move_alloc(codes, self%codes)
-   end subroutine make_room
+   end subroutine make_storage
 
    !> The number of a word, which is appended to the list of words if it is new.
    subroutine encode(self, word, code)
@@ -182,44 +182,44 @@ contains
    end function order_by_onset
 
    !> Write all events.
-   subroutine save_events(self, tape)
+   subroutine save_events(self, archive)
       class(event_list_t), intent(in) :: self  !! the list
-      type(tape_t), intent(inout) :: tape      !! receives it
+      type(archive_t), intent(inout) :: archive      !! receives it
 
       integer :: k
 
-      call tape%put([self%words%n, self%n])
+      call archive%put([self%words%n, self%n])
       do k = 1, self%words%n
-         call tape%put(self%words%at(k))
+         call archive%put(self%words%at(k))
       end do
       do k = 1, self%n
-         call tape%put(self%numbers(:, k))
-         call tape%put(self%codes(:, k))
+         call archive%put(self%numbers(:, k))
+         call archive%put(self%codes(:, k))
       end do
    end subroutine save_events
 
    !> Take them back, instead of those told so far.
-   subroutine load_events(self, tape)
+   subroutine load_events(self, archive)
       class(event_list_t), intent(inout) :: self  !! the list
-      type(tape_t), intent(inout) :: tape         !! holds them
+      type(archive_t), intent(inout) :: archive         !! holds them
 
       type(event_list_t) :: fresh
       character(:), allocatable :: word
       integer :: code, k, n, n_word
-      logical :: has_room
+      logical :: has_capacity
 
-      call tape%get(n_word)
-      call tape%get(n)
+      call archive%get(n_word)
+      call archive%get(n)
       do k = 1, n_word
-         call tape%get_text(word)
+         call archive%get_text(word)
          call encode(fresh, word, code)
       end do
       do k = 1, n
-         call make_room(fresh, has_room)
-         if (.not. (has_room .and. tape%is_good)) return
+         call make_storage(fresh, has_capacity)
+         if (.not. (has_capacity .and. archive%is_good)) return
          fresh%n = k
-         call tape%get(fresh%numbers(:, k))
-         call tape%get(fresh%codes(:, k))
+         call archive%get(fresh%numbers(:, k))
+         call archive%get(fresh%codes(:, k))
       end do
       self%n = fresh%n
       self%words = fresh%words

@@ -1,7 +1,7 @@
 !> Requests that are expressions over channels: understood when it is known which channels there are.
 module formula_words
    use catalogue, only: catalogue_t
-   use catalogue_rooms, only: room_contacts, room_requests
+   use groups_of_catalogue, only: group_contacts, group_requests
    use channel_names, only: scalar_t
    use channels, only: find_scalars, item_finder_t
    use deck_types, only: deck_t
@@ -101,13 +101,13 @@ contains
             return
          end if
       end associate
-      if (.not. allocated(formula%expression%sights)) allocate (formula%expression%sights(0))
+      if (.not. allocated(formula%expression%observables)) allocate (formula%expression%observables(0))
       dimension = formula%expression%dimension
       call take_unit(item, formula%expression, dimension, formula%unit, mistakes, at)
       if (at%line < 0) return
-      allocate (formula%sources(size(formula%expression%sights)))
+      allocate (formula%sources(size(formula%expression%observables)))
       do k = 1, size(formula%sources)
-         formula%sources(k) = source_of(words, formula%expression%sights(k)%word)
+         formula%sources(k) = source_of(words, formula%expression%observables(k)%word)
       end do
    end subroutine read_formula
 
@@ -203,7 +203,7 @@ contains
 
       source%label = ""
       if (starts_with(word, prefix)) then
-         source%room = room_requests
+         source%room = group_requests
          source%item = "request"
          source%channel = word(len(prefix) + 1:)
          return
@@ -212,7 +212,7 @@ contains
       associate (scalar => scalars(1), catalogue => words%catalogue)
          source%room = catalogue%groups(scalar%group)%room
          source%item = catalogue%rooms(source%room)%names(scalar%item)%s
-         if (source%room == room_contacts) source%label = catalogue%rooms(source%room)%labels(scalar%item)%s
+         if (source%room == group_contacts) source%label = catalogue%rooms(source%room)%labels(scalar%item)%s
          source%channel = catalogue%groups(scalar%group)%channel%name
          source%component = scalar%component
       end associate

@@ -2,11 +2,11 @@
 !> tape.
 module frame_values
    use catalogue, only: catalogue_t
-   use catalogue_rooms, only: room_clearances, room_forces
+   use groups_of_catalogue, only: group_clearances, group_forces
    use, intrinsic :: ieee_arithmetic, only: ieee_is_nan
    use kinds, only: wp
    use scene_poses, only: pose_reader_t
-   use tape, only: tape_t
+   use archive, only: archive_t
    implicit none (type, external)
    private
    public :: bind_source, frame_source_t, frame_t, load_frame, reads_source, save_frame, take_frame
@@ -38,10 +38,10 @@ contains
       type(catalogue_t), intent(in) :: catalogue   !! what can be recorded
 
       call source%reader%bind(catalogue)
-      source%eccentricity = catalogue%find_group(room_clearances, "eccentricity")
-      source%n_joint = size(catalogue%rooms(room_clearances)%names)
-      source%force = catalogue%find_group(room_forces, "force")
-      source%n_force = size(catalogue%rooms(room_forces)%names)
+      source%eccentricity = catalogue%find_group(group_clearances, "eccentricity")
+      source%n_joint = size(catalogue%rooms(group_clearances)%names)
+      source%force = catalogue%find_group(group_forces, "force")
+      source%n_force = size(catalogue%rooms(group_forces)%names)
    end subroutine bind_source
 
    !> Whether a group of the catalogue is read.
@@ -62,7 +62,7 @@ contains
       integer :: k
 
       frame%t = t
-      if (.not. allocated(frame%r)) call make_room(source, frame)
+      if (.not. allocated(frame%r)) call make_storage(source, frame)
       call source%reader%frames(catalogue, frame%r, frame%a)
       do k = 1, source%n_joint
          frame%f(:, k) = vector_of(catalogue, source%reader%joint_force, k)
@@ -74,13 +74,13 @@ contains
    end subroutine take_frame
 
    !> Room for a picture.
-   subroutine make_room(source, frame)
+   subroutine make_storage(source, frame)
       type(frame_source_t), intent(in) :: source  !! how many numbers it has
       type(frame_t), intent(inout) :: frame       !! the picture
 
       allocate (frame%r(3, 0:source%reader%n_body), frame%a(3, 3, 0:source%reader%n_body))
       allocate (frame%f(3, source%n_joint), frame%e(3, source%n_joint), frame%load(3, source%n_force))
-   end subroutine make_room
+   end subroutine make_storage
 
    !> A vector of an item; zero where it is not known.
    pure function vector_of(catalogue, group, item) result(x)
@@ -97,42 +97,42 @@ contains
    end function vector_of
 
    !> Write a picture.
-   subroutine save_frame(frame, tape)
+   subroutine save_frame(frame, archive)
       type(frame_t), intent(in) :: frame   !! the picture
-      type(tape_t), intent(inout) :: tape  !! receives it
+      type(archive_t), intent(inout) :: archive  !! receives it
 
-      call tape%put(frame%t)
-      call tape%put(reshape(frame%r, [size(frame%r)]))
-      call tape%put(reshape(frame%a, [size(frame%a)]))
-      call tape%put(reshape(frame%f, [size(frame%f)]))
-      call tape%put(reshape(frame%e, [size(frame%e)]))
-      call tape%put(reshape(frame%load, [size(frame%load)]))
+      call archive%put(frame%t)
+      call archive%put(reshape(frame%r, [size(frame%r)]))
+      call archive%put(reshape(frame%a, [size(frame%a)]))
+      call archive%put(reshape(frame%f, [size(frame%f)]))
+      call archive%put(reshape(frame%e, [size(frame%e)]))
+      call archive%put(reshape(frame%load, [size(frame%load)]))
    end subroutine save_frame
 
    !> Take back a picture.
-   subroutine load_frame(source, tape, frame)
+   subroutine load_frame(source, archive, frame)
       type(frame_source_t), intent(in) :: source   !! how many numbers it has
-      type(tape_t), intent(inout) :: tape          !! holds it
+      type(archive_t), intent(inout) :: archive          !! holds it
       type(frame_t), intent(out) :: frame          !! the picture
 
       integer :: k
 
-      call make_room(source, frame)
-      call tape%get(frame%t)
+      call make_storage(source, frame)
+      call archive%get(frame%t)
       do k = 0, source%reader%n_body
-         call tape%get(frame%r(:, k))
+         call archive%get(frame%r(:, k))
       end do
       do k = 0, 3*source%reader%n_body + 2
-         call tape%get(frame%a(:, modulo(k, 3) + 1, k/3))
+         call archive%get(frame%a(:, modulo(k, 3) + 1, k/3))
       end do
       do k = 1, source%n_joint
-         call tape%get(frame%f(:, k))
+         call archive%get(frame%f(:, k))
       end do
       do k = 1, source%n_joint
-         call tape%get(frame%e(:, k))
+         call archive%get(frame%e(:, k))
       end do
       do k = 1, source%n_force
-         call tape%get(frame%load(:, k))
+         call archive%get(frame%load(:, k))
       end do
    end subroutine load_frame
 

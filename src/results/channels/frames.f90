@@ -9,7 +9,7 @@ module frames
    use catalogue, only: catalogue_t
    use frame_values, only: bind_source, frame_source_t, frame_t, load_frame, reads_source, save_frame, take_frame
    use kinds, only: wp
-   use tape, only: tape_t
+   use archive, only: archive_t
    use tracks, only: track_t
    implicit none (type, external)
    private
@@ -250,59 +250,59 @@ contains
    end subroutine end_early
 
    !> Write the pictures and paths so far.
-   subroutine save_frames(self, tape)
+   subroutine save_frames(self, archive)
       class(frame_keeper_t), intent(in) :: self  !! the keeper
-      type(tape_t), intent(inout) :: tape        !! receives them
+      type(archive_t), intent(inout) :: archive        !! receives them
 
       integer :: i, k
 
       do k = 1, size(self%n)
-         call tape%put([self%n(k), self%n_latest(k)])
+         call archive%put([self%n(k), self%n_latest(k)])
          do i = 1, self%n(k)
-            call save_frame(self%frames(i, k), tape)
+            call save_frame(self%frames(i, k), archive)
          end do
          do i = 1, min(self%n_latest(k), size(self%plan%wanted(k)%times))
-            call save_frame(self%latest(i, k), tape)
+            call save_frame(self%latest(i, k), archive)
          end do
-         call tape%put([self%early(k)%n, self%early(k)%stride, self%early(k)%skipped])
+         call archive%put([self%early(k)%n, self%early(k)%stride, self%early(k)%skipped])
          do i = 1, self%early(k)%n
-            call save_frame(self%early(k)%frames(i), tape)
+            call save_frame(self%early(k)%frames(i), archive)
          end do
-         call self%tracks(k)%save(tape)
+         call self%tracks(k)%save(archive)
       end do
-      call tape%put(merge(1, 0, allocated(self%last%r)))
-      if (allocated(self%last%r)) call save_frame(self%last, tape)
+      call archive%put(merge(1, 0, allocated(self%last%r)))
+      if (allocated(self%last%r)) call save_frame(self%last, archive)
    end subroutine save_frames
 
    !> Take them back.
-   subroutine load_frames(self, tape)
+   subroutine load_frames(self, archive)
       class(frame_keeper_t), intent(inout) :: self  !! the keeper, started
-      type(tape_t), intent(inout) :: tape           !! holds them
+      type(archive_t), intent(inout) :: archive           !! holds them
 
       integer :: has_last, i, k
 
       do k = 1, size(self%n)
-         call tape%get(self%n(k))
-         call tape%get(self%n_latest(k))
+         call archive%get(self%n(k))
+         call archive%get(self%n_latest(k))
          do i = 1, self%n(k)
-            call load_frame(self%source, tape, self%frames(i, k))
+            call load_frame(self%source, archive, self%frames(i, k))
          end do
          do i = 1, min(self%n_latest(k), size(self%plan%wanted(k)%times))
-            call load_frame(self%source, tape, self%latest(i, k))
+            call load_frame(self%source, archive, self%latest(i, k))
          end do
          associate (early => self%early(k))
-            call tape%get(early%n)
-            call tape%get(early%stride)
-            call tape%get(early%skipped)
+            call archive%get(early%n)
+            call archive%get(early%stride)
+            call archive%get(early%skipped)
             if (early%n > 0) allocate (early%frames(finer*size(self%plan%wanted(k)%times)))
             do i = 1, early%n
-               call load_frame(self%source, tape, early%frames(i))
+               call load_frame(self%source, archive, early%frames(i))
             end do
          end associate
-         call self%tracks(k)%load(self%source%n_joint, tape)
+         call self%tracks(k)%load(self%source%n_joint, archive)
       end do
-      call tape%get(has_last)
-      if (has_last == 1) call load_frame(self%source, tape, self%last)
+      call archive%get(has_last)
+      if (has_last == 1) call load_frame(self%source, archive, self%last)
    end subroutine load_frames
 
 end module frames

@@ -1,7 +1,7 @@
 !> Where bodies and contacts are at a sample: read from the catalogue, for what draws a mechanism.
 module scene_poses
    use catalogue, only: catalogue_t
-   use catalogue_rooms, only: room_bodies, room_clearances, room_contacts
+   use groups_of_catalogue, only: group_bodies, group_clearances, group_contacts
    use, intrinsic :: ieee_arithmetic, only: ieee_is_nan
    use kinds, only: wp
    use rotations, only: rotation_about, rotation_of_parameters
@@ -37,18 +37,18 @@ contains
       class(pose_reader_t), intent(out) :: self   !! the groups
       type(catalogue_t), intent(in) :: catalogue  !! what can be recorded
 
-      self%n_body = size(catalogue%rooms(room_bodies)%names)
-      self%n_contact = size(catalogue%rooms(room_contacts)%names)
-      self%position = catalogue%find_group(room_bodies, "position")
-      self%turn = catalogue%find_group(room_bodies, "angle")
-      if (self%turn == 0) self%turn = catalogue%find_group(room_bodies, "orientation")
-      self%velocity = catalogue%find_group(room_bodies, "velocity")
-      self%spin = catalogue%find_group(room_bodies, "angular_velocity")
-      self%point = catalogue%find_group(room_contacts, "contact_point")
-      self%of_contact(contact_penetration) = catalogue%find_group(room_contacts, "penetration")
-      self%of_contact(contact_force) = catalogue%find_group(room_contacts, "normal_force")
-      self%of_contact(contact_state) = catalogue%find_group(room_contacts, "state")
-      self%joint_force = catalogue%find_group(room_clearances, "force")
+      self%n_body = size(catalogue%rooms(group_bodies)%names)
+      self%n_contact = size(catalogue%rooms(group_contacts)%names)
+      self%position = catalogue%find_group(group_bodies, "position")
+      self%turn = catalogue%find_group(group_bodies, "angle")
+      if (self%turn == 0) self%turn = catalogue%find_group(group_bodies, "orientation")
+      self%velocity = catalogue%find_group(group_bodies, "velocity")
+      self%spin = catalogue%find_group(group_bodies, "angular_velocity")
+      self%point = catalogue%find_group(group_contacts, "contact_point")
+      self%of_contact(contact_penetration) = catalogue%find_group(group_contacts, "penetration")
+      self%of_contact(contact_force) = catalogue%find_group(group_contacts, "normal_force")
+      self%of_contact(contact_state) = catalogue%find_group(group_contacts, "state")
+      self%joint_force = catalogue%find_group(group_clearances, "force")
    end subroutine bind
 
    !> Whether a group is read.

@@ -4,7 +4,7 @@
 !> stays.
 module tracks
    use kinds, only: wp
-   use tape, only: tape_t
+   use archive, only: archive_t
    implicit none (type, external)
    private
    public :: track_t
@@ -38,7 +38,7 @@ contains
       real(wp), intent(in) :: f(:)            !! (joints) magnitudes of forces [N]
       real(wp), intent(in) :: since           !! rows before it are of no use [s]
 
-      if (.not. allocated(self%t)) call make_room(size(f), self)
+      if (.not. allocated(self%t)) call make_storage(size(f), self)
       if (self%n > 0 .and. self%skipped < self%stride - 1) then
          self%skipped = self%skipped + 1
          self%f(:, self%n) = max(self%f(:, self%n), f)
@@ -57,12 +57,12 @@ contains
    end subroutine add
 
    !> Room for a path.
-   subroutine make_room(n_joint, track)
+   subroutine make_storage(n_joint, track)
       integer, intent(in) :: n_joint          !! joints with clearance
       type(track_t), intent(inout) :: track   !! the path
 
       allocate (track%t(longest), track%x(3, longest), track%e(3, n_joint, longest), track%f(n_joint, longest))
-   end subroutine make_room
+   end subroutine make_storage
 
    !> Two rows become one.
    subroutine thin(track)
@@ -99,37 +99,37 @@ contains
    end subroutine drop
 
    !> Write the path so far.
-   subroutine save_track(self, tape)
+   subroutine save_track(self, archive)
       class(track_t), intent(in) :: self   !! the path
-      type(tape_t), intent(inout) :: tape  !! receives it
+      type(archive_t), intent(inout) :: archive  !! receives it
 
       integer :: i
 
-      call tape%put([self%n, self%skipped, self%stride])
+      call archive%put([self%n, self%skipped, self%stride])
       do i = 1, self%n
-         call tape%put([self%t(i), self%x(:, i), reshape(self%e(:, :, i), [size(self%e(:, :, i))]), self%f(:, i)])
+         call archive%put([self%t(i), self%x(:, i), reshape(self%e(:, :, i), [size(self%e(:, :, i))]), self%f(:, i)])
       end do
    end subroutine save_track
 
    !> Take it back.
-   subroutine load_track(self, n_joint, tape)
+   subroutine load_track(self, n_joint, archive)
       class(track_t), intent(inout) :: self   !! the path
       integer, intent(in) :: n_joint          !! joints with clearance
-      type(tape_t), intent(inout) :: tape     !! holds it
+      type(archive_t), intent(inout) :: archive     !! holds it
 
       integer :: i, k
 
-      call tape%get(self%n)
-      call tape%get(self%skipped)
-      call tape%get(self%stride)
-      if (self%n > 0 .and. .not. allocated(self%t)) call make_room(n_joint, self)
+      call archive%get(self%n)
+      call archive%get(self%skipped)
+      call archive%get(self%stride)
+      if (self%n > 0 .and. .not. allocated(self%t)) call make_storage(n_joint, self)
       do i = 1, self%n
-         call tape%get(self%t(i))
-         call tape%get(self%x(:, i))
+         call archive%get(self%t(i))
+         call archive%get(self%x(:, i))
          do k = 1, n_joint
-            call tape%get(self%e(:, k, i))
+            call archive%get(self%e(:, k, i))
          end do
-         call tape%get(self%f(:, i))
+         call archive%get(self%f(:, i))
       end do
    end subroutine load_track
 

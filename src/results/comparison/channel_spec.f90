@@ -14,7 +14,7 @@ module channel_spec
    use kinds, only: wp
    use numbers, only: number_length, read_number
    use rotations, only: rotation_of_sequence
-   use text, only: append_text, piece, text_t
+   use text, only: append_text, segment, text_t
    use units, only: parse_unit, read_quantity, unit_t
    implicit none (type, external)
    private
@@ -118,7 +118,7 @@ contains
       character(:), allocatable :: bare     !! what is between them
 
       bare = word
-      if (is_quoted(word) .and. len(word) > 1) bare = piece(word, 2, len(word) - 1)
+      if (is_quoted(word) .and. len(word) > 1) bare = segment(word, 2, len(word) - 1)
    end function without_quotes
 
    !> Take a key and its value.
@@ -215,7 +215,7 @@ contains
             at = index(rest, ",")
             if (.not. is_good .or. at < 2) exit
             call read_with_unit(rest(:at - 1), angles(k), is_good)
-            rest = piece(rest, at + 1, len(rest))
+            rest = segment(rest, at + 1, len(rest))
          end do
          is_good = is_good .and. k == 4
       end if

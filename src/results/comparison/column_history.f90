@@ -10,7 +10,7 @@ module column_history
    use name_table, only: name_table_t
    use series, only: append_series, enter_names, history_t, impact_t, series_t
    use spelling, only: nearest_word
-   use text, only: append_text, piece, starts_with, text_t, to_text
+   use text, only: append_text, segment, starts_with, text_t, to_text
    use units, only: parse_unit, to_si, unit_t
    implicit none (type, external)
    private
@@ -71,7 +71,7 @@ contains
       !> Take the columns whose names are channels.
       subroutine take_names()
          base = path(index(path, "/", back=.true.) + 1:)
-         base = piece(base, 1, index(base//".", ".") - 1)
+         base = segment(base, 1, index(base//".", ".") - 1)
          do k = 1, size(like%list)
             spec = spec_t()
             spec%channel = like%list(k)%name
@@ -101,7 +101,7 @@ contains
    end subroutine history_of_columns
 
    !> Twice as much room for series.
-   subroutine make_room(list)
+   subroutine make_storage(list)
       type(series_t), allocatable, intent(inout) :: list(:)   !! grown
 
       type(series_t), allocatable :: grown(:), larger(:)
@@ -110,7 +110,7 @@ contains
       call append_series(grown, list, spread(.true., 1, size(list)))
       call append_series(grown, larger, spread(.true., 1, size(larger)))
       call move_alloc(grown, list)
-   end subroutine make_room
+   end subroutine make_storage
 
    !> A column in SI.
    subroutine take_column(table, spec, word, si, x, error)
@@ -219,7 +219,7 @@ contains
          if (k > 0) cycle      ! the first that names it
          n_more = n_more + 1
          new(c)%x = x(:, c)
-         if (n_more > size(history%list)) call make_room(history%list)
+         if (n_more > size(history%list)) call make_storage(history%list)
          history%list(n_more) = new(c)
          if (index(new(c)%name, ".normal_force") > 0) call add_impacts(new(c), history)
       end do

@@ -18,7 +18,7 @@ module comparison
    use kinds, only: wp
    use name_table, only: name_table_t
    use series, only: enter_names, history_t, impact_t, series_t
-   use series_at_instants, only: smooth_at, state_at, unwind
+   use series_at_output_times, only: smooth_at, state_at, unwind
    use text, only: starts_with, text_t, to_text
    use text_list, only: text_list_t
    implicit none (type, external)
@@ -153,16 +153,16 @@ contains
       real(wp) :: noise(size(run%list))          !! (channels) [any]
 
       type(text_t) :: units(size(run%list))
-      real(wp) :: greatest(size(run%list))
+      real(wp) :: maximum(size(run%list))
       integer :: k
 
       do k = 1, size(run%list)
          units(k)%s = run%list(k)%unit
-         greatest(k) = maxval(abs(run%list(k)%x), mask=ieee_is_finite(run%list(k)%x))
-         if (allocated(run%list(k)%extreme)) greatest(k) = max(greatest(k), maxval(abs(run%list(k)%extreme)))
-         greatest(k) = max(greatest(k), 0.0_wp)
+         maximum(k) = maxval(abs(run%list(k)%x), mask=ieee_is_finite(run%list(k)%x))
+         if (allocated(run%list(k)%extreme)) maximum(k) = max(maximum(k), maxval(abs(run%list(k)%extreme)))
+         maximum(k) = max(maximum(k), 0.0_wp)
       end do
-      noise = noise_of_channels(units, greatest, duration)
+      noise = noise_of_channels(units, maximum, duration)
    end function noise_of
 
    !> The greatest magnitude of a channel in the time of both: of all rows, those at contacts too, and of the extremes between them.
@@ -242,7 +242,7 @@ contains
          if (ieee_is_finite(d%peak(1))) d%allowed = max(d%allowed, relative*d%peak(1))
          d%is_different = d%n == 0 .and. sum(d%only) + d%unsettled > 0
          if (d%n == 0) return
-         d%is_different = any(d%only > 0) .or. d%greatest > d%allowed
+         d%is_different = any(d%only > 0) .or. d%maximum > d%allowed
          if (.not. by_statistics) return
          d%is_different = (abs(d%mean%a%value - d%mean%b%value) > d%allowed .and. .not. is_chance(d%mean%significance)) .or. &
                           (abs(d%square%a%value - d%square%b%value) > d%allowed*maxval(d%peak) .and. &

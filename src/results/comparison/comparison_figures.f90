@@ -31,7 +31,7 @@ contains
 
       allocate (names(0))
       do k = 1, size(found%list)
-         worst(k) = found%list(k)%greatest/max(found%list(k)%allowed, tiny(1.0_wp)*1.0e10_wp)
+         worst(k) = found%list(k)%maximum/max(found%list(k)%allowed, tiny(1.0_wp)*1.0e10_wp)
          if (.not. ieee_is_finite(worst(k)) .or. any(found%list(k)%only > 0)) worst(k) = huge(1.0_wp)
       end do
       do i = 1, min(most_figures, size(found%list))

@@ -58,9 +58,9 @@ contains
       do k = 1, size(found%list)
          associate (d => found%list(k))
             call lines%line(trim(padded(d%name//" ["//d%unit//"]", width)//cell(shown(d%rms, d%noise))// &
-                            cell(shown(d%greatest, d%noise))//cell(d%at)//cell(d%allowed)//cell(shown(d%peak(1), d%noise))// &
+                            cell(shown(d%maximum, d%noise))//cell(d%at)//cell(d%allowed)//cell(shown(d%peak(1), d%noise))// &
                             cell(shown(d%peak(2), d%noise))//cell(d%lag)//short(d%magnitude)//short(d%phase)// &
-                            trim(merge("differs  ", "         ", d%is_different))//of_instants(d)//of_interpolation(d)))
+                            trim(merge("differs  ", "         ", d%is_different))//of_output_times(d)//of_interpolation(d)))
          end associate
       end do
       if (found%by_statistics) call add_statistics(lines, found, width)
@@ -107,7 +107,7 @@ contains
    end subroutine add_statistics
 
    !> At how many instants both were compared, where that is not all, and why.
-   function of_instants(difference) result(words)
+   function of_output_times(difference) result(words)
       type(difference_t), intent(in) :: difference   !! of a channel
       character(:), allocatable :: words             !! blank where all were compared
 
@@ -119,7 +119,7 @@ contains
          if (d%unsettled > 0) words = words//", A changes between its rows at "//to_text(d%unsettled)
          if (words /= "") words = "  ("//counted(d%n, "time", "times")//" compared"//words//")"
       end associate
-   end function of_instants
+   end function of_output_times
 
    !> What the interpolation may have added, where that matters.
    function of_interpolation(difference) result(words)
@@ -128,7 +128,7 @@ contains
 
       words = ""
       if (difference%n == 0) return
-      if (difference%interpolation > 0.1_wp*max(difference%allowed, difference%greatest)) then
+      if (difference%interpolation > 0.1_wp*max(difference%allowed, difference%maximum)) then
          words = "  (interpolation up to "//real_text(difference%interpolation, 2)//")"
       end if
    end function of_interpolation
@@ -189,7 +189,7 @@ contains
                       "square_significance,only_a,only_b,neither,unsettled")
       do k = 1, size(found%list)
          associate (d => found%list(k))
-            call lines%line(d%name//","//d%unit//","//to_text(d%n)//joined([d%rms, d%greatest, d%at, d%allowed])//","// &
+            call lines%line(d%name//","//d%unit//","//to_text(d%n)//joined([d%rms, d%maximum, d%at, d%allowed])//","// &
                             to_text(merge(1, 0, d%is_different))//joined([d%interpolation, d%peak(1), d%peak_at(1), d%peak(2), &
                             d%peak_at(2), d%lag, d%magnitude, d%phase, d%mean%a%value, d%mean%a%half, d%mean%b%value, &
                             d%mean%b%half, d%mean%significance, d%square%a%value, d%square%b%value, d%square%significance])// &
@@ -242,7 +242,7 @@ contains
             call one%put_integer("unsettled", int(d%unsettled, i8))
             call one%put_logical("differs", d%is_different)
             call one%put_real("rms", d%rms)
-            call one%put_real("greatest", d%greatest)
+            call one%put_real("greatest", d%maximum)
             call one%put_real("at", d%at)
             call one%put_real("allowed", d%allowed)
             call one%put_real("interpolation", d%interpolation)

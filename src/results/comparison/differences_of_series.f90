@@ -1,6 +1,6 @@
 !> How far two time histories of the same number differ.
 !>
-!> Both are at the same instants (`series_at_instants`). Compared are those at which both have a number; at how many only one of
+!> Both are at the same instants (`series_at_output_times`). Compared are those at which both have a number; at how many only one of
 !> them has one is told. With d = b - a:
 !>
 !>     rms        sqrt(mean d^2)                     greatest   max |d|, and when
@@ -43,7 +43,7 @@ module differences_of_series
       integer :: neither = 0                      !! instants at which none of them has one
       integer :: unsettled = 0                    !! instants between two rows of A of which one has no number, or another state
       real(wp) :: rms = 0.0_wp                    !! [any]
-      real(wp) :: greatest = 0.0_wp               !! [any]
+      real(wp) :: maximum = 0.0_wp               !! [any]
       real(wp) :: at = 0.0_wp                     !! when [s]
       real(wp) :: interpolation = 0.0_wp          !! what the interpolation may have added at most [any]
       real(wp) :: peak(2) = 0.0_wp                !! (2) greatest magnitude in the rows of each; NaN: no number [any]
@@ -90,7 +90,7 @@ contains
       difference%lag = not_a_number()
       if (difference%n == 0) then
          difference%rms = not_a_number()
-         difference%greatest = not_a_number()
+         difference%maximum = not_a_number()
          difference%at = not_a_number()
          difference%magnitude = not_a_number()
          difference%phase = not_a_number()
@@ -99,7 +99,7 @@ contains
       x = pack(a, is_known)
       y = pack(b, is_known)
       difference%rms = sqrt(sum((y - x)**2)/real(difference%n, wp))
-      call find_peak(t, d, difference%greatest, difference%at)
+      call find_peak(t, d, difference%maximum, difference%at)
       if (sum(x**2) > 0.0_wp .and. sum(y**2) > 0.0_wp) then
          difference%magnitude = sqrt(sum(y**2)/sum(x**2)) - 1.0_wp
          difference%phase = acos(max(-1.0_wp, min(1.0_wp, sum(x*y)/(sqrt(sum(x**2))*sqrt(sum(y**2))))))/pi
@@ -157,7 +157,7 @@ contains
       real(wp), intent(in) :: b(:)    !! (n) the second [any]
       real(wp) :: lag                 !! NaN: a does not change, or the best shift is the greatest one [s]
 
-      real(wp) :: grid(n_grid), least, slope(n_grid), square, step, x(n_grid), y(n_grid)
+      real(wp) :: grid(n_grid), minimum, slope(n_grid), square, step, x(n_grid), y(n_grid)
       integer :: best, first, k, last
 
       lag = not_a_number()
@@ -168,12 +168,12 @@ contains
       x = on_grid(t, a, grid)
       y = on_grid(t, b, grid)
       if (maxval(x) - minval(x) <= 1.0e-12_wp*maxval(abs(x)) .or. maxval(y) - minval(y) <= 1.0e-12_wp*maxval(abs(y))) return
-      least = huge(least)
+      minimum = huge(minimum)
       best = 0
       do k = -most_lag, most_lag
          square = sum((y(1 + most_lag:n_grid - most_lag) - x(1 + most_lag - k:n_grid - most_lag - k))**2)
-         if (square < least .or. (.not. square > least .and. abs(k) < abs(best))) then
-            least = square
+         if (square < minimum .or. (.not. square > minimum .and. abs(k) < abs(best))) then
+            minimum = square
             best = k
          end if
       end do

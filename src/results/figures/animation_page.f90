@@ -5,7 +5,7 @@
 module animation_page
    use animation_script, only: page_head, page_script
    use catalogue, only: catalogue_t
-   use catalogue_rooms, only: room_clearances
+   use groups_of_catalogue, only: group_clearances
    use display_units, only: choose_unit, display_unit_t
    use drawing, only: drawing_t, in_files
    use frames, only: frame_t
@@ -102,7 +102,8 @@ contains
          associate (mark => drawing%marks(k))
             call page%line("{k:"//to_text(mark%kind)//",b:["//to_text(mark%body(1))//","//to_text(mark%body(2))//"],s:["// &
                            triple(mark%s(:, 1))//","//triple(mark%s(:, 2))//"],a:"//triple(mark%axis)//",w:"// &
-                           pair(symbols%ways(:, k))//",h:"//pair(symbols%walls(:, k))//",l:"//to_text(symbols%loose(k))//",g:"// &
+                           pair(symbols%ways(:, k))//",h:"//pair(symbols%walls(:, &
+                                k))//",l:"//to_text(symbols%clearance_joints(k))//",g:"// &
                            pair(mark%gaps)//",n:"//number(mark%half_length)//",aj:"//triple(mark%axis_j)//",q:"// &
                            to_text(symbols%load(k))//",c:"//number(symbols%coils(k))//",z:"//to_text(symbols%bends(k))//"},")
          end associate
@@ -150,7 +151,7 @@ contains
       real(wp) :: clearance
       integer :: j, k
 
-      associate (room => catalogue%rooms(room_clearances))
+      associate (room => catalogue%rooms(group_clearances))
          call page%add("loose:[")
          do k = 1, size(room%names)
             clearance = 0.0_wp

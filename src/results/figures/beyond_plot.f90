@@ -26,7 +26,7 @@ contains
 
       has_beyond = study%reference%statistics%is_there
       if (has_beyond) has_beyond = any(ieee_is_finite(study%reference%statistics%list%half))
-      if (has_beyond) has_beyond = any([(any(study%ladders(k)%rungs%statistics%is_own), k=1, size(study%ladders))])
+      if (has_beyond) has_beyond = any([(any(study%tol_sweeps(k)%tol_runs%statistics%is_own), k=1, size(study%tol_sweeps))])
    end function has_beyond
 
    !> The numbers: a block for each setting, two blank lines between them.
@@ -40,13 +40,13 @@ contains
       call lines%line("# tolerance or step [1 or s], 1: diverged from the reference, then value and half-width of each: "// &
          "contacts per time,")
       call lines%line("# impact speed, peak force, velocities, reactions; SI")
-      do k = 1, size(study%ladders)
-         call lines%line("# "//study%ladders(k)%name)
-         do i = 1, size(study%ladders(k)%rungs)
-            associate (rung => study%ladders(k)%rungs(i))
-               call lines%add(number(rung%asked)//" "//to_text(merge(1, 0, rung%statistics%is_own)))
+      do k = 1, size(study%tol_sweeps)
+         call lines%line("# "//study%tol_sweeps(k)%name)
+         do i = 1, size(study%tol_sweeps(k)%tol_runs)
+            associate (tol_run => study%tol_sweeps(k)%tol_runs(i))
+               call lines%add(number(tol_run%asked)//" "//to_text(merge(1, 0, tol_run%statistics%is_own)))
                do s = 1, n_statistic
-                  call lines%add(" "//number(rung%statistics%list(s)%value)//" "//number(rung%statistics%list(s)%half))
+                  call lines%add(" "//number(tol_run%statistics%list(s)%value)//" "//number(tol_run%statistics%list(s)%half))
                end do
                call lines%line("")
             end associate
@@ -65,16 +65,16 @@ contains
 
       type(buffer_t) :: lines
       type(display_unit_t) :: time
-      real(wp) :: least, most
+      real(wp) :: minimum, most
       integer :: k, rows, s
 
       rows = (count(ieee_is_finite(study%reference%statistics%list%half)) + 2)/2
-      least = huge(1.0_wp)
+      minimum = huge(1.0_wp)
       most = 0.0_wp
-      do k = 1, size(study%ladders)
-         associate (rungs => study%ladders(k)%rungs)
-            least = min(least, minval(rungs%asked, mask=rungs%statistics%is_own))
-            most = max(most, maxval(rungs%asked, mask=rungs%statistics%is_own))
+      do k = 1, size(study%tol_sweeps)
+         associate (tol_runs => study%tol_sweeps(k)%tol_runs)
+            minimum = min(minimum, minval(tol_runs%asked, mask=tol_runs%statistics%is_own))
+            most = max(most, maxval(tol_runs%asked, mask=tol_runs%statistics%is_own))
          end associate
       end do
       time = choose_unit("s", study%end)
@@ -83,7 +83,7 @@ contains
                       real_text(study%reference%statistics%from*time%factor, 4)//" to "// &
                       real_text(study%end*time%factor, 4)//" "//time%symbol)//" font ',17'")
       call lines%line("set logscale x; set format x '%.0e'; set xtics 100; set datafile missing 'NaN'")
-      call lines%line("set xrange ["//number(0.5_wp*least)//":"//number(2.0_wp*most)//"]")
+      call lines%line("set xrange ["//number(0.5_wp*minimum)//":"//number(2.0_wp*most)//"]")
       call lines%line("set xlabel 'tolerance [1], or step [s]'")
       call lines%line("set key noautotitle; unset key")
       do s = 1, n_statistic
@@ -117,9 +117,9 @@ contains
          if (s == statistic_rate) call lines%line("set yrange [0:*]")
          call lines%line("plot "//number(of_reference%value*unit%factor)//" with lines linewidth 1.5 linecolor rgb '#606060', \")
       end associate
-      do k = 1, size(study%ladders)
+      do k = 1, size(study%tol_sweeps)
          call lines%line("     '"//data_name//"' index "//to_text(k - 1)//" using 1:($2 == 1 ? $"//to_text(2*s + 1)// &
-                         "*f : NaN):($"//to_text(2*s + 2)//"*f) "//drawn(k)//trim(merge(", \", "   ", k < size(study%ladders))))
+                         "*f : NaN):($"//to_text(2*s + 2)//"*f) "//drawn(k)//trim(merge(", \", "   ", k < size(study%tol_sweeps))))
       end do
       call lines%line("set yrange [*:*]")
    end subroutine add_panel
@@ -135,10 +135,10 @@ contains
       call lines%line("set key inside center center vertical Left reverse samplen 2 spacing 1.3")
       call lines%line("unset logscale; set xrange [0:1]; set yrange [0:1]")
       call lines%line("plot NaN with lines linewidth 1.5 linecolor rgb '#606060' title 'reference, 95 % interval grey', \")
-      do k = 1, size(study%ladders)
+      do k = 1, size(study%tol_sweeps)
          call lines%line("     '+' using (0.5):(-1):(0.1) "//drawn(k)//" title "// &
-                         quoted(study%ladders(k)%name//trim(merge(" (steps)", "        ", study%ladders(k)%is_fixed)))// &
-                         trim(merge(", \", "   ", k < size(study%ladders))))
+                         quoted(study%tol_sweeps(k)%name//trim(merge(" (steps)", "        ", study%tol_sweeps(k)%is_fixed)))// &
+                         trim(merge(", \", "   ", k < size(study%tol_sweeps))))
       end do
    end subroutine add_legend
 

@@ -16,7 +16,7 @@ module envelope_data
    public :: count_turns, envelope_t, make_envelope
 
    integer, parameter :: n_column = 290               !! columns of an envelope, three pixels each
-   real(wp), parameter :: least_swing = 0.1_wp        !! between two turns that count, of the range of the curve [1]
+   real(wp), parameter :: min_contact_rate = 0.1_wp        !! between two turns that count, of the range of the curve [1]
 
    !> The ranges of some curves of a figure.
    type :: envelope_t
@@ -122,7 +122,7 @@ contains
       type(number_rows_t) :: rows
       type(text_t), allocatable :: labels(:)
       real(wp), allocatable :: row(:)
-      real(wp) :: before(2), extreme, length(size(table, 2)), swing
+      real(wp) :: before(2), extreme, length(size(table, 2)), contact_rate
       integer :: k, n, way
       logical :: is_open
 
@@ -136,7 +136,7 @@ contains
       way = 0
       before = not_a_number()
       extreme = 0.0_wp
-      swing = least_swing*(curve%y_range(2) - curve%y_range(1))
+      contact_rate = min_contact_rate*(curve%y_range(2) - curve%y_range(1))
       call open_columns(path, rows, labels, is_open)
       if (.not. is_open) return
       allocate (row(size(labels)))
@@ -171,13 +171,13 @@ contains
          real(wp), intent(in) :: y  !! the ordinate, SI [any]
 
          if (way == 0) then
-            if (abs(y - extreme) > swing) then
+            if (abs(y - extreme) > contact_rate) then
                way = nint(sign(1.0_wp, y - extreme))
                extreme = y
             end if
          else if ((y - extreme)*way > 0.0_wp) then
             extreme = y
-         else if (abs(y - extreme) > swing) then
+         else if (abs(y - extreme) > contact_rate) then
             n_turn = n_turn + 1
             way = -way
             extreme = y

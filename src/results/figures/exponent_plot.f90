@@ -9,7 +9,7 @@ module exponent_plot
    use plot_text, only: quoted
    use precision_rows, only: number
    use script_parts, only: colours, preamble
-   use text, only: piece, real_text, to_text
+   use text, only: segment, real_text, to_text
    use text_buffer, only: buffer_t
    implicit none (type, external)
    private
@@ -127,7 +127,7 @@ contains
                    number(real(decade, wp) + log10(real(between(k), wp)))
          end do
       end do
-      call lines%line("set ytics ("//piece(tics, 3)//")")
+      call lines%line("set ytics ("//segment(tics, 3)//")")
    end subroutine add_tics
 
    !> Marks of the times up to which there are digits: a line each, and above the panel their numbers, beside one another.
@@ -164,7 +164,7 @@ contains
       call lines%line("set label 'digits' at first "//number((last - 0.6_wp*apart*wide)*time%factor)// &
                       ", graph 1 right offset 0,0.6 font ',12' textcolor rgb '#606060'")
       call lines%line("set x2range [0:"//number(wide*time%factor)//"]")
-      call lines%line("set x2tics ("//piece(tics, 3)//") scale 0 offset 0,-0.4 font ',12' textcolor rgb '#606060'")
+      call lines%line("set x2tics ("//segment(tics, 3)//") scale 0 offset 0,-0.4 font ',12' textcolor rgb '#606060'")
    end subroutine add_digits
 
    !> The interval of the exponent, and the range around it, which holds the curves but for what is far away after the transient.

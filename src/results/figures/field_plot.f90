@@ -90,14 +90,14 @@ contains
 
       type(buffer_t) :: lines
       type(display_unit_t) :: degrees, h, p, y
-      real(wp) :: greatest, least, size_of_p
+      real(wp) :: maximum, minimum, size_of_p
       integer :: peak(2), thin(2)
 
       peak = maxloc(field%pressure)
       thin = minloc(field%gap)
-      greatest = maxval(field%pressure)
-      least = minval(field%pressure)
-      size_of_p = max(greatest, -least, tiny(1.0_wp))
+      maximum = maxval(field%pressure)
+      minimum = minval(field%pressure)
+      size_of_p = max(maximum, -minimum, tiny(1.0_wp))
       p = choose_unit("Pa", size_of_p)
       y = choose_unit("m", field%y(size(field%y)))
       h = choose_unit("m", maxval(field%gap))
@@ -135,30 +135,30 @@ contains
       type(display_unit_t), intent(in) :: p, y  !! scales
 
       character(:), allocatable :: columns, high, high_y, low, low_y
-      real(wp) :: greatest, least
+      real(wp) :: maximum, minimum
       integer :: k
 
-      greatest = max(maxval(field%pressure), 0.0_wp)*p%factor
-      least = min(minval(field%pressure), 0.0_wp)*p%factor
-      if (greatest < -nothing*least) greatest = 0.0_wp
-      if (-least < nothing*greatest) least = 0.0_wp
-      high = real_text(greatest, 6)
-      low = real_text(least, 6)
+      maximum = max(maxval(field%pressure), 0.0_wp)*p%factor
+      minimum = min(minval(field%pressure), 0.0_wp)*p%factor
+      if (maximum < -nothing*minimum) maximum = 0.0_wp
+      if (-minimum < nothing*maximum) minimum = 0.0_wp
+      high = real_text(maximum, 6)
+      low = real_text(minimum, 6)
       columns = column(1, display_unit_t(factor=1.0_wp/degree))//":"//column(2, y)//":"//column(3, p)
       call lines%line("set view map; set pm3d corners2color mean interpolate 2,2")
-      if (least < 0.0_wp .and. greatest > 0.0_wp) then
+      if (minimum < 0.0_wp .and. maximum > 0.0_wp) then
          call lines%line("set palette defined ("//low//" '#b2182b', 0 '#ffffff', "//high//" '#08306b')")
-      else if (least < 0.0_wp) then
+      else if (minimum < 0.0_wp) then
          call lines%line("set palette defined (0 '#b2182b', 1 '#ffffff')")
       else
          call lines%line("set palette defined (0 '#ffffff', 0.01 '#dbe9f6', 0.4 '#6aaed6', 1 '#08306b')")
       end if
-      if (greatest > least) then
+      if (maximum > minimum) then
          call lines%line("set cbrange ["//low//":"//high//"]")
          call lines%line("set contour base")
          call lines%add("set cntrparam levels discrete ")
          do k = 1, contours
-            call lines%add(real_text(least + (greatest - least)*k/(contours + 1), 6))
+            call lines%add(real_text(minimum + (maximum - minimum)*k/(contours + 1), 6))
             if (k < contours) call lines%add(", ")
          end do
          call lines%line("")
@@ -173,7 +173,7 @@ contains
       call lines%line("set ytics 0.25*("//high_y//"-("//low_y//"))")
       call lines%line("set ylabel "//quoted("axial position ["//y%symbol//"]"))
       call lines%add("splot '"//name//".dat' index 0 using "//columns//" with pm3d")
-      if (greatest > least) call lines%add(", '' index 0 using "//columns//" with lines linewidth 0.8 nosurface")
+      if (maximum > minimum) call lines%add(", '' index 0 using "//columns//" with lines linewidth 0.8 nosurface")
       call lines%line("")
       call lines%line("unset contour")
    end subroutine map_lines

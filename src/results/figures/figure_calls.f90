@@ -1,6 +1,6 @@
 !> Figures that are asked for like a call: a histogram, two scalars against each other, a picture of the mechanism.
 submodule(figure_words) figure_calls
-   use catalogue_rooms, only: room_contacts
+   use groups_of_catalogue, only: group_contacts
    use channels, only: list_scalars, match_word, selection_t
    use film_words, only: film_hint, take_film
    use motion_words, only: motion_hint, take_motion
@@ -13,12 +13,12 @@ contains
    !> A figure with arguments.
    module procedure new_call
       type(text_t), allocatable :: arguments(:)
-      integer :: k, least, most
+      integer :: k, minimum, most
 
       bad = ""
       allocate (figure%scalars(0), figure%numbers(0))
-      least = merge(2, 1, figure%kind == figure_portrait .or. figure%kind == figure_section)
-      most = merge(most_panels, least, figure%kind == figure_statistics)
+      minimum = merge(2, 1, figure%kind == figure_portrait .or. figure%kind == figure_section)
+      most = merge(most_panels, minimum, figure%kind == figure_statistics)
       if (figure%kind == figure_film) most = 2
       arguments = arguments_of(word(len_trim(call_words(figure%kind)) + 1:))
       if (draws_mechanism(figure) .and. word(len(word):) == ")" .and. &
@@ -27,9 +27,9 @@ contains
          if (len(message) > 0) hint = motion_hint
          return
       end if
-      if (size(arguments) < least .or. size(arguments) > most .or. word(len(word):) /= ")") then
+      if (size(arguments) < minimum .or. size(arguments) > most .or. word(len(word):) /= ")") then
          message = "cannot read '"//word//"'"
-         hint = "write "//trim(call_words(figure%kind))//trim(merge("x_channel,y_channel", "channel            ", least == 2))// &
+         hint = "write "//trim(call_words(figure%kind))//trim(merge("x_channel,y_channel", "channel            ", minimum == 2))// &
                 ")"
          if (figure%kind == figure_statistics) hint = "write statistics(NUMBER,NUMBER) with one to four numbers"
          if (figure%kind == figure_film) hint = film_hint
@@ -105,9 +105,9 @@ contains
       integer :: dot, k
 
       dot = index(word, ".")
-      do k = 1, size(catalogue%rooms(room_contacts)%names)
+      do k = 1, size(catalogue%rooms(group_contacts)%names)
          if (dot == 0) exit
-         if (catalogue%rooms(room_contacts)%names(k)%s /= word(1:dot - 1)) cycle
+         if (catalogue%rooms(group_contacts)%names(k)%s /= word(1:dot - 1)) cycle
          if (index(" "//histogram_words//" ", " "//word(dot + 1:)//" ") == 0) cycle
          call append_text(figure%numbers, word(1:dot - 1))
          call append_text(figure%numbers, word(dot + 1:))

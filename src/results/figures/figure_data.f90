@@ -8,7 +8,7 @@ module figure_data
    use kinds, only: wp
    use number_rows, only: number_rows_t
    use posix, only: path_exists
-   use text, only: piece, split_blank, text_t
+   use text, only: segment, split_blank, text_t
    use text_table, only: column_label
    use text_writer, only: file_of_item
    implicit none (type, external)
@@ -129,7 +129,7 @@ contains
       call read_line(unit, line, status)
       close (unit)
       if (status /= 0) return
-      labels = split_blank(piece(line, 2))
+      labels = split_blank(segment(line, 2))
       is_open = rows%open(path)
    end subroutine open_columns
 

@@ -7,7 +7,7 @@ module figure_phrase
    use figure_list, only: panels_word
    use kinds, only: wp
    use numbers, only: number_length, read_number
-   use text, only: append_text, piece, starts_with, text_t
+   use text, only: append_text, segment, starts_with, text_t
    use text_list, only: text_list_t
    use units, only: parse_unit, unit_t
    implicit none (type, external)
@@ -261,7 +261,7 @@ contains
          if (at <= size(cells)) bad = cells(at)%s
          return
       end if
-      if (n < len(cells(at)%s)) unit = piece(cells(at)%s, n + 1)
+      if (n < len(cells(at)%s)) unit = segment(cells(at)%s, n + 1)
       at = at + 1
       if (len(unit) > 0 .or. at > size(cells)) return
       if (is(cells, at, "in") .or. is(cells, at, "to")) return

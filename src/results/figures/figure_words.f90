@@ -6,11 +6,11 @@
 !> the second over the first. With a section [statistics]: `section(X,Y)`, the same two once per period; `spectrum(X)`;
 !> `histogram(JOINT.impact_speed)` or of `peak_force`. Of a sweep: `bifurcation(X)`, the channel once per period over the
 !> first parameter; `statistics(NUMBER,...)`, up to four numbers with their spread over it. `film(JOINT)`: the unwrapped film at the
-!> end of the run; `film(JOINT,least)` where it is thinnest, `film(JOINT,0.3s)` at a time. The mechanism: `motion_words`.
+!> end of the run; `film(JOINT,minimum)` where it is thinnest, `film(JOINT,0.3s)` at a time. The mechanism: `motion_words`.
 module figure_words
    use, intrinsic :: ieee_arithmetic, only: ieee_is_finite
    use catalogue, only: catalogue_t
-   use catalogue_rooms, only: room_clearances
+   use groups_of_catalogue, only: group_clearances
    use channel_names, only: scalar_t
    use curve_words, only: bind_curves, curves_t
    use figure_phrase, only: phrase_hint, phrase_t, read_phrase
@@ -18,7 +18,7 @@ module figure_words
    use kinds, only: i8, wp
    use motion_words, only: motion_request_t
    use spelling, only: nearest_word
-   use text, only: join, piece, starts_with, text_t, to_text
+   use text, only: join, segment, starts_with, text_t, to_text
    use text_buffer, only: buffer_t
    implicit none (type, external)
    private
@@ -202,7 +202,7 @@ contains
       do i = 1, len(word)
          mark = modulo(factor*mark + iachar(word(i:i)), modulus)
       end do
-      name = piece(name, 1, longest_name - 9)//"."//to_text(mark)
+      name = segment(name, 1, longest_name - 9)//"."//to_text(mark)
    end function file_name
 
    !> Channels over time, or over another channel.
@@ -224,7 +224,7 @@ contains
       end if
       call bind_curves(phrase, catalogue, figure%scalars, figure%curves, message, hint, bad)
       if (starts_with(message, unknown_channel) .and. bad == word) then
-         message = "unknown figure"//piece(message, len(unknown_channel) + 1)
+         message = "unknown figure"//segment(message, len(unknown_channel) + 1)
          call take_nearest_call(word, catalogue, hint)
          hint = hint//"; figures are a channel, JOINT.orbit, portrait(X,Y), section(X,Y), spectrum(X), "// &
                 "histogram(JOINT.impact_speed), bifurcation(X), statistics(NUMBER), film(JOINT), mechanism, strip(n=8), "// &
@@ -251,7 +251,7 @@ contains
          meant = word(:k - 1)//orbit_word
       else
          do k = figure_portrait, figure_animation
-            calls(k)%s = piece(call_words(k), 1, index(call_words(k), "(") - 1)
+            calls(k)%s = segment(call_words(k), 1, index(call_words(k), "(") - 1)
          end do
          nearest = nearest_word(word(:index(word//"(", "(") - 1), calls)
          if (len(nearest) > 0) meant = nearest//word(index(word//"(", "("):)
@@ -276,13 +276,13 @@ contains
 
       figure%kind = figure_orbit
       allocate (figure%scalars(0))
-      group = catalogue%find_group(room_clearances, "eccentricity")
-      associate (names => catalogue%rooms(room_clearances)%names)
+      group = catalogue%find_group(group_clearances, "eccentricity")
+      associate (names => catalogue%rooms(group_clearances)%names)
          do k = 1, size(names)
             if (names(k)%s == joint) figure%joint = k
          end do
          if (figure%joint > 0) then
-            associate (clearance => catalogue%rooms(room_clearances)%radius(figure%joint))
+            associate (clearance => catalogue%rooms(group_clearances)%radius(figure%joint))
                is_round = ieee_is_finite(clearance)
                if (is_round) is_round = clearance > 0.0_wp
             end associate

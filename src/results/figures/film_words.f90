@@ -1,8 +1,8 @@
-!> The words of a figure of a film: `film(JOINT)`, `film(JOINT,end)`, `film(JOINT,least)`, `film(JOINT,0.3s)`.
+!> The words of a figure of a film: `film(JOINT)`, `film(JOINT,end)`, `film(JOINT,minimum)`, `film(JOINT,0.3s)`.
 module film_words
    use catalogue, only: catalogue_t
-   use catalogue_rooms, only: room_clearances
-   use film_fields, only: field_request_t, film_field_t, moment_at, moment_end, moment_least
+   use groups_of_catalogue, only: group_clearances
+   use film_fields, only: field_request_t, film_field_t, moment_at, moment_end, moment_min
    use kind_info, only: dim_time, same_dimension
    use kinds, only: wp
    use numbers, only: number_length
@@ -33,10 +33,10 @@ contains
       integer :: group, k
 
       allocate (with_film(0))
-      group = catalogue%find_group(room_clearances, film_channel)
-      do k = 1, size(catalogue%rooms(room_clearances)%names)
+      group = catalogue%find_group(group_clearances, film_channel)
+      do k = 1, size(catalogue%rooms(group_clearances)%names)
          if (group == 0) exit
-         if (catalogue%item_has(group, k)) call append_text(with_film, catalogue%rooms(room_clearances)%names(k)%s)
+         if (catalogue%item_has(group, k)) call append_text(with_film, catalogue%rooms(group_clearances)%names(k)%s)
       end do
       bad = ""
       request%joint = arguments(1)%s
@@ -67,7 +67,7 @@ contains
 
       n = number_length(word)
       if (word == "end" .or. word == "least") then
-         request%moment = merge(moment_end, moment_least, word == "end")
+         request%moment = merge(moment_end, moment_min, word == "end")
       else if (n == 0 .or. n == len(word)) then
          message = "'"//word//"' is not a time of a film"
          if (n > 0) message = "the time '"//word//"' of a film has no unit"

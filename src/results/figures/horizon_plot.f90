@@ -5,7 +5,7 @@ module horizon_plot
    use, intrinsic :: ieee_arithmetic, only: ieee_is_finite
    use plot_text, only: quoted
    use precision_results, only: precision_t
-   use precision_rows, only: least_error, number
+   use precision_rows, only: min_error, number
    use script_parts, only: colours, preamble
    use text, only: real_text, to_text
    use text_buffer, only: buffer_t
@@ -29,7 +29,7 @@ contains
       do i = 1, size(study%growth%t)
          call lines%add(number(study%growth%t(i)))
          do k = 1, size(study%growth%ratio, 2)
-            call lines%add(" "//number(max(study%growth%ratio(i, k), least_error)))
+            call lines%add(" "//number(max(study%growth%ratio(i, k), min_error)))
          end do
          call lines%line("")
       end do

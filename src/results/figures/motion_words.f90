@@ -7,7 +7,7 @@ module motion_words
    use kind_info, only: dim_time, same_dimension
    use kinds, only: wp
    use numbers, only: number_length
-   use text, only: piece, starts_with, text_t
+   use text, only: segment, starts_with, text_t
    use units, only: parse_unit, read_quantity, unit_t
    implicit none (type, external)
    private
@@ -46,11 +46,11 @@ contains
       if (with_point) request%point = arguments(1)%s
       do k = merge(2, 1, with_point), size(arguments)
          if (starts_with(arguments(k)%s, "n=")) then
-            call take_count(piece(arguments(k)%s, 3), request, message)
+            call take_count(segment(arguments(k)%s, 3), request, message)
          else if (starts_with(arguments(k)%s, "last=")) then
-            call take_window(piece(arguments(k)%s, 6), request, message)
+            call take_window(segment(arguments(k)%s, 6), request, message)
          else if (starts_with(arguments(k)%s, "t=")) then
-            call take_time(piece(arguments(k)%s, 3), request, message)
+            call take_time(segment(arguments(k)%s, 3), request, message)
          else
             call take_time(arguments(k)%s, request, message)
          end if
@@ -85,9 +85,9 @@ contains
       logical :: is_in(2)
 
       n = number_length(word)
-      is_in = [(starts_with(piece(word, n + 1), trim(turns(k))), k=1, 2)]
+      is_in = [(starts_with(segment(word, n + 1), trim(turns(k))), k=1, 2)]
       if (n > 0 .and. any(is_in)) then
-         request%driver = piece(word, n + 1 + len_trim(turns(findloc(is_in, .true., dim=1))))
+         request%driver = segment(word, n + 1 + len_trim(turns(findloc(is_in, .true., dim=1))))
          read (word(:n), *, iostat=status) request%last
          if (status /= 0 .or. len(request%driver) == 0) message = "'last="//word//"' is not a number of turns of a driver"
       else

@@ -1,7 +1,7 @@
 !> The gnuplot script of the path of a journal within its clearance.
 module orbit_script
    use catalogue, only: catalogue_t
-   use catalogue_rooms, only: room_clearances
+   use groups_of_catalogue, only: group_clearances
    use display_units, only: choose_unit
    use figure_data, only: curve_t
    use figure_words, only: figure_t
@@ -36,8 +36,8 @@ contains
       integer :: h, v
 
       call choose_plane(curves, h, v)
-      joint = catalogue%rooms(room_clearances)%names(figure%joint)%s
-      radius = catalogue%rooms(room_clearances)%radius(figure%joint)
+      joint = catalogue%rooms(group_clearances)%names(figure%joint)%s
+      radius = catalogue%rooms(group_clearances)%radius(figure%joint)
       largest = max(largest_y(curves(h:h)), largest_y(curves(v:v)), radius)
       axes%x = choose_unit("m", largest)
       axes%y = axes%x
@@ -88,14 +88,14 @@ contains
       integer, intent(out) :: h               !! the one drawn along x
       integer, intent(out) :: v               !! the one drawn along y
 
-      integer :: least
+      integer :: minimum
 
       h = 1
       v = 2
       if (size(curves) < 3) return
-      least = minloc(curves%y_range(2) - curves%y_range(1), dim=1, back=.true.)
-      if (least == 1) h = 2
-      if (least < 3) v = 3
+      minimum = minloc(curves%y_range(2) - curves%y_range(1), dim=1, back=.true.)
+      if (minimum == 1) h = 2
+      if (minimum < 3) v = 3
    end subroutine choose_plane
 
    !> Name of an axis of an orbit.

@@ -89,24 +89,24 @@ contains
       integer, intent(out) :: n          !! its length in bytes, 0 if it is none
       integer, intent(out) :: code       !! its number
 
-      integer :: i, least
+      integer :: i, minimum
 
       code = ichar(bytes(1:1))
       n = 1
-      least = 0
+      minimum = 0
       if (code < 128) return
       n = 0
       if (code >= 194 .and. code < 224) then
          n = 2
-         least = 128
+         minimum = 128
          code = code - 192
       else if (code >= 224 .and. code < 240) then
          n = 3
-         least = 2048
+         minimum = 2048
          code = code - 224
       else if (code >= 240 .and. code < 245) then
          n = 4
-         least = 65536
+         minimum = 65536
          code = code - 240
       end if
       if (n > len(bytes)) n = 0
@@ -117,7 +117,7 @@ contains
          end if
          code = 64*code + iand(ichar(bytes(i:i)), 63)
       end do
-      if (code < least .or. code > 1114111 .or. (code >= 55296 .and. code < 57344)) n = 0
+      if (code < minimum .or. code > 1114111 .or. (code >= 55296 .and. code < 57344)) n = 0
    end subroutine next_character
 
 end module plot_text

@@ -5,9 +5,9 @@ module precision_legend
    use failure_reasons, only: reason_t, reasons_of
    use kinds, only: wp
    use plot_text, only: quoted
-   use precision_results, only: precision_t, rung_failed, rung_unrun
+   use precision_results, only: precision_t, tol_run_failed, tol_run_unrun
    use script_parts, only: colours, preamble
-   use text, only: piece, real_text, text_t, to_text
+   use text, only: segment, real_text, text_t, to_text
    use text_buffer, only: buffer_t
    implicit none (type, external)
    private
@@ -31,7 +31,7 @@ module precision_legend
 
    !> A row of the reasons.
    type :: note_t
-      integer :: ladder = 0                   !! the setting
+      integer :: tol_sweep = 0                   !! the setting
       integer :: sign = 0                     !! gnuplot's number of its sign, 0: the row goes on
       character(:), allocatable :: words      !! what it says
    end type note_t
@@ -81,7 +81,7 @@ contains
          do k = 1, n
             call lines%line("set label "//to_text(first_note + k)//" "//quoted(self%notes(k)%words)//" at screen "// &
                             part(left, self%page(1))//", screen "//part(note_row*(n - k) + note_middle, self%page(2))// &
-                            " left font ',12' textcolor rgb '"//colour_of(self%notes(k)%ladder)//"'"//sign_text(self%notes(k)))
+                            " left font ',12' textcolor rgb '"//colour_of(self%notes(k)%tol_sweep)//"'"//sign_text(self%notes(k)))
          end do
       end associate
    end subroutine begin
@@ -136,7 +136,7 @@ contains
       character(:), allocatable :: words     !! for `set label`
 
       words = " offset 2,0 point pointtype "//to_text(note%sign)
-      if (note%sign > 0) words = words//" pointsize 1.3 linewidth 2 linecolor rgb '"//colour_of(note%ladder)//"'"
+      if (note%sign > 0) words = words//" pointsize 1.3 linewidth 2 linecolor rgb '"//colour_of(note%tol_sweep)//"'"
       if (note%sign == 0) words = words//" linecolor rgb '#ffffff'"
    end function sign_text
 
@@ -151,14 +151,14 @@ contains
       integer :: i, k
 
       allocate (notes(0))
-      do k = 1, size(study%ladders)
-         associate (ladder => study%ladders(k))
-            if (all(ladder%rungs%state == rung_unrun)) then
-               call append_rows(notes, k, nothing, ladder%name//" not run: "//ladder%rungs(1)%reason)
+      do k = 1, size(study%tol_sweeps)
+         associate (tol_sweep => study%tol_sweeps(k))
+            if (all(tol_sweep%tol_runs%state == tol_run_unrun)) then
+               call append_rows(notes, k, nothing, tol_sweep%name//" not run: "//tol_sweep%tol_runs(1)%reason)
             end if
-            reasons = reasons_of(ladder%rungs, rung_failed)
+            reasons = reasons_of(tol_sweep%tol_runs, tol_run_failed)
             do i = 1, size(reasons)
-               words = ladder%name//" failed: "//ladder%rungs(reasons(i)%first)%reason
+               words = tol_sweep%name//" failed: "//tol_sweep%tol_runs(reasons(i)%first)%reason
                if (reasons(i)%n > 1) words = words//" ("//to_text(reasons(i)%n)//" runs)"
                call append_rows(notes, k, failure, words)
             end do
@@ -167,9 +167,9 @@ contains
    end function notes_of
 
    !> Append a sentence in rows that are not too long.
-   subroutine append_rows(notes, ladder, sign, words)
+   subroutine append_rows(notes, tol_sweep, sign, words)
       type(note_t), allocatable, intent(inout) :: notes(:)   !! (n) rows, grown
-      integer, intent(in) :: ladder                          !! the setting
+      integer, intent(in) :: tol_sweep                          !! the setting
       integer, intent(in) :: sign                            !! gnuplot's number of its sign
       character(*), intent(in) :: words                      !! the sentence
 
@@ -181,11 +181,11 @@ contains
       do while (len(rest) > note_letters)
          cut = index(rest(:note_letters), " ", back=.true.)
          if (cut == 0) cut = note_letters
-         notes = [notes, note_t(ladder, now, rest(:cut))]
-         rest = piece(rest, cut + 1)
+         notes = [notes, note_t(tol_sweep, now, rest(:cut))]
+         rest = segment(rest, cut + 1)
          now = 0
       end do
-      notes = [notes, note_t(ladder, now, rest)]
+      notes = [notes, note_t(tol_sweep, now, rest)]
    end subroutine append_rows
 
 end module precision_legend

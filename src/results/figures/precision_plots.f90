@@ -16,7 +16,7 @@ module precision_plots
    use precision_legend, only: colour_of, legend_t, sign_of
    use precision_rows, only: any_ledger, error_axis, front_of, is_above_zero, largest_cpu, number, numbers_of, smallest_cpu, &
       zero_of_errors, zero_of_ledgers
-   use precision_results, only: error_names, ladder_t, precision_t, rung_done, rung_failed, rung_other, rung_t
+   use precision_results, only: error_names, tol_sweep_t, precision_t, tol_run_done, tol_run_failed, tol_run_other, tol_run_t
    use text, only: append_text, real_text, text_t, to_text
    use text_buffer, only: buffer_t
    use text_file, only: write_file
@@ -53,7 +53,7 @@ contains
       type(text_t), allocatable, intent(out) :: names(:)       !! (n) figures written
       type(error_t), allocatable, intent(out) :: error         !! a file cannot be written
 
-      type(rung_t), allocatable :: front(:)
+      type(tol_run_t), allocatable :: front(:)
 
       allocate (names(0))
       call write_file(folder//"/"//data_name, heading//numbers_of(study), error)
@@ -95,7 +95,7 @@ contains
       type(legend_t) :: legend
       integer :: n
 
-      n = size(study%ladders)
+      n = size(study%tol_sweeps)
       cpu = choose_unit("s", largest_cpu(study))
       call legend%begin(lines, study, "precision", [1150, 850], titles_of(study), .true.)
       call legend%place(lines)
@@ -107,7 +107,7 @@ contains
       call lines%line("f = "//real_text(cpu%factor, 9))
       call add_curves(lines, study, at_error, "($"//at_cpu//"*f)", "($"//at_least//"*f)", .true.)
       call add_failures(lines, study)
-      if (any_state(study, rung_other)) call lines%line("     NaN with points pointtype 12 pointsize 1.2 linewidth 1.5 "// &
+      if (any_state(study, tol_run_other)) call lines%line("     NaN with points pointtype 12 pointsize 1.2 linewidth 1.5 "// &
          "linecolor rgb '#404040' title "//quoted(other_title)//", \")
       call lines%line("     '"//data_name//"' index "//to_text(n)//" using "//at_error//":($"//at_cpu// &
                       "*f) with lines linecolor rgb '#000000' linewidth 1 dashtype 3 title "//quoted(front_title)//", \")
@@ -187,7 +187,7 @@ contains
       character(:), allocatable :: colour, sign
       integer :: k
 
-      do k = 1, size(study%ladders)
+      do k = 1, size(study%tol_sweeps)
          colour = "linecolor rgb '"//colour_of(k)//"'"
          sign = " with points pointtype "//sign_of(k)//" pointsize 0.9 "
          call lines%line(merge("plot ", "     ", k == 1)//block(k)//picked(x, "$"//at_state//"==1", y)// &
@@ -202,9 +202,9 @@ contains
          end if
          call lines%line("     "//block(k)//picked(x, "$"//at_state//"==1 && $"//at_below//"==0", y)// &
                          sign//colour//" notitle, \")
-         if (.not. (with_titles .and. has_curve(study%ladders(k)))) cycle
+         if (.not. (with_titles .and. has_curve(study%tol_sweeps(k)))) cycle
          ! an entry of its own: curves all of whose points are grey have one too
-         call lines%line("     keyentry"//sign//colour//" title "//quoted(title_of(study%ladders(k)))//", \")
+         call lines%line("     keyentry"//sign//colour//" title "//quoted(title_of(study%tol_sweeps(k)))//", \")
       end do
    end subroutine add_curves
 
@@ -234,8 +234,8 @@ contains
       integer :: ends(2), k
 
       ends = error_axis(study)
-      do k = 1, size(study%ladders)
-         if (all(study%ladders(k)%rungs%state /= rung_failed)) cycle
+      do k = 1, size(study%tol_sweeps)
+         if (all(study%tol_sweeps(k)%tol_runs%state /= tol_run_failed)) cycle
          call lines%line("     "//block(k)//"(($"//at_state//"==2) ? 1e"//to_text(ends(2))//" : NaN):(($"// &
                          at_cpu//">0) ? $"//at_cpu//"*f : "//number(smallest_cpu(study))// &
                          "*f) with points pointtype 2 pointsize 1.3 linewidth 2 linecolor rgb '"//colour_of(k)//"' notitle, \")
@@ -250,10 +250,10 @@ contains
       integer :: k
 
       allocate (titles(0))
-      do k = 1, size(study%ladders)
-         if (has_curve(study%ladders(k))) call append_text(titles, title_of(study%ladders(k)))
+      do k = 1, size(study%tol_sweeps)
+         if (has_curve(study%tol_sweeps(k))) call append_text(titles, title_of(study%tol_sweeps(k)))
       end do
-      if (any_state(study, rung_other)) call append_text(titles, other_title)
+      if (any_state(study, tol_run_other)) call append_text(titles, other_title)
       call append_text(titles, front_title)
       call append_text(titles, choice_title(study))
    end function titles_of
@@ -267,24 +267,24 @@ contains
 
       allocate (titles(0))
       call append_text(titles, tolerance_title)
-      do k = 1, size(study%ladders)
-         if (has_curve(study%ladders(k))) call append_text(titles, title_of(study%ladders(k)))
+      do k = 1, size(study%tol_sweeps)
+         if (has_curve(study%tol_sweeps(k))) call append_text(titles, title_of(study%tol_sweeps(k)))
       end do
    end function view_titles
 
    !> Whether a setting has runs that came to their end.
-   pure logical function has_curve(ladder)
-      type(ladder_t), intent(in) :: ladder        !! the setting
+   pure logical function has_curve(tol_sweep)
+      type(tol_sweep_t), intent(in) :: tol_sweep        !! the setting
 
-      has_curve = any(ladder%rungs%state == rung_done .or. ladder%rungs%state == rung_other)
+      has_curve = any(tol_sweep%tol_runs%state == tol_run_done .or. tol_sweep%tol_runs%state == tol_run_other)
    end function has_curve
 
    !> A setting in the legend.
-   function title_of(ladder) result(title)
-      type(ladder_t), intent(in) :: ladder        !! the setting
+   function title_of(tol_sweep) result(title)
+      type(tol_sweep_t), intent(in) :: tol_sweep        !! the setting
       character(:), allocatable :: title          !! as `rk4 (steps)`
 
-      title = ladder%name//trim(merge(" (steps)", "        ", ladder%is_fixed))
+      title = tol_sweep%name//trim(merge(" (steps)", "        ", tol_sweep%is_fixed))
    end function title_of
 
    !> The choice in words.
@@ -293,10 +293,10 @@ contains
       character(:), allocatable :: words          !! one line
 
       words = "no setting reaches the target error"
-      if (study%choice%ladder == 0) return
-      associate (ladder => study%ladders(study%choice%ladder))
-         words = "choice: "//ladder%name//" "//real_text(ladder%rungs(study%choice%rung)%asked, 3)
-         if (ladder%is_fixed) words = words//" s"
+      if (study%choice%tol_sweep == 0) return
+      associate (tol_sweep => study%tol_sweeps(study%choice%tol_sweep))
+         words = "choice: "//tol_sweep%name//" "//real_text(tol_sweep%tol_runs(study%choice%tol_run)%asked, 3)
+         if (tol_sweep%is_fixed) words = words//" s"
       end associate
    end function choice_title
 
@@ -367,8 +367,8 @@ contains
       integer :: k
 
       any_state = .false.
-      do k = 1, size(study%ladders)
-         any_state = any_state .or. any(study%ladders(k)%rungs%state == state)
+      do k = 1, size(study%tol_sweeps)
+         any_state = any_state .or. any(study%tol_sweeps(k)%tol_runs%state == state)
       end do
    end function any_state
 

@@ -2,17 +2,17 @@
 module precision_rows
    use, intrinsic :: ieee_arithmetic, only: ieee_is_finite
    use kinds, only: not_a_number, wp
-   use precision_results, only: error_ledger, precision_t, rung_done, rung_t
+   use precision_results, only: error_ledger, precision_t, tol_run_done, tol_run_t
    use text, only: to_text
    use text_buffer, only: buffer_t
    implicit none (type, external)
    private
-   public :: any_ledger, error_axis, front_of, is_above_zero, largest_cpu, least_error, number, numbers_of, smallest_cpu, &
+   public :: any_ledger, error_axis, front_of, is_above_zero, largest_cpu, min_error, number, numbers_of, smallest_cpu, &
       zero_of_errors, zero_of_ledgers
 
-   real(wp), parameter :: least_error = 1.0e-17_wp   !! drawn for a distance of nothing [1]
+   real(wp), parameter :: min_error = 1.0e-17_wp   !! drawn for a distance of nothing [1]
    real(wp), parameter :: decade = 0.2_wp            !! room beside an error, of it, for which the axis has another decade [1]
-   real(wp), parameter :: least_below = 0.1_wp       !! of the reference's own error, drawn for what is less: it cannot be told [1]
+   real(wp), parameter :: min_below = 0.1_wp       !! of the reference's own error, drawn for what is less: it cannot be told [1]
 
 contains
 
@@ -22,18 +22,19 @@ contains
       character(:), allocatable :: text        !! whole lines
 
       type(buffer_t) :: lines
-      type(rung_t), allocatable :: front(:)
+      type(tol_run_t), allocatable :: front(:)
       integer :: i, k
 
       if (ieee_is_finite(zero_of_errors(study))) call lines%line("# zero errors are drawn at "// &
                                                                 number(zero_of_errors(study)))
       if (ieee_is_finite(zero_of_ledgers(study))) call lines%line("# zero energy errors are drawn at "// &
                                                                  number(zero_of_ledgers(study)))
-      call lines%line("# tolerance or step [1 or s], error, CPU median [s], CPU minimum [s], right-hand sides, steps, ledger, state, below")
-      do k = 1, size(study%ladders)
-         call lines%line("# "//study%ladders(k)%name)
-         do i = 1, size(study%ladders(k)%rungs)
-            call lines%line(row_of(study, study%ladders(k)%rungs(i)))
+      call lines%line("# tolerance or step [1 or s], error, CPU median [s], CPU minimum [s], right-hand sides, steps, ledger, state, " // &
+                      "below")
+      do k = 1, size(study%tol_sweeps)
+         call lines%line("# "//study%tol_sweeps(k)%name)
+         do i = 1, size(study%tol_sweeps(k)%tol_runs)
+            call lines%line(row_of(study, study%tol_sweeps(k)%tol_runs(i)))
          end do
          call lines%line("")
          call lines%line("")
@@ -46,22 +47,23 @@ contains
       call lines%line("")
       call lines%line("")
       call lines%line("# choice")
-      if (study%choice%ladder > 0) call lines%line(row_of(study, study%ladders(study%choice%ladder)%rungs(study%choice%rung)))
+      if (study%choice%tol_sweep > 0) call lines%line(row_of(study, &
+           study%tol_sweeps(study%choice%tol_sweep)%tol_runs(study%choice%tol_run)))
       text = lines%get()
    end function numbers_of
 
    !> The runs of the front, from the least error on.
    function front_of(study) result(front)
       type(precision_t), intent(in) :: study       !! results
-      type(rung_t), allocatable :: front(:)        !! (n) runs
+      type(tol_run_t), allocatable :: front(:)        !! (n) runs
 
-      type(rung_t) :: one
+      type(tol_run_t) :: one
       integer :: i, k
 
       allocate (front(0))
-      do k = 1, size(study%ladders)
-         do i = 1, size(study%ladders(k)%rungs)
-            if (study%ladders(k)%rungs(i)%is_front) front = [front, study%ladders(k)%rungs(i)]
+      do k = 1, size(study%tol_sweeps)
+         do i = 1, size(study%tol_sweeps(k)%tol_runs)
+            if (study%tol_sweeps(k)%tol_runs(i)%is_front) front = [front, study%tol_sweeps(k)%tol_runs(i)]
          end do
       end do
       do k = 2, size(front)
@@ -75,27 +77,28 @@ contains
    end function front_of
 
    !> The numbers of a run.
-   function row_of(study, rung) result(line)
+   function row_of(study, tol_run) result(line)
       type(precision_t), intent(in) :: study   !! results
-      type(rung_t), intent(in) :: rung         !! the run
+      type(tol_run_t), intent(in) :: tol_run         !! the run
       character(:), allocatable :: line        !! its row
 
       real(wp) :: ledger
 
-      ledger = rung%error(error_ledger)
+      ledger = tol_run%error(error_ledger)
       if (is_zero(ledger)) ledger = zero_of_ledgers(study)
-      line = number(rung%asked)//" "//number(drawn_error(study, rung))//" "//number(rung%cpu)//" "//number(rung%cpu_least)//" "// &
-             to_text(rung%count%evaluations)//" "//to_text(rung%count%steps)//" "//number(ledger)//" "// &
-             to_text(rung%state)//" "//to_text(merge(1, 0, rung%is_below))
+      line = number(tol_run%asked)//" "//number(drawn_error(study, &
+           tol_run))//" "//number(tol_run%cpu)//" "//number(tol_run%cpu_min)//" "// &
+             to_text(tol_run%count%evaluations)//" "//to_text(tol_run%count%steps)//" "//number(ledger)//" "// &
+             to_text(tol_run%state)//" "//to_text(merge(1, 0, tol_run%is_below))
    end function row_of
 
    !> The error at which a run is drawn; NaN or infinite: it is not.
-   pure real(wp) function drawn_error(study, rung) result(x)
+   pure real(wp) function drawn_error(study, tol_run) result(x)
       type(precision_t), intent(in) :: study   !! results
-      type(rung_t), intent(in) :: rung         !! the run
+      type(tol_run_t), intent(in) :: tol_run         !! the run
 
-      x = rung%error(study%wanted)
-      if (rung%is_below) x = max(x, least_below*study%reference%bar(study%wanted))
+      x = tol_run%error(study%wanted)
+      if (tol_run%is_below) x = max(x, min_below*study%reference%bar(study%wanted))
       if (is_zero(x)) x = zero_of_errors(study)
    end function drawn_error
 
@@ -104,43 +107,43 @@ contains
    pure real(wp) function zero_of_errors(study) result(place)
       type(precision_t), intent(in) :: study   !! results
 
-      real(wp) :: least, x
+      real(wp) :: minimum, x
       integer :: i, k
 
       place = not_a_number()
-      least = study%accuracy
+      minimum = study%accuracy
       x = study%reference%bar(study%wanted)
-      if (is_above_zero(x)) least = min(least, least_below*x)
-      do k = 1, size(study%ladders)
-         do i = 1, size(study%ladders(k)%rungs)
-            x = study%ladders(k)%rungs(i)%error(study%wanted)
-            if (study%ladders(k)%rungs(i)%is_below) x = max(x, least_below*study%reference%bar(study%wanted))
-            if (is_above_zero(x)) least = min(least, x)
+      if (is_above_zero(x)) minimum = min(minimum, min_below*x)
+      do k = 1, size(study%tol_sweeps)
+         do i = 1, size(study%tol_sweeps(k)%tol_runs)
+            x = study%tol_sweeps(k)%tol_runs(i)%error(study%wanted)
+            if (study%tol_sweeps(k)%tol_runs(i)%is_below) x = max(x, min_below*study%reference%bar(study%wanted))
+            if (is_above_zero(x)) minimum = min(minimum, x)
             if (is_zero(x)) place = 0.0_wp
          end do
-         if (.not. study%ladders(k)%is_fixed) least = min(least, minval(study%ladders(k)%rungs%asked))
+         if (.not. study%tol_sweeps(k)%is_fixed) minimum = min(minimum, minval(study%tol_sweeps(k)%tol_runs%asked))
       end do
-      if (ieee_is_finite(place)) place = decade_below(least)
+      if (ieee_is_finite(place)) place = decade_below(minimum)
    end function zero_of_errors
 
    !> The same of residuals of the ledger.
    pure real(wp) function zero_of_ledgers(study) result(place)
       type(precision_t), intent(in) :: study   !! results
 
-      real(wp) :: least
+      real(wp) :: minimum
       integer :: i, k
 
       place = not_a_number()
-      least = epsilon(1.0_wp)
-      do k = 1, size(study%ladders)
-         do i = 1, size(study%ladders(k)%rungs)
-            associate (x => study%ladders(k)%rungs(i)%error(error_ledger))
-               if (is_above_zero(x)) least = min(least, x)
+      minimum = epsilon(1.0_wp)
+      do k = 1, size(study%tol_sweeps)
+         do i = 1, size(study%tol_sweeps(k)%tol_runs)
+            associate (x => study%tol_sweeps(k)%tol_runs(i)%error(error_ledger))
+               if (is_above_zero(x)) minimum = min(minimum, x)
                if (is_zero(x)) place = 0.0_wp
             end associate
          end do
       end do
-      if (ieee_is_finite(place)) place = decade_below(least)
+      if (ieee_is_finite(place)) place = decade_below(minimum)
    end function zero_of_ledgers
 
    !> Whether something is a number, above 0.
@@ -178,9 +181,9 @@ contains
       far = study%accuracy
       x = study%reference%bar(study%wanted)
       if (is_above_zero(x)) far = [min(far(1), x), max(far(2), x)]
-      do k = 1, size(study%ladders)
-         do i = 1, size(study%ladders(k)%rungs)
-            x = drawn_error(study, study%ladders(k)%rungs(i))
+      do k = 1, size(study%tol_sweeps)
+         do i = 1, size(study%tol_sweeps(k)%tol_runs)
+            x = drawn_error(study, study%tol_sweeps(k)%tol_runs(i))
             if (ieee_is_finite(x)) far = [min(far(1), x), max(far(2), x)]
          end do
       end do
@@ -196,9 +199,9 @@ contains
       integer :: i, k
 
       any_ledger = .false.
-      do k = 1, size(study%ladders)
-         do i = 1, size(study%ladders(k)%rungs)
-            if (ieee_is_finite(study%ladders(k)%rungs(i)%error(error_ledger))) any_ledger = .true.
+      do k = 1, size(study%tol_sweeps)
+         do i = 1, size(study%tol_sweeps(k)%tol_runs)
+            if (ieee_is_finite(study%tol_sweeps(k)%tol_runs(i)%error(error_ledger))) any_ledger = .true.
          end do
       end do
    end function any_ledger
@@ -210,9 +213,9 @@ contains
       integer :: i, k
 
       x = 0.0_wp
-      do k = 1, size(study%ladders)
-         do i = 1, size(study%ladders(k)%rungs)
-            if (ieee_is_finite(study%ladders(k)%rungs(i)%cpu)) x = max(x, study%ladders(k)%rungs(i)%cpu)
+      do k = 1, size(study%tol_sweeps)
+         do i = 1, size(study%tol_sweeps(k)%tol_runs)
+            if (ieee_is_finite(study%tol_sweeps(k)%tol_runs(i)%cpu)) x = max(x, study%tol_sweeps(k)%tol_runs(i)%cpu)
          end do
       end do
    end function largest_cpu
@@ -224,9 +227,9 @@ contains
       integer :: i, k
 
       x = largest_cpu(study)
-      do k = 1, size(study%ladders)
-         do i = 1, size(study%ladders(k)%rungs)
-            if (study%ladders(k)%rungs(i)%state == rung_done) x = min(x, study%ladders(k)%rungs(i)%cpu)
+      do k = 1, size(study%tol_sweeps)
+         do i = 1, size(study%tol_sweeps(k)%tol_runs)
+            if (study%tol_sweeps(k)%tol_runs(i)%state == tol_run_done) x = min(x, study%tol_sweeps(k)%tol_runs(i)%cpu)
          end do
       end do
    end function smallest_cpu

@@ -92,20 +92,20 @@ contains
       if (figure%kind == figure_coupler) plot%symbols%force = 0.0_wp
       call lay_out_views(drawing, list, path, arrow_tips(drawing, plot%symbols, list(first:)), &
                          plot%cells > 1 .or. figure%kind == figure_animation, plot%views, plot%extents)
-      lacking = narrowest*(plot%extents%greatest(2) - plot%extents%least(2)) - (plot%extents%greatest(1) - plot%extents%least(1))
+      lacking = narrowest*(plot%extents%maximum(2) - plot%extents%minimum(2)) - (plot%extents%maximum(1) - plot%extents%minimum(1))
       if (lacking > 0.0_wp) then
-         plot%extents%least(1) = plot%extents%least(1) - 0.5_wp*lacking
-         plot%extents%greatest(1) = plot%extents%greatest(1) + 0.5_wp*lacking
+         plot%extents%minimum(1) = plot%extents%minimum(1) - 0.5_wp*lacking
+         plot%extents%maximum(1) = plot%extents%maximum(1) + 0.5_wp*lacking
       end if
-      plot%unit = choose_unit("m", maxval(plot%extents%greatest - plot%extents%least))
+      plot%unit = choose_unit("m", maxval(plot%extents%maximum - plot%extents%minimum))
       plot%has_axes = plot%cells == 1 .and. size(plot%views) == 1 .and. .not. drawing%is_spatial
       plot%symbols%scale = plot%unit%factor
-      plot%cell = plot%extents%greatest - plot%extents%least
+      plot%cell = plot%extents%maximum - plot%extents%minimum
       plot%columns = ceiling(sqrt(real(plot%cells, wp)*plot%cell(2)/plot%cell(1)))
       plot%columns = max(1, min(plot%cells, plot%columns))
       rows = (plot%cells + plot%columns - 1)/plot%columns
-      plot%extents%greatest(1) = plot%extents%least(1) + plot%columns*plot%cell(1)
-      plot%extents%least(2) = plot%extents%greatest(2) - rows*plot%cell(2)
+      plot%extents%maximum(1) = plot%extents%minimum(1) + plot%columns*plot%cell(1)
+      plot%extents%minimum(2) = plot%extents%maximum(2) - rows*plot%cell(2)
    end subroutine plan_plot
 
    !> All strokes.
@@ -142,8 +142,8 @@ contains
             has_style(k) = has_style(k) .or. canvas%styles(k)%length() > 0
             if (canvas%styles(k)%length() == 0) then  ! one point, beyond the picture, keeps the blocks in their order
                associate (e => plot%extents)
-                  call data%line(real_text(plot%unit%factor*(2.0_wp*e%least(1) - e%greatest(1)), 6)//" "// &
-                                 real_text(plot%unit%factor*(2.0_wp*e%least(2) - e%greatest(2)), 6)//" 0")
+                  call data%line(real_text(plot%unit%factor*(2.0_wp*e%minimum(1) - e%maximum(1)), 6)//" "// &
+                                 real_text(plot%unit%factor*(2.0_wp*e%minimum(2) - e%maximum(2)), 6)//" 0")
                end associate
                call data%line("")
             else
@@ -184,8 +184,8 @@ contains
       call script%line("set key noautotitle")
       call script%line("set style textbox opaque margins 0.4,0.4 noborder")
       associate (e => plot%extents, factor => plot%unit%factor)
-         call script%line("set xrange ["//real_text(factor*e%least(1), 6)//":"//real_text(factor*e%greatest(1), 6)//"]")
-         call script%line("set yrange ["//real_text(factor*e%least(2), 6)//":"//real_text(factor*e%greatest(2), 6)//"]")
+         call script%line("set xrange ["//real_text(factor*e%minimum(1), 6)//":"//real_text(factor*e%maximum(1), 6)//"]")
+         call script%line("set yrange ["//real_text(factor*e%minimum(2), 6)//":"//real_text(factor*e%maximum(2), 6)//"]")
          if (plot%has_axes) then
             call script%line("set xlabel "//quoted("x ["//plot%unit%symbol//"]"))
             call script%line("set ylabel "//quoted("y ["//plot%unit%symbol//"]"))
@@ -255,7 +255,7 @@ contains
       integer, intent(in) :: width                !! in pixels
 
       associate (e => plot%extents)
-         height = nint(real(width, wp)*(e%greatest(2) - e%least(2))/(e%greatest(1) - e%least(1)))
+         height = nint(real(width, wp)*(e%maximum(2) - e%minimum(2))/(e%maximum(1) - e%minimum(1)))
       end associate
       height = min(max(height + width/10, width*2/5), width*5/4)
    end function height_of
@@ -289,7 +289,7 @@ contains
       call script%line("set label "//quoted(words)//" at graph 0.02, graph 0.965 front boxed font ',13'")
       if (plot%cells > 1) then
          do f = 1, size(list)
-            at = [plot%extents%least(1), plot%extents%greatest(2)] + &
+            at = [plot%extents%minimum(1), plot%extents%maximum(2)] + &
                  plot%cell*[real(mod(f - 1, plot%columns), wp) + 0.05_wp, -real((f - 1)/plot%columns, wp) - 0.14_wp]
             call script%line("set label "//quoted("t = "//time_text(list(f)%t))//" at "//real_text(plot%unit%factor*at(1), 6)// &
                              ", "//real_text(plot%unit%factor*at(2), 6)//" front font ',13'")

@@ -48,7 +48,7 @@ module scene_strokes
       real(wp), allocatable :: walls(:, :)        !! (2, marks) of slides: from the guide's line to its walls, as `gaps` [m]
       real(wp), allocatable :: coils(:)           !! (marks) of springs and dampers: half their width [m]
       integer, allocatable :: bends(:)            !! (marks) of springs: corners of their zigzag
-      integer, allocatable :: loose(:)            !! (marks) number of the joint with clearance, 0: none
+      integer, allocatable :: clearance_joints(:)            !! (marks) number of the joint with clearance, 0: none
       integer, allocatable :: load(:)             !! (marks) of a load: number of the force element, 0: none
    end type symbols_t
 
@@ -121,9 +121,9 @@ contains
       type(canvas_t), intent(inout) :: canvas      !! gets lines
 
       real(wp) :: axis(2), e(2), p(2, 2), radius, way(2), x(3, 2)
-      integer :: k, loose
+      integer :: k, clearance_joints
 
-      loose = symbols%loose(number)
+      clearance_joints = symbols%clearance_joints(number)
       way = symbols%ways(:, number)
       do k = 1, 2
          x(:, k) = frame%r(:, mark%body(k)) + matmul(frame%a(:, :, mark%body(k)), mark%s(:, k))
@@ -161,7 +161,7 @@ contains
          if (any(mark%body == 0)) call draw_support(canvas, symbols, p(:, merge(1, 2, mark%body(1) == 0)))
          radius = bearing_size*symbols%size
          e = 0.0_wp
-         if (loose > 0) e = projected(view, frame%e(:, loose)) - view%shift
+         if (clearance_joints > 0) e = projected(view, frame%e(:, clearance_joints)) - view%shift
          call add_disc(canvas, style_hole, symbols, p(:, 1), radius)
          call add_disc(canvas, style_journal, symbols, p(:, 1) + symbols%magnified*e, journal_part*radius)
       end select
@@ -177,8 +177,8 @@ contains
 
       way = 0.0_wp
       if (.not. symbols%force > 0.0_wp) return
-      if (symbols%loose(number) > 0) then
-         way = frame%f(:, symbols%loose(number))
+      if (symbols%clearance_joints(number) > 0) then
+         way = frame%f(:, symbols%clearance_joints(number))
       else if (symbols%load(number) > 0) then
          way = frame%load(:, symbols%load(number))
       end if

@@ -11,7 +11,7 @@ module scene_views
    public :: extents_t, lay_out_views, projected, view_t
 
    real(wp), parameter :: gap = 0.3_wp      !! between views, of the greatest extent of one [1]
-   real(wp), parameter :: least = 0.4_wp    !! room of a view, of that extent [1]
+   real(wp), parameter :: minimum = 0.4_wp    !! room of a view, of that extent [1]
    real(wp), parameter :: above = 0.06_wp   !! of a label over the highest view of its row, of that extent [1]
 
    !> One view.
@@ -25,8 +25,8 @@ module scene_views
 
    !> The frame of a picture.
    type :: extents_t
-      real(wp) :: least(2) = huge(1.0_wp)       !! (2) lower left corner [m]
-      real(wp) :: greatest(2) = -huge(1.0_wp)   !! (2) upper right corner [m]
+      real(wp) :: minimum(2) = huge(1.0_wp)       !! (2) lower left corner [m]
+      real(wp) :: maximum(2) = -huge(1.0_wp)   !! (2) upper right corner [m]
    contains
       procedure :: hold
    end type extents_t
@@ -47,8 +47,8 @@ contains
       class(extents_t), intent(inout) :: self  !! the frame
       real(wp), intent(in) :: p(2)             !! (2) the place [m]
 
-      self%least = min(self%least, p)
-      self%greatest = max(self%greatest, p)
+      self%minimum = min(self%minimum, p)
+      self%maximum = max(self%maximum, p)
    end subroutine hold
 
    !> The views of a scene, and the frame of the picture that holds all its frames, paths and arrows.
@@ -62,7 +62,7 @@ contains
       type(extents_t), intent(out) :: extents            !! the frame
 
       type(extents_t), allocatable :: alone(:)
-      real(wp) :: greatest, half(2, 2), margin
+      real(wp) :: maximum, half(2, 2), margin
       integer :: k
 
       if (drawing%is_spatial) then
@@ -76,26 +76,26 @@ contains
          call measure(drawing, list, track, tips, views(k), alone(k))
       end do
       if (size(views) > 1) then
-         greatest = maxval([(alone(k)%greatest - alone(k)%least, k=1, size(views))])
-         half = 0.5_wp*least*greatest
+         maximum = maxval([(alone(k)%maximum - alone(k)%minimum, k=1, size(views))])
+         half = 0.5_wp*minimum*maximum
          do k = 1, size(views)  ! half the width of a column, half the height of a row
-            half(mod(k - 1, 2) + 1, 1) = max(half(mod(k - 1, 2) + 1, 1), 0.5_wp*(alone(k)%greatest(1) - alone(k)%least(1)))
-            half((k - 1)/2 + 1, 2) = max(half((k - 1)/2 + 1, 2), 0.5_wp*(alone(k)%greatest(2) - alone(k)%least(2)))
+            half(mod(k - 1, 2) + 1, 1) = max(half(mod(k - 1, 2) + 1, 1), 0.5_wp*(alone(k)%maximum(1) - alone(k)%minimum(1)))
+            half((k - 1)/2 + 1, 2) = max(half((k - 1)/2 + 1, 2), 0.5_wp*(alone(k)%maximum(2) - alone(k)%minimum(2)))
          end do
          do k = 1, size(views)
-            views(k)%shift = (sum(half, dim=1) + gap*greatest)*[real(mod(k - 1, 2), wp), -real((k - 1)/2, wp)]
-            views(k)%label_at = views(k)%shift + [0.0_wp, half((k - 1)/2 + 1, 2) + above*greatest]
-            views(k)%shift = views(k)%shift - 0.5_wp*(alone(k)%greatest + alone(k)%least)
+            views(k)%shift = (sum(half, dim=1) + gap*maximum)*[real(mod(k - 1, 2), wp), -real((k - 1)/2, wp)]
+            views(k)%label_at = views(k)%shift + [0.0_wp, half((k - 1)/2 + 1, 2) + above*maximum]
+            views(k)%shift = views(k)%shift - 0.5_wp*(alone(k)%maximum + alone(k)%minimum)
             call extents%hold(views(k)%label_at)
          end do
       end if
       do k = 1, size(views)
          call measure(drawing, list, track, tips, views(k), extents)
       end do
-      margin = 0.12_wp*maxval(extents%greatest - extents%least)/sqrt(real(size(views), wp))
+      margin = 0.12_wp*maxval(extents%maximum - extents%minimum)/sqrt(real(size(views), wp))
       margin = max(margin, 0.15_wp*drawing%size)
-      extents%least = extents%least - margin
-      extents%greatest = extents%greatest + margin
+      extents%minimum = extents%minimum - margin
+      extents%maximum = extents%maximum + margin
    end subroutine lay_out_views
 
    !> From a corner, then along y, x and z.

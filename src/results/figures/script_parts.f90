@@ -6,7 +6,7 @@ module script_parts
    use path_data, only: path_t
    use plot_text, only: quoted
    use round_values, only: constant
-   use text, only: exact_text, piece, real_text, to_text
+   use text, only: exact_text, segment, real_text, to_text
    use text_buffer, only: buffer_t
    implicit none (type, external)
    private
@@ -20,7 +20,7 @@ module script_parts
        "#17a2b8", "#e377c2", "#9acd32", "#8c564b", "#ff7f50", "#a0a0a0"]  !! of curves
    character(*), parameter :: ideal_style = " with lines linewidth 1.2 dashtype (12,8) linecolor rgb '#101010' "  !! of the twin
    character(*), parameter :: twin_colour = "1f6fb5"  !! the first of them as good as
-   integer, parameter :: piece_points = 100           !! of a transparent line that are drawn at once
+   integer, parameter :: segment_points = 100           !! of a transparent line that are drawn at once
 
    !> Pixels per unit of length in which pictures are laid out: to make a PNG file takes as long as it has pixels.
    real(wp), parameter :: pixels = 5.0_wp/6.0_wp
@@ -136,12 +136,12 @@ contains
       integer, intent(in) :: height            !! room for it, in units of layout
       character(:), allocatable :: words       !! in quotes, with its font
 
-      integer, parameter :: usual = 15, least = 8  ! size of letters
+      integer, parameter :: usual = 15, minimum = 8  ! size of letters
       integer, parameter :: width = 12             ! of a letter of usual size, in units of layout
       integer :: i, n
 
       n = count([(iand(ichar(label(i:i)), 192) /= 128, i=1, len(label))])  ! bytes that begin a character of UTF-8
-      words = quoted(label)//" font ',"//to_text(max(least, min(usual, usual*height/(width*max(n, 1)))))//"'"
+      words = quoted(label)//" font ',"//to_text(max(minimum, min(usual, usual*height/(width*max(n, 1)))))//"'"
    end function label_words
 
    !> Distance of the ticks of an axis in degrees: a part of a turn, or whole turns. 0: gnuplot's own are as good.
@@ -227,13 +227,13 @@ contains
          return
       end if
       columns = " using "//scaled(1, axes%x%factor, axes%less_x)//":"//scaled(2, axes%y%factor, axes%less)
-      colour = thinned%alpha//piece(colours(1), 2)
+      colour = thinned%alpha//segment(colours(1), 2)
       s = "'"//thinned%file//"'"//columns
       if (thinned%style == "dots") then  ! a dot cannot be seen in a legend: the first point stands there
          s = s//" with dots linecolor rgb '#"//colour//"' notitle, '"//thinned%file//"' every ::0::0:0"//columns// &
              " with points pointtype 7 pointsize 0.5"
       else  ! what is drawn at once covers itself only once, and a change of colour begins anew: colours with no visible difference
-         s = s//":(int($0/"//to_text(piece_points)//")%2 ? 0x"//colour//" : 0x"//thinned%alpha//twin_colour// &
+         s = s//":(int($0/"//to_text(segment_points)//")%2 ? 0x"//colour//" : 0x"//thinned%alpha//twin_colour// &
              ") with "//thinned%style//" linecolor rgb variable notitle, '"//thinned%file//"' every ::0::0:0"//columns// &
              " with "//thinned%style
       end if

@@ -51,13 +51,13 @@ contains
       integer :: i, k
 
       call append_text(table%labels, "time[s]")
-      allocate (table%values(3, statistics%n_strobe), source=0.0_wp)
-      table%values(1, :) = statistics%strobe_times(1:statistics%n_strobe)
+      allocate (table%values(3, statistics%n_poincare), source=0.0_wp)
+      table%values(1, :) = statistics%poincare_times(1:statistics%n_poincare)
       do k = 1, 2
          call append_text(table%labels, scalar_name(catalogue, scalars(k))//"["//unit_of(catalogue, scalars(k))//"]")
          do i = 1, size(statistics%channels)
             if (.not. same(statistics%channels(i), scalars(k))) cycle
-            table%values(k + 1, :) = statistics%strobes(i, 1:statistics%n_strobe)
+            table%values(k + 1, :) = statistics%poincare_samples(i, 1:statistics%n_poincare)
          end do
       end do
       table%x_name = scalar_name(catalogue, scalars(1))//", Poincare samples"

@@ -13,7 +13,7 @@ module sweep_plots
    use plot_table, only: draw_bars, draw_marks, draw_points, panel_t, plot_curve_t, plot_table_t
    use sweep_results, only: case_numbers, n_spread, spread_names, sweep_results_t
    use swept, only: sweep_t
-   use text, only: append_text, piece, text_t, to_text
+   use text, only: append_text, segment, text_t, to_text
    implicit none (type, external)
    private
    public :: sweep_table
@@ -54,8 +54,8 @@ contains
 
       do k = 1, size(texts)
          associate (text => texts(k)%s, n => number_length(texts(k)%s))
-            if (k == 1) name = piece(text, n + 1)
-            if (n == 0 .or. piece(text, n + 1) /= name) return
+            if (k == 1) name = segment(text, n + 1)
+            if (n == 0 .or. segment(text, n + 1) /= name) return
          end associate
       end do
       if (len(name) == 0) return
@@ -134,13 +134,13 @@ contains
       type(sweep_results_t), intent(in) :: results      !! what the runs gave
       type(plot_table_t), intent(inout) :: table        !! the table
 
-      real(wp), allocatable :: strobes(:, :)
+      real(wp), allocatable :: poincare_samples(:, :)
       integer :: channel, curve, k, m, n, run
 
-      do channel = 1, size(results%strobe_names)
-         if (results%strobe_names(channel)%s == name) exit
+      do channel = 1, size(results%poincare_names)
+         if (results%poincare_names(channel)%s == name) exit
       end do
-      if (channel > size(results%strobe_names)) return
+      if (channel > size(results%poincare_names)) return
       call append_text(table%labels, name//"["//unit//"]")
       allocate (table%panels(1))
       allocate (table%panels(1)%curves(results%sweep%n_curves()))
@@ -148,7 +148,7 @@ contains
       table%panels(1)%y_unit = unit
       n = 0
       do run = 1, size(results%runs)
-         n = n + size(results%runs(run)%strobe_times)
+         n = n + size(results%runs(run)%poincare_times)
       end do
       allocate (table%values(2, n), source=0.0_wp)
       n = 0
@@ -161,10 +161,10 @@ contains
             do run = 1, size(results%runs)
                m = (run - 1)/results%n_member + 1
                if (mod(m - 1, results%sweep%n_curves()) + 1 /= curve) cycle
-               strobes = results%strobes_of(run)
-               do k = 1, size(strobes, 2)
+               poincare_samples = results%poincare_of(run)
+               do k = 1, size(poincare_samples, 2)
                   n = n + 1
-                  table%values(:, n) = [abscissa(results%sweep, m), strobes(channel, k)]
+                  table%values(:, n) = [abscissa(results%sweep, m), poincare_samples(channel, k)]
                end do
             end do
             this%last = n

@@ -1,7 +1,7 @@
 !> Sizes of the symbols of a drawn mechanism, and what they tell of its motion: ways of slides, forces, magnified clearances.
 module symbol_scales
    use catalogue, only: catalogue_t
-   use catalogue_rooms, only: room_clearances, room_forces
+   use groups_of_catalogue, only: group_clearances, group_forces
    use drawing, only: drawing_t, mark_bearing, mark_damper, mark_load, mark_plane, mark_slide, mark_spring, mark_t
    use frames, only: frame_t
    use kinds, only: wp
@@ -10,7 +10,7 @@ module symbol_scales
    private
    public :: arrow_tips, largest_force, new_symbols
 
-   real(wp), parameter :: least_wall = 0.0425_wp  !! from the middle of a guide to its walls, of the size of the scene, at least [1]
+   real(wp), parameter :: min_wall = 0.0425_wp  !! from the middle of a guide to its walls, of the size of the scene, at least [1]
 
 contains
 
@@ -27,15 +27,15 @@ contains
 
       symbols%size = max(drawing%size, of_way*extent_of_motion(drawing, list))
       symbols%magnified = magnification(drawing, symbols%size)
-      allocate (symbols%ways(2, drawing%n_mark), symbols%loose(drawing%n_mark))
+      allocate (symbols%ways(2, drawing%n_mark), symbols%clearance_joints(drawing%n_mark))
       allocate (symbols%load(drawing%n_mark), source=0)
       symbols%ways = 0.0_wp
-      symbols%loose = 0
-      allocate (symbols%walls(2, drawing%n_mark), source=least_wall*symbols%size)
+      symbols%clearance_joints = 0
+      allocate (symbols%walls(2, drawing%n_mark), source=min_wall*symbols%size)
       do k = 1, drawing%n_mark
-         associate (mark => drawing%marks(k), names => catalogue%rooms(room_clearances)%names)
+         associate (mark => drawing%marks(k), names => catalogue%rooms(group_clearances)%names)
             do i = 1, size(names)
-               if (names(i)%s == mark%name) symbols%loose(k) = i
+               if (names(i)%s == mark%name) symbols%clearance_joints(k) = i
             end do
             if (mark%kind == mark_load) symbols%load(k) = number_of(catalogue, mark%name)
             if (mark%kind /= mark_slide .and. mark%kind /= mark_plane) cycle
@@ -106,20 +106,20 @@ contains
       type(drawing_t), intent(in) :: drawing !! outlines
       type(frame_t), intent(in) :: list(:)   !! (n) frames
 
-      real(wp) :: greatest(3), least(3), radius
+      real(wp) :: maximum(3), minimum(3), radius
       integer :: k
 
-      greatest = -huge(1.0_wp)
-      least = huge(1.0_wp)
+      maximum = -huge(1.0_wp)
+      minimum = huge(1.0_wp)
       do k = 1, size(list)
-         least = min(least, minval(list(k)%r(:, 1:), dim=2))
-         greatest = max(greatest, maxval(list(k)%r(:, 1:), dim=2))
+         minimum = min(minimum, minval(list(k)%r(:, 1:), dim=2))
+         maximum = max(maximum, maxval(list(k)%r(:, 1:), dim=2))
       end do
       radius = 0.0_wp
       do k = 1, drawing%n_part
          if (drawing%parts(k)%body > 0) radius = max(radius, maxval(norm2(drawing%parts(k)%s, dim=1)))
       end do
-      length = norm2(greatest - least) + 2.0_wp*radius
+      length = norm2(maximum - minimum) + 2.0_wp*radius
    end function extent_of_motion
 
    !> Number of a force element among those of the run, 0: it is none of them.
@@ -127,8 +127,8 @@ contains
       type(catalogue_t), intent(in) :: catalogue    !! what was recorded
       character(*), intent(in) :: name              !! of the element
 
-      do number = size(catalogue%rooms(room_forces)%names), 1, -1
-         if (catalogue%rooms(room_forces)%names(number)%s == name) return
+      do number = size(catalogue%rooms(group_forces)%names), 1, -1
+         if (catalogue%rooms(group_forces)%names(number)%s == name) return
       end do
    end function number_of
 

@@ -73,12 +73,12 @@ module run_recorder
       procedure :: sample => sample_run
       procedure :: further_row => further_row_run
       procedure :: between => between_rows
-      procedure :: strobe => strobe_run
+      procedure :: poincare => poincare_run
       procedure :: field => field_run
       procedure :: event => event_run
       procedure :: progress => progress_run
       procedure :: finish => finish_run
-      procedure :: wish => wish_of_run
+      procedure :: requested_action => requested_action_of_run
       procedure :: save => save_run
       procedure :: go_on => go_on_with_run
       procedure :: forget => forget_checkpoint
@@ -88,11 +88,11 @@ module run_recorder
 
    interface
       !> Whether the run is to be saved or to end: signals, the time of the wall, and what the plan says.
-      module integer function wish_of_run(self, can_save) result(wish)
+      module integer function requested_action_of_run(self, can_save) result(requested_action)
          implicit none (type, external)
          class(run_recorder_t), intent(inout) :: self       !! the recorder
          logical, intent(in) :: can_save                    !! the run can be saved after this step
-      end function wish_of_run
+      end function requested_action_of_run
 
       !> Write all that waits, and the checkpoint.
       module subroutine save_run(self, saved, error)
@@ -223,13 +223,13 @@ contains
    end subroutine keep_row
 
    !> Keep the current values as those of an instant once per period.
-   subroutine strobe_run(self, t, catalogue)
+   subroutine poincare_run(self, t, catalogue)
       class(run_recorder_t), intent(inout) :: self       !! the recorder
       real(wp), intent(in) :: t                          !! time [s]
       type(catalogue_t), intent(in) :: catalogue         !! values at t
 
-      call self%statistics%strobe(t, catalogue)
-   end subroutine strobe_run
+      call self%statistics%poincare(t, catalogue)
+   end subroutine poincare_run
 
    !> Keep a film.
    subroutine field_run(self, field)
@@ -368,14 +368,14 @@ contains
       if (allocated(self%outcome%numbers)) then
          member%numbers = self%outcome%numbers
          member%warnings = self%outcome%warnings
-         associate (n => self%statistics%n_strobe, channels => self%statistics%channels)
+         associate (n => self%statistics%n_poincare, channels => self%statistics%channels)
             if (n > 0) then
-               allocate (member%strobe_names(size(channels)))
+               allocate (member%poincare_names(size(channels)))
                do k = 1, size(channels)
-                  member%strobe_names(k)%s = scalar_name(self%items, channels(k))
+                  member%poincare_names(k)%s = scalar_name(self%items, channels(k))
                end do
-               member%strobe_times = self%statistics%strobe_times(:n)
-               member%strobes = self%statistics%strobes(:size(channels), :n)
+               member%poincare_times = self%statistics%poincare_times(:n)
+               member%poincare_samples = self%statistics%poincare_samples(:size(channels), :n)
             end if
          end associate
       end if

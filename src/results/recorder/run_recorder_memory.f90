@@ -7,7 +7,7 @@ submodule(run_recorder) run_recorder_memory
    use horizon_memory, only: load_horizon, save_horizon
    use posix, only: remove_file
    use processes, only: asked_by, clock_ms
-   use saved_run, only: wish_checkpoint, wish_nothing, wish_stop
+   use saved_run, only: requested_action_checkpoint, action_none, requested_action_stop
    implicit none (type, external)
 
    integer, parameter :: steps_between = 64               !! steps between two looks at the clock
@@ -18,29 +18,29 @@ contains
 
    !> Whether the run is to be saved or to end. Where it can be saved at some instants only, it ends at the last that is safely
    !> within the time of the wall.
-   module procedure wish_of_run
-      wish = wish_nothing
+   module procedure requested_action_of_run
+      requested_action = action_none
       associate (pace => self%pace, life => self%plan%life)
          if (.not. life%is_saved) return
          if (asked_by() /= 0 .or. self%last_time >= life%stop_at) then
-            wish = wish_stop
+            requested_action = requested_action_stop
             return
          end if
          pace%n_step = pace%n_step + 1
          if (pace%n_step < steps_between .and. .not. (can_save .and. pace%longest >= second)) return
          pace%n_step = 0
       end associate
-      wish = wish_by_clock(self, can_save)
-   end procedure wish_of_run
+      requested_action = requested_action_by_clock(self, can_save)
+   end procedure requested_action_of_run
 
    !> The same, by the time that it is.
-   integer function wish_by_clock(self, can_save) result(wish)
+   integer function requested_action_by_clock(self, can_save) result(requested_action)
       class(run_recorder_t), intent(inout) :: self  !! the recorder
       logical, intent(in) :: can_save               !! the run can be saved as it is
 
       integer(i8) :: gap, left, now
 
-      wish = wish_nothing
+      requested_action = action_none
       associate (pace => self%pace, life => self%plan%life)
          now = clock_ms()
          if (pace%saved_at == 0) pace%saved_at = now
@@ -52,12 +52,12 @@ contains
          end if
          left = nint(1000.0_wp*life%walltime, i8) - (now - life%begun)
          if (life%walltime > 0.0_wp .and. left <= gap + 2*pace%cost + min(second, nint(50.0_wp*life%walltime, i8))) then
-            wish = wish_stop
+            requested_action = requested_action_stop
          else if (can_save .and. now - pace%saved_at >= ms_between) then
-            wish = wish_checkpoint
+            requested_action = requested_action_checkpoint
          end if
       end associate
-   end function wish_by_clock
+   end function requested_action_by_clock
 
    !> Write all that waits, and the checkpoint. A checkpoint that cannot be written is a failure: the run could not go on from where
    !> its reader believes.
@@ -71,17 +71,17 @@ contains
       if (self%plan%with%motion .and. .not. allocated(error)) call self%motion%flush(error)
       self%is_broken = self%is_broken .or. allocated(error)
       if (allocated(error)) return
-      associate (tape => saved%output)
-         call save_horizon(self%plan%horizon, tape)  ! the first: it is wanted before the recorder begins
-         call tape%put(self%last_time)
-         call self%events%save(tape)
-         call self%statistics%save(tape)
-         call self%extremes%save(tape)
-         call self%keeper%save(tape)
-         call save_fields(self%fields, tape)
-         if (self%plan%with%hdf5) call self%hdf5%save(tape)
-         if (self%plan%with%texts) call self%texts%save(tape)
-         if (self%plan%with%motion) call self%motion%save(tape)
+      associate (archive => saved%output)
+         call save_horizon(self%plan%horizon, archive)  ! the first: it is wanted before the recorder begins
+         call archive%put(self%last_time)
+         call self%events%save(archive)
+         call self%statistics%save(archive)
+         call self%extremes%save(archive)
+         call self%keeper%save(archive)
+         call save_fields(self%fields, archive)
+         if (self%plan%with%hdf5) call self%hdf5%save(archive)
+         if (self%plan%with%texts) call self%texts%save(archive)
+         if (self%plan%with%motion) call self%motion%save(archive)
       end associate
       call write_checkpoint(self%plan, saved, error)
       self%pace%saved_at = clock_ms()
@@ -95,20 +95,20 @@ contains
 
       ignored = remove_file(self%plan%directory//"/summary.json")  ! whose presence means that the run has ended
       ignored = remove_file(self%plan%directory//"/summary.txt")
-      associate (tape => saved%output)
-         call load_horizon(tape, before)
-         call tape%get(self%last_time)
-         call self%events%load(tape)
-         call self%statistics%load(tape)
-         call self%extremes%load(tape)
-         call self%keeper%load(tape)
-         call load_fields(tape, self%fields)
-         if (self%plan%with%hdf5) call self%hdf5%go_on(tape, error)
-         if (self%plan%with%texts .and. .not. allocated(error)) call self%texts%go_on(tape, error)
-         if (self%plan%with%motion .and. .not. allocated(error)) call self%motion%go_on(tape, error)
+      associate (archive => saved%output)
+         call load_horizon(archive, before)
+         call archive%get(self%last_time)
+         call self%events%load(archive)
+         call self%statistics%load(archive)
+         call self%extremes%load(archive)
+         call self%keeper%load(archive)
+         call load_fields(archive, self%fields)
+         if (self%plan%with%hdf5) call self%hdf5%go_on(archive, error)
+         if (self%plan%with%texts .and. .not. allocated(error)) call self%texts%go_on(archive, error)
+         if (self%plan%with%motion .and. .not. allocated(error)) call self%motion%go_on(archive, error)
          if (allocated(error)) then
             self%is_broken = .true.
-         else if (.not. tape%is_at_end()) then
+         else if (.not. archive%is_at_end()) then
             call set_error(error, exit_usage, "the checkpoint does not belong to this run: its output data have "// &
                            "another length")
          end if

@@ -2,7 +2,7 @@
 module contact_statistics
    use, intrinsic :: ieee_arithmetic, only: ieee_is_finite
    use catalogue, only: catalogue_t
-   use catalogue_rooms, only: room_contacts
+   use groups_of_catalogue, only: group_contacts
    use event_list, only: event_list_t
    use kinds, only: wp
    use name_table, only: name_table_t
@@ -18,7 +18,7 @@ module contact_statistics
       real(wp) :: contact_fraction = 0.0_wp             !! of the time [1]
       real(wp), allocatable :: speeds(:)                !! (impacts) impact speeds [m/s]
       real(wp), allocatable :: forces(:)                !! (impacts) peak forces [N]
-      real(wp) :: greatest_force = -huge(1.0_wp)        !! greatest peak force in the window, whenever its contact began [N]
+      real(wp) :: max_force = -huge(1.0_wp)        !! greatest peak force in the window, whenever its contact began [N]
    end type joint_statistics_t
 
 contains
@@ -31,7 +31,7 @@ contains
       type(text_list_t) :: found
       integer :: k
 
-      associate (contacts => catalogue%rooms(room_contacts))
+      associate (contacts => catalogue%rooms(group_contacts))
          do k = 1, size(contacts%names)
             if (k > 1) then  ! contacts of a joint stand together
                if (contacts%names(k)%s == contacts%names(k - 1)%s) cycle
@@ -80,7 +80,7 @@ contains
                end if
             end associate
             associate (force => events%numbers(3, order(k)), at => events%numbers(9, order(k)))
-               if (at >= from .and. at <= until) joints(j)%greatest_force = max(joints(j)%greatest_force, force)
+               if (at >= from .and. at <= until) joints(j)%max_force = max(joints(j)%max_force, force)
             end associate
             ! contacts come in the order of their onsets: what reaches beyond those before is new
             closed(j) = closed(j) + max(0.0_wp, end - max(begin, covered(j)))

@@ -13,20 +13,20 @@ module extremes
    use, intrinsic :: ieee_arithmetic, only: ieee_is_finite
    use kinds, only: not_a_number, wp
    use name_table, only: name_table_t
-   use tape, only: tape_t
+   use archive, only: archive_t
    use text, only: text_t
    implicit none (type, external)
    private
    public :: extreme_t, extremes_t, joint_extremes_t, joints_at_extremes
 
-   real(wp), parameter :: greatest_square = 1.0e150_wp  !! numbers beyond it have no square [any]
+   real(wp), parameter :: max_square = 1.0e150_wp  !! numbers beyond it have no square [any]
 
    !> What one number went through.
    type :: extreme_t
-      real(wp) :: least = huge(1.0_wp)        !! least value, SI [any]
-      real(wp) :: least_time = 0.0_wp         !! when it was first there [s]
-      real(wp) :: greatest = -huge(1.0_wp)    !! greatest value, SI [any]
-      real(wp) :: greatest_time = 0.0_wp      !! when it was first there [s]
+      real(wp) :: minimum = huge(1.0_wp)        !! least value, SI [any]
+      real(wp) :: min_time = 0.0_wp         !! when it was first there [s]
+      real(wp) :: maximum = -huge(1.0_wp)    !! greatest value, SI [any]
+      real(wp) :: max_time = 0.0_wp      !! when it was first there [s]
       real(wp) :: last = 0.0_wp               !! value at the last output instant, SI; NaN: none [any]
       real(wp) :: integral = 0.0_wp           !! of the value over the time [any]
       real(wp) :: integral_2 = 0.0_wp         !! of its square [any]
@@ -89,17 +89,17 @@ module extremes
    interface
 
       !> Write what was gathered.
-      module subroutine save_extremes(self, tape)
+      module subroutine save_extremes(self, archive)
          implicit none (type, external)
          class(extremes_t), intent(in) :: self  !! what was gathered
-         type(tape_t), intent(inout) :: tape    !! receives it
+         type(archive_t), intent(inout) :: archive    !! receives it
       end subroutine save_extremes
 
       !> Take it back.
-      module subroutine load_extremes(self, tape)
+      module subroutine load_extremes(self, archive)
          implicit none (type, external)
          class(extremes_t), intent(inout) :: self  !! started
-         type(tape_t), intent(inout) :: tape       !! holds it
+         type(archive_t), intent(inout) :: archive       !! holds it
       end subroutine load_extremes
 
       !> What the contacts of all loose joints went through between two instants.
@@ -198,13 +198,13 @@ contains
       real(wp), intent(in) :: t               !! time [s]
       type(extreme_t), intent(inout) :: one   !! what it went through
 
-      if (x < one%least) then
-         one%least = x
-         one%least_time = t
+      if (x < one%minimum) then
+         one%minimum = x
+         one%min_time = t
       end if
-      if (x > one%greatest) then
-         one%greatest = x
-         one%greatest_time = t
+      if (x > one%maximum) then
+         one%maximum = x
+         one%max_time = t
       end if
    end subroutine note_one
 
@@ -212,7 +212,7 @@ contains
    pure real(wp) function bounded(x)
       real(wp), intent(in) :: x   !! the number [any]
 
-      bounded = min(max(x, -greatest_square), greatest_square)
+      bounded = min(max(x, -max_square), max_square)
    end function bounded
 
    !> What a number went through; extremes and their times are NaN if it never was one.
@@ -222,10 +222,10 @@ contains
 
       told = self%of(k)
       if (self%has_values(k)) return
-      told%least = not_a_number()
-      told%least_time = not_a_number()
-      told%greatest = not_a_number()
-      told%greatest_time = not_a_number()
+      told%minimum = not_a_number()
+      told%min_time = not_a_number()
+      told%maximum = not_a_number()
+      told%max_time = not_a_number()
    end function told
 
    !> What is round-off in the channels, once the run has ended.
@@ -268,8 +268,8 @@ contains
       integer, intent(in) :: k                !! which number
 
       one = self%told(k)
-      one%least = shown(one%least, self%noise(k))
-      one%greatest = shown(one%greatest, self%noise(k))
+      one%minimum = shown(one%minimum, self%noise(k))
+      one%maximum = shown(one%maximum, self%noise(k))
    end function shown_extreme
 
    !> Root mean square for people: round-off is zero.
@@ -285,7 +285,7 @@ contains
       class(extremes_t), intent(in) :: self   !! what was gathered
       integer, intent(in) :: k                !! which number
 
-      has_values = self%of(k)%least <= self%of(k)%greatest
+      has_values = self%of(k)%minimum <= self%of(k)%maximum
    end function has_values
 
    !> Whether there are rows at all.
@@ -315,7 +315,7 @@ contains
       integer, intent(in) :: k                !! which number
 
       size_of = 0.0_wp
-      if (self%has_values(k)) size_of = max(abs(self%of(k)%least), abs(self%of(k)%greatest))
+      if (self%has_values(k)) size_of = max(abs(self%of(k)%minimum), abs(self%of(k)%maximum))
    end function size_of
 
    !> Time over which a number can be averaged.

@@ -8,10 +8,10 @@ contains
    module procedure save_extremes
       integer :: k
 
-      call tape%put(self%n_sample)
-      call tape%put([self%t_first, self%t_last, self%first_row, self%last_row])
+      call archive%put(self%n_sample)
+      call archive%put([self%t_first, self%t_last, self%first_row, self%last_row])
       do k = 1, size(self%of)
-         call tape%put(transfer(self%of(k), [0.0_wp]))
+         call archive%put(transfer(self%of(k), [0.0_wp]))
       end do
    end procedure save_extremes
 
@@ -20,13 +20,13 @@ contains
       real(wp) :: numbers(size(transfer(extreme_t(), [0.0_wp])))
       integer :: k
 
-      call tape%get(self%n_sample)
-      call tape%get(self%t_first)
-      call tape%get(self%t_last)
-      call tape%get(self%first_row)
-      call tape%get(self%last_row)
+      call archive%get(self%n_sample)
+      call archive%get(self%t_first)
+      call archive%get(self%t_last)
+      call archive%get(self%first_row)
+      call archive%get(self%last_row)
       do k = 1, size(self%of)
-         call tape%get(numbers)
+         call archive%get(numbers)
          self%of(k) = transfer(numbers, self%of(k))
       end do
    end procedure load_extremes

@@ -49,16 +49,16 @@ contains
    contains
 
       !> Take a value that is greater than those before.
-      pure subroutine raise(x, t, greatest, onset, when)
+      pure subroutine raise(x, t, maximum, onset, when)
          real(wp), intent(in) :: x            !! the value [any]
          real(wp), intent(in) :: t            !! when it was there [s]
-         real(wp), intent(inout) :: greatest  !! the greatest so far [any]
+         real(wp), intent(inout) :: maximum  !! the greatest so far [any]
          real(wp), intent(inout) :: onset     !! of its contact [s]
          real(wp), intent(inout) :: when      !! when it was there [s]
 
          if (.not. ieee_is_finite(x)) return
-         if (joint%impacts > 1 .and. x <= greatest) return
-         greatest = x
+         if (joint%impacts > 1 .and. x <= maximum) return
+         maximum = x
          onset = numbers(1)
          when = t
       end subroutine raise

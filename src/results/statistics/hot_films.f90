@@ -31,11 +31,11 @@ contains
       allocate (warnings(0))
       do k = 1, size(extremes%channels)
          if (catalogue%groups(extremes%channels(k)%group)%channel%name /= "temperature_rise") cycle
-         if (.not. extremes%has_values(k) .or. .not. extremes%of(k)%greatest > hottest) cycle
-         words = scalar_name(catalogue, extremes%channels(k))//" reaches "//real_text(extremes%of(k)%greatest, 4)//" K at t = "// &
-                 real_text(extremes%of(k)%greatest_time, 6)//" s (limit "//real_text(hottest, 3)//" K)"
+         if (.not. extremes%has_values(k) .or. .not. extremes%of(k)%maximum > hottest) cycle
+         words = scalar_name(catalogue, extremes%channels(k))//" reaches "//real_text(extremes%of(k)%maximum, 4)//" K at t = "// &
+                 real_text(extremes%of(k)%max_time, 6)//" s (limit "//real_text(hottest, 3)//" K)"
          mean = extremes%mean(k)
-         if (.not. ieee_is_finite(mean)) mean = extremes%of(k)%greatest
+         if (.not. ieee_is_finite(mean)) mean = extremes%of(k)%maximum
          if (mean > hottest) then
             words = words//", "//real_text(mean, 4)//" K on average: the side flow is too small to carry off the heat, and the "// &
                     "viscosity is wrong; use a larger clearance, a shorter bearing, a supply or a lubricant of lower viscosity"

@@ -15,12 +15,12 @@ module statistics
    use, intrinsic :: ieee_arithmetic, only: ieee_is_finite
    use kinds, only: not_a_number, wp
    use spectrum, only: amplitude_spectrum
-   use tape, only: tape_t
+   use archive, only: archive_t
    use text, only: text_t
    implicit none (type, external)
    private
    public :: names_of_numbers, number_t, statistics_plan_t
-   public :: make_room, make_room_for_strobe, statistics_t
+   public :: make_storage, make_storage_for_poincare, statistics_t
 
    integer, parameter :: n_of_channel = 5  !! numbers of a channel
    !> Their names.
@@ -56,9 +56,9 @@ module statistics
       type(statistics_plan_t) :: plan                     !! what is asked for
       type(scalar_t), allocatable :: channels(:)          !! (n) channels of the numbers and of the sections
       type(scalar_t), allocatable :: spectra(:)           !! (m) channels of the spectra
-      integer :: n_strobe = 0                             !! instants once per period so far
-      real(wp), allocatable :: strobe_times(:)            !! (n_strobe or more) these instants [s]
-      real(wp), allocatable :: strobes(:, :)              !! (n, n_strobe or more) the channels at them, SI [any]
+      integer :: n_poincare = 0                             !! instants once per period so far
+      real(wp), allocatable :: poincare_times(:)            !! (n_strobe or more) these instants [s]
+      real(wp), allocatable :: poincare_samples(:, :)              !! (n, n_strobe or more) the channels at them, SI [any]
       integer, private :: n_sample = 0                    !! output instants in the window so far
       real(wp), private :: t_first = 0.0_wp               !! the first of them [s]
       real(wp), private :: t_last = 0.0_wp                !! the last of them [s]
@@ -74,7 +74,7 @@ module statistics
       procedure :: places => places_of_channels
       procedure :: sample => sample_statistics
       procedure :: note_extremes
-      procedure :: strobe => strobe_statistics
+      procedure :: poincare => poincare_statistics
       procedure :: numbers => numbers_of_run
       procedure :: spectrum_of
       procedure :: has_time
@@ -87,17 +87,17 @@ module statistics
    interface
 
       !> Write what was gathered.
-      module subroutine save_statistics(self, tape)
+      module subroutine save_statistics(self, archive)
          implicit none (type, external)
          class(statistics_t), intent(in) :: self  !! what was gathered
-         type(tape_t), intent(inout) :: tape      !! receives it
+         type(archive_t), intent(inout) :: archive      !! receives it
       end subroutine save_statistics
 
       !> Take it back.
-      module subroutine load_statistics(self, tape)
+      module subroutine load_statistics(self, archive)
          implicit none (type, external)
          class(statistics_t), intent(inout) :: self  !! started
-         type(tape_t), intent(inout) :: tape         !! holds it
+         type(archive_t), intent(inout) :: archive         !! holds it
       end subroutine load_statistics
 
       !> The numbers that words name, then further ones, each once.
@@ -125,7 +125,7 @@ contains
 
       self%plan = plan
       self%n_sample = 0
-      self%n_strobe = 0
+      self%n_poincare = 0
       if (.not. plan%is_wanted) then
          allocate (self%channels(0), self%spectra(0))
          return
@@ -136,7 +136,7 @@ contains
       allocate (self%x_last(n), self%integral(n), self%integral_2(n), self%gap(n), source=0.0_wp)
       allocate (self%lowest(n), source=huge(1.0_wp))
       allocate (self%highest(n), source=-huge(1.0_wp))
-      allocate (self%strobe_times(64), self%strobes(n, 64), self%series(size(self%spectra), 1024))
+      allocate (self%poincare_times(64), self%poincare_samples(n, 64), self%series(size(self%spectra), 1024))
    end subroutine start_statistics
 
    !> Where the channels stand in the values of the catalogue.
@@ -177,7 +177,7 @@ contains
       self%n_sample = self%n_sample + 1
       self%t_last = t
       if (size(self%spectra) == 0) return
-      call make_room(self%series, self%n_sample)
+      call make_storage(self%series, self%n_sample)
       do k = 1, size(self%spectra)
          self%series(k, self%n_sample) = value_of(catalogue, self%spectra(k))
       end do
@@ -202,7 +202,7 @@ contains
    end subroutine note_extremes
 
    !> An instant once per period; nothing is kept if no statistics are wanted.
-   subroutine strobe_statistics(self, t, catalogue)
+   subroutine poincare_statistics(self, t, catalogue)
       class(statistics_t), intent(inout) :: self  !! what is gathered
       real(wp), intent(in) :: t                   !! time [s]
       type(catalogue_t), intent(in) :: catalogue  !! values at t
@@ -210,26 +210,26 @@ contains
       integer :: k
 
       if (.not. self%plan%is_wanted) return
-      call make_room_for_strobe(self)
-      self%strobe_times(self%n_strobe) = t
+      call make_storage_for_poincare(self)
+      self%poincare_times(self%n_poincare) = t
       do k = 1, size(self%channels)
-         self%strobes(k, self%n_strobe) = value_of(catalogue, self%channels(k))
+         self%poincare_samples(k, self%n_poincare) = value_of(catalogue, self%channels(k))
       end do
-   end subroutine strobe_statistics
+   end subroutine poincare_statistics
 
    !> One instant once per period more.
-   subroutine make_room_for_strobe(self)
+   subroutine make_storage_for_poincare(self)
       class(statistics_t), intent(inout) :: self  !! what is gathered
 
       real(wp), allocatable :: longer(:)
 
-      self%n_strobe = self%n_strobe + 1
-      call make_room(self%strobes, self%n_strobe)
-      if (self%n_strobe <= size(self%strobe_times)) return
-      allocate (longer(size(self%strobes, 2)), source=0.0_wp)
-      longer(1:self%n_strobe - 1) = self%strobe_times
-      call move_alloc(longer, self%strobe_times)
-   end subroutine make_room_for_strobe
+      self%n_poincare = self%n_poincare + 1
+      call make_storage(self%poincare_samples, self%n_poincare)
+      if (self%n_poincare <= size(self%poincare_times)) return
+      allocate (longer(size(self%poincare_samples, 2)), source=0.0_wp)
+      longer(1:self%n_poincare - 1) = self%poincare_times
+      call move_alloc(longer, self%poincare_times)
+   end subroutine make_storage_for_poincare
 
    !> A value of the catalogue.
    pure real(wp) function value_of(catalogue, scalar)
@@ -240,7 +240,7 @@ contains
    end function value_of
 
    !> Make sure that an array has a column of a given number.
-   subroutine make_room(columns, n)
+   subroutine make_storage(columns, n)
       real(wp), allocatable, intent(inout) :: columns(:, :)  !! (any, at least n on return) [any]
       integer, intent(in) :: n                               !! columns needed
 
@@ -250,7 +250,7 @@ contains
       allocate (larger(size(columns, 1), max(n, 2*size(columns, 2))))
       larger(:, 1:size(columns, 2)) = columns
       call move_alloc(larger, columns)
-   end subroutine make_room
+   end subroutine make_storage
 
    !> Amplitude spectrum of channel number k of the spectra.
    subroutine spectrum_of(self, k, frequency, amplitude)
@@ -329,7 +329,7 @@ contains
                values(5:6) = [sum(joint%speeds)/real(size(joint%speeds), wp), maxval(joint%speeds)]
                values(7) = sum(joint%forces)/real(size(joint%forces), wp)
             end if
-            if (joint%greatest_force >= 0.0_wp) values(8) = joint%greatest_force
+            if (joint%max_force >= 0.0_wp) values(8) = joint%max_force
          end associate
          associate (first => n_of_channel*size(self%channels) + n_of_joint*(k - 1))
             list(first + 1:first + n_of_joint)%value = values

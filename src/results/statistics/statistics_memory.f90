@@ -9,13 +9,14 @@ contains
       integer :: k
 
       if (.not. self%plan%is_wanted) return
-      call tape%put([self%n_strobe, self%n_sample])
-      call tape%put([self%t_first, self%t_last, self%x_last, self%integral, self%integral_2, self%gap, self%lowest, self%highest])
-      do k = 1, self%n_strobe
-         call tape%put([self%strobe_times(k), self%strobes(:, k)])
+      call archive%put([self%n_poincare, self%n_sample])
+      call archive%put([self%t_first, self%t_last, self%x_last, self%integral, self%integral_2, self%gap, self%lowest, &
+                        self%highest])
+      do k = 1, self%n_poincare
+         call archive%put([self%poincare_times(k), self%poincare_samples(:, k)])
       end do
       do k = 1, merge(self%n_sample, 0, size(self%spectra) > 0)
-         call tape%put(self%series(:, k))
+         call archive%put(self%series(:, k))
       end do
    end procedure save_statistics
 
@@ -24,25 +25,25 @@ contains
       integer :: k, n
 
       if (.not. self%plan%is_wanted) return
-      call tape%get(n)
-      call tape%get(self%n_sample)
-      call tape%get(self%t_first)
-      call tape%get(self%t_last)
-      call tape%get(self%x_last)
-      call tape%get(self%integral)
-      call tape%get(self%integral_2)
-      call tape%get(self%gap)
-      call tape%get(self%lowest)
-      call tape%get(self%highest)
-      self%n_strobe = 0
+      call archive%get(n)
+      call archive%get(self%n_sample)
+      call archive%get(self%t_first)
+      call archive%get(self%t_last)
+      call archive%get(self%x_last)
+      call archive%get(self%integral)
+      call archive%get(self%integral_2)
+      call archive%get(self%gap)
+      call archive%get(self%lowest)
+      call archive%get(self%highest)
+      self%n_poincare = 0
       do k = 1, n
-         call make_room_for_strobe(self)
-         call tape%get(self%strobe_times(k))
-         call tape%get(self%strobes(:, k))
+         call make_storage_for_poincare(self)
+         call archive%get(self%poincare_times(k))
+         call archive%get(self%poincare_samples(:, k))
       end do
       do k = 1, merge(self%n_sample, 0, size(self%spectra) > 0)
-         call make_room(self%series, k)
-         call tape%get(self%series(:, k))
+         call make_storage(self%series, k)
+         call archive%get(self%series(:, k))
       end do
    end procedure load_statistics
 

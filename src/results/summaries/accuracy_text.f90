@@ -90,11 +90,12 @@ contains
          associate (extreme => accuracy%extremes(k))
             name = "  "//extreme%name
             if (extreme%unit /= "1") name = name//" ["//extreme%unit//"]"
-            call lines%line(padded(name, 42)//right(known_text(extreme%least, 12), 20)//right(known_text(extreme%most, 12), 20)// &
+            call lines%line(padded(name, 42)//right(known_text(extreme%minimum, 12), 20)//right(known_text(extreme%most, 12), &
+                                                                                                20)// &
                             right(short(extreme%error), 11))
          end associate
       end do
-      if (.not. all(ieee_is_finite(accuracy%extremes%least))) then
+      if (.not. all(ieee_is_finite(accuracy%extremes%minimum))) then
          call lines%line("  -: NaN; a contact point is defined only during contact")
       end if
       if (n > most_extremes) call lines%line("  and "//to_text(n - most_extremes)//" more in summary.json and run.h5")
@@ -138,7 +139,7 @@ contains
                call one%put_text("unit", extreme%unit)
                call one%put_real("scale", extreme%scale)
                call one%put_real("error", extreme%error)
-               call one%put_real("min", extreme%least)
+               call one%put_real("min", extreme%minimum)
                call one%put_real("max", extreme%most)
             end associate
             call append_text(extremes, one%get())

@@ -1,8 +1,8 @@
 !> Where settings of a comparison do not do as they are asked, and why, in words.
 module bend_text
    use kinds, only: wp
-   use precision_results, only: bend_lost, bend_luck, bend_scatter, bend_short, bend_steps, bend_t, bend_violation, ladder_t, &
-      precision_t, rung_done
+   use precision_results, only: bend_lost, bend_luck, bend_scatter, bend_short, bend_steps, bend_t, bend_violation, tol_sweep_t, &
+      precision_t, tol_run_done
    use text, only: append_text, real_text, text_t, to_text
    use text_buffer, only: buffer_t
    implicit none (type, external)
@@ -36,43 +36,45 @@ contains
       integer :: i, k, n
 
       allocate (remarks(0))
-      do k = 1, size(study%ladders)
-         associate (ladder => study%ladders(k))
+      do k = 1, size(study%tol_sweeps)
+         associate (tol_sweep => study%tol_sweeps(k))
             n = 0
-            if (.not. ladder%is_fixed .and. study%longest_step > 0.0_wp) then
-               n = count(ladder%rungs%state == rung_done .and. ladder%rungs%count%steps*study%longest_step < held*study%end)
+            if (.not. tol_sweep%is_fixed .and. study%longest_step > 0.0_wp) then
+               n = count(tol_sweep%tol_runs%state == tol_run_done &
+                         .and. tol_sweep%tol_runs%count%steps*study%longest_step < held*study%end)
             end if
-            if (n > 0) call append_text(remarks, "held: "//ladder%name//", "//to_text(n)// &
+            if (n > 0) call append_text(remarks, "held: "//tol_sweep%name//", "//to_text(n)// &
                                         " runs: the 'maximum_step' of the deck, "//real_text(study%longest_step, 3)// &
                                         " s, limits the steps, not the tolerance")
-            do i = 1, size(ladder%bends)
-               call append_text(remarks, "bent: "//ladder%name//" "//stretch(ladder, ladder%bends(i))// &
-                                ": errors fall by less than a factor of 3 over two decades; "//cause_text(ladder, ladder%bends(i)))
+            do i = 1, size(tol_sweep%bends)
+               call append_text(remarks, "bent: "//tol_sweep%name//" "//stretch(tol_sweep, tol_sweep%bends(i))// &
+                                ": errors fall by less than a factor of 3 over two decades; "//cause_text(tol_sweep, &
+                                                                                                          tol_sweep%bends(i)))
             end do
          end associate
       end do
    end function bends_of
 
    !> From what to what a bend goes.
-   function stretch(ladder, bend) result(words)
-      type(ladder_t), intent(in) :: ladder       !! the ladder
+   function stretch(tol_sweep, bend) result(words)
+      type(tol_sweep_t), intent(in) :: tol_sweep       !! the ladder
       type(bend_t), intent(in) :: bend           !! its bend
       character(:), allocatable :: words         !! as `1e-4 to 1e-7`
 
-      words = real_text(ladder%rungs(bend%first)%asked, 2)//" to "//real_text(ladder%rungs(bend%last)%asked, 2)
-      if (ladder%is_fixed) words = words//" s"
+      words = real_text(tol_sweep%tol_runs(bend%first)%asked, 2)//" to "//real_text(tol_sweep%tol_runs(bend%last)%asked, 2)
+      if (tol_sweep%is_fixed) words = words//" s"
    end function stretch
 
    !> Why.
-   function cause_text(ladder, bend) result(words)
-      type(ladder_t), intent(in) :: ladder       !! the ladder
+   function cause_text(tol_sweep, bend) result(words)
+      type(tol_sweep_t), intent(in) :: tol_sweep       !! the ladder
       type(bend_t), intent(in) :: bend           !! its bend
       character(:), allocatable :: words         !! one clause
 
       select case (bend%cause)
       case (bend_steps)
-         words = "its number of steps hardly changes ("//to_text(ladder%rungs(bend%first)%count%steps)//" to "// &
-                 to_text(ladder%rungs(bend%last)%count%steps)//"): stability or events determine the steps"
+         words = "its number of steps hardly changes ("//to_text(tol_sweep%tol_runs(bend%first)%count%steps)//" to "// &
+                 to_text(tol_sweep%tol_runs(bend%last)%count%steps)//"): stability or events determine the steps"
       case (bend_violation)
          words = "the constraint violation stays constant too: the stabilisation determines both"
       case (bend_lost)

@@ -3,7 +3,7 @@ module beyond_text
    use batch_means, only: estimate_t
    use, intrinsic :: ieee_arithmetic, only: ieee_is_finite
    use kinds, only: wp
-   use precision_results, only: ladder_t, n_statistic, precision_t, rung_done, rung_other, statistic_units, statistic_words
+   use precision_results, only: tol_sweep_t, n_statistic, precision_t, tol_run_done, tol_run_other, statistic_units, statistic_words
    use text, only: real_text, to_text
    use text_buffer, only: buffer_t
    implicit none (type, external)
@@ -27,28 +27,30 @@ contains
          if (.not. reference%is_there) return
          n_own = 0
          n_ended = 0
-         do k = 1, size(study%ladders)
-            n_own = n_own + count(study%ladders(k)%rungs%statistics%is_own)
-            n_ended = n_ended + count(study%ladders(k)%rungs%state == rung_done .or. study%ladders(k)%rungs%state == rung_other)
+         do k = 1, size(study%tol_sweeps)
+            n_own = n_own + count(study%tol_sweeps(k)%tol_runs%statistics%is_own)
+            n_ended = n_ended + count(study%tol_sweeps(k)%tol_runs%state == tol_run_done &
+                                      .or. study%tol_sweeps(k)%tol_runs%state == tol_run_other)
          end do
          call lines%line("statistics from "//real_text(reference%from, 4)//" to "//real_text(study%end, 4)// &
                          " s, beyond the comparison window, with 95 % confidence intervals,")
          call lines%line("of the reference and of the runs that diverged from it, "//to_text(n_own)//" of "// &
                          to_text(n_ended)//" do:")
          longest = len("reference")
-         do k = 1, size(study%ladders)
-            longest = max(longest, len(study%ladders(k)%name))
+         do k = 1, size(study%tol_sweeps)
+            longest = max(longest, len(study%tol_sweeps(k)%name))
          end do
          do s = 1, n_statistic
             if (.not. ieee_is_finite(reference%list(s)%value)) cycle
             call lines%line("  "//trim(statistic_words(s))//" ["//trim(statistic_units(s))//"]")
             line = "    "//padded("reference", longest)//padded(estimate_text(reference%list(s)), width)
             call lines%line(trim(line)//told(.not. ieee_is_finite(reference%list(s)%half), "too few values for an interval"))
-            do k = 1, size(study%ladders)
-               associate (ladder => study%ladders(k))
-                  if (ladder%statistics%n_run(s) == 0) cycle
-                  call lines%line("    "//padded(ladder%name, longest)//padded(estimate_text(ladder%statistics%list(s)), width)// &
-                                  apart_text(ladder, s))
+            do k = 1, size(study%tol_sweeps)
+               associate (tol_sweep => study%tol_sweeps(k))
+                  if (tol_sweep%statistics%n_run(s) == 0) cycle
+                  call lines%line("    "//padded(tol_sweep%name, longest)//padded(estimate_text(tol_sweep%statistics%list(s)), &
+                                                                                  width)// &
+                                  apart_text(tol_sweep, s))
                end associate
             end do
          end do
@@ -57,12 +59,12 @@ contains
    end subroutine add_statistics
 
    !> How many runs of a setting are apart from the reference.
-   function apart_text(ladder, s) result(words)
-      type(ladder_t), intent(in) :: ladder       !! the setting
+   function apart_text(tol_sweep, s) result(words)
+      type(tol_sweep_t), intent(in) :: tol_sweep       !! the setting
       integer, intent(in) :: s                   !! the statistic
       character(:), allocatable :: words         !! as `1 of 27 apart from the reference`
 
-      associate (n => ladder%statistics%n_run(s), apart => ladder%statistics%n_apart(s))
+      associate (n => tol_sweep%statistics%n_run(s), apart => tol_sweep%statistics%n_apart(s))
          words = to_text(apart)//" of "//to_text(n)//" significantly different from the reference"// &
                  told(apart > 0 .and. by_chance(apart, n) > 1.001_wp*chance, "within chance")
       end associate

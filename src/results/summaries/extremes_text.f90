@@ -49,9 +49,9 @@ contains
          k = list(i)
          name = full_name(extremes, catalogue, k)
          associate (one => extremes%shown_extreme(k))
-            call lines%add("           "//name//repeat(" ", max(width - len(name), 0))//right(known_text(one%least, 5)))
-            if (extremes%has_course()) call lines%add(right(known_text(one%least_time, 6))//right(known_text(one%greatest, 5))// &
-                                                    right(known_text(one%greatest_time, 6))// &
+            call lines%add("           "//name//repeat(" ", max(width - len(name), 0))//right(known_text(one%minimum, 5)))
+            if (extremes%has_course()) call lines%add(right(known_text(one%min_time, 6))//right(known_text(one%maximum, 5))// &
+                                                    right(known_text(one%max_time, 6))// &
                                                     right(known_text(extremes%shown_mean(k), 5))// &
                                                     right(known_text(extremes%shown_rms(k), 5)))
             call lines%line("")
@@ -121,10 +121,10 @@ contains
             call json%put_text("channel", scalar_name(catalogue, extremes%channels(k)))
             call json%put_text("unit", unit_of(extremes, catalogue, k))
             associate (one => extremes%told(k))
-               call json%put_real("least", one%least)
-               call json%put_real("least_time", one%least_time)
-               call json%put_real("greatest", one%greatest)
-               call json%put_real("greatest_time", one%greatest_time)
+               call json%put_real("least", one%minimum)
+               call json%put_real("least_time", one%min_time)
+               call json%put_real("greatest", one%maximum)
+               call json%put_real("greatest_time", one%max_time)
             end associate
             call json%put_real("mean", extremes%mean(k))
             call json%put_real("rms", extremes%rms(k))

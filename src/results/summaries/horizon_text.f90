@@ -7,7 +7,7 @@ module horizon_text
    use, intrinsic :: ieee_arithmetic, only: ieee_is_finite
    use json_text, only: json_object_t
    use kinds, only: i8, wp
-   use text, only: piece, real_text, to_text
+   use text, only: segment, real_text, to_text
    use text_buffer, only: buffer_t
    implicit none (type, external)
    private
@@ -107,7 +107,7 @@ contains
          words = words//", "//to_text(k)//" to "//real_text(digits(k), 3)//" s"
       end do
       if (k > 0) words = words//", "//to_text(k)//" "//trim(merge("to the end of the search", "to the end              ", is_cut))
-      words = piece(words, 3)
+      words = segment(words, 3)
    end function digits_text
 
    !> The same for scripts.

@@ -4,7 +4,7 @@ module precision_objects
    use horizon_text, only: horizon_json
    use json_text, only: json_object_t
    use kinds, only: i8
-   use precision_results, only: error_names, n_statistic, precision_t, rung_done, rung_failed, rung_other, rung_unrun, &
+   use precision_results, only: error_names, n_statistic, precision_t, tol_run_done, tol_run_failed, tol_run_other, tol_run_unrun, &
       statistic_names
    use precision_text, only: settings_text
    implicit none (type, external)
@@ -26,11 +26,11 @@ contains
       call json%put_real("end", study%end)
       call json%put_real("window", study%reference%window)
       if (study%reference%statistics%is_there) call put_statistics()
-      call json%put_integer("settings", int(size(study%ladders), i8))
-      call json%put_integer("runs", int(runs_in(rung_done), i8))
-      call json%put_integer("failed", int(runs_in(rung_failed), i8))
-      call json%put_integer("not_run", int(runs_in(rung_unrun), i8))
-      call json%put_integer("other_sequence", int(runs_in(rung_other), i8))
+      call json%put_integer("settings", int(size(study%tol_sweeps), i8))
+      call json%put_integer("runs", int(runs_in(tol_run_done), i8))
+      call json%put_integer("failed", int(runs_in(tol_run_failed), i8))
+      call json%put_integer("not_run", int(runs_in(tol_run_unrun), i8))
+      call json%put_integer("other_sequence", int(runs_in(tol_run_other), i8))
       call json%put_integer("rounds", int(study%rounds, i8))
       call json%put_real("budget", study%budget)
       call json%put_real("spent", study%spent)
@@ -42,11 +42,12 @@ contains
       end if
       call horizon_json(study%horizon, json)
       call json%put_list("bends", bends_of(study))
-      if (study%choice%ladder == 0) return
-      associate (ladder => study%ladders(study%choice%ladder), rung => study%ladders(study%choice%ladder)%rungs(study%choice%rung))
-         call json%put_text("choice", settings_text(ladder, rung))
-         call json%put_real("choice_error", rung%error(study%wanted))
-         call json%put_real("choice_cpu", rung%cpu)
+      if (study%choice%tol_sweep == 0) return
+      associate (tol_sweep => study%tol_sweeps(study%choice%tol_sweep), &
+                 tol_run => study%tol_sweeps(study%choice%tol_sweep)%tol_runs(study%choice%tol_run))
+         call json%put_text("choice", settings_text(tol_sweep, tol_run))
+         call json%put_real("choice_error", tol_run%error(study%wanted))
+         call json%put_real("choice_cpu", tol_run%cpu)
          call json%put_real("confirmed_error", study%choice%error)
          call json%put_real("confirmed_cpu", study%choice%cpu)
       end associate
@@ -63,7 +64,7 @@ contains
                call json%put_real(trim(statistic_names(s)), statistics%list(s)%value)
                call json%put_real(trim(statistic_names(s))//"_interval", statistics%list(s)%half)
                call json%put_integer(trim(statistic_names(s))//"_apart", &
-                                     int(sum([(study%ladders(k)%statistics%n_apart(s), k=1, size(study%ladders))]), i8))
+                                     int(sum([(study%tol_sweeps(k)%statistics%n_apart(s), k=1, size(study%tol_sweeps))]), i8))
             end do
          end associate
       end subroutine put_statistics
@@ -75,8 +76,8 @@ contains
          integer :: k
 
          n = 0
-         do k = 1, size(study%ladders)
-            n = n + count(study%ladders(k)%rungs%state == state)
+         do k = 1, size(study%tol_sweeps)
+            n = n + count(study%tol_sweeps(k)%tol_runs%state == state)
          end do
       end function runs_in
 

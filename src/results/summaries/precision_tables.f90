@@ -2,8 +2,9 @@
 module precision_tables
    use, intrinsic :: ieee_arithmetic, only: ieee_is_finite
    use kinds, only: wp
-   use precision_results, only: error_names, error_units, n_error, n_statistic, precision_t, rung_failed, rung_states, rung_t, &
-      rung_unrun, statistic_names, statistic_units
+   use precision_results, only: error_names, error_units, n_error, n_statistic, precision_t, tol_run_failed, tol_run_states, &
+        tol_run_t, &
+      tol_run_unrun, statistic_names, statistic_units
    use precision_text, only: column, figures, precision_summary, short
    use text, only: exact_text, replace, to_text
    use text_buffer, only: buffer_t
@@ -27,17 +28,17 @@ contains
       call lines%line("errors: onsets in s, violation in m, others relative; CPU time of the integration in ms, median and "// &
          "minimum of")
       call lines%line("the rounds; * on the Pareto front; < below the error of the reference, hence unknown")
-      do k = 1, size(study%ladders)
-         associate (ladder => study%ladders(k))
+      do k = 1, size(study%tol_sweeps)
+         associate (tol_sweep => study%tol_sweeps(k))
             call lines%line("")
-            call lines%line(ladder%name)
-            call lines%add("  "//column(merge("step/s   ", "tolerance", ladder%is_fixed)))
+            call lines%line(tol_sweep%name)
+            call lines%add("  "//column(merge("step/s   ", "tolerance", tol_sweep%is_fixed)))
             do kind = 1, n_error
                call lines%add(column(trim(error_names(kind))))
             end do
             call lines%line(column("CPU")//column("min")//column("RHS")//column("steps")//"  state")
-            do i = 1, size(ladder%rungs)
-               call lines%line(rung_line(ladder%rungs(i)))
+            do i = 1, size(tol_sweep%tol_runs)
+               call lines%line(tol_run_line(tol_sweep%tol_runs(i)))
             end do
          end associate
       end do
@@ -45,23 +46,24 @@ contains
    end function precision_report
 
    !> A run in a line.
-   function rung_line(rung) result(line)
-      type(rung_t), intent(in) :: rung            !! the run
+   function tol_run_line(tol_run) result(line)
+      type(tol_run_t), intent(in) :: tol_run            !! the run
       character(:), allocatable :: line           !! its numbers
 
       integer :: kind
 
-      line = merge("*", " ", rung%is_front)//merge("<", " ", rung%is_below)//column(short(rung%asked))
-      if (rung%state == rung_failed .or. rung%state == rung_unrun) then
-         line = line//"  "//trim(rung_states(rung%state))//": "//rung%reason
+      line = merge("*", " ", tol_run%is_front)//merge("<", " ", tol_run%is_below)//column(short(tol_run%asked))
+      if (tol_run%state == tol_run_failed .or. tol_run%state == tol_run_unrun) then
+         line = line//"  "//trim(tol_run_states(tol_run%state))//": "//tol_run%reason
          return
       end if
       do kind = 1, n_error
-         line = line//column(short(rung%error(kind)))
+         line = line//column(short(tol_run%error(kind)))
       end do
-      line = line//column(figures(1.0e3_wp*rung%cpu))//column(figures(1.0e3_wp*rung%cpu_least))// &
-             column(to_text(rung%count%evaluations))//column(to_text(rung%count%steps))//"  "//trim(rung_states(rung%state))
-   end function rung_line
+      line = line//column(figures(1.0e3_wp*tol_run%cpu))//column(figures(1.0e3_wp*tol_run%cpu_min))// &
+             column(to_text(tol_run%count%evaluations))//column(to_text(tol_run%count%steps))//"  " &
+                       //trim(tol_run_states(tol_run%state))
+   end function tol_run_line
 
    !> Every run as comma-separated values, SI.
    function precision_csv(study) result(text)
@@ -86,25 +88,25 @@ contains
          end do
       end if
       call lines%line(line//",reason")
-      do k = 1, size(study%ladders)
-         do i = 1, size(study%ladders(k)%rungs)
-            associate (rung => study%ladders(k)%rungs(i))
-               line = study%ladders(k)%name//","//digit(study%ladders(k)%is_fixed)//","//exact_text(rung%asked)//","// &
-                      trim(rung_states(rung%state))
+      do k = 1, size(study%tol_sweeps)
+         do i = 1, size(study%tol_sweeps(k)%tol_runs)
+            associate (tol_run => study%tol_sweeps(k)%tol_runs(i))
+               line = study%tol_sweeps(k)%name//","//digit(study%tol_sweeps(k)%is_fixed)//","//exact_text(tol_run%asked)//","// &
+                      trim(tol_run_states(tol_run%state))
                do kind = 1, n_error
-                  line = line//","//exact(rung%error(kind))
+                  line = line//","//exact(tol_run%error(kind))
                end do
-               line = line//","//exact(rung%cpu)//","//exact(rung%cpu_least)//","//to_text(rung%n_round)//","// &
-                      exact(rung%setup)//","//to_text(rung%count%evaluations)//","//to_text(rung%count%steps)//","// &
-                      to_text(rung%count%rejected)//","//exact(rung%holds_until)//","//digit(rung%is_below)//","// &
-                      digit(rung%is_front)
+               line = line//","//exact(tol_run%cpu)//","//exact(tol_run%cpu_min)//","//to_text(tol_run%n_round)//","// &
+                      exact(tol_run%setup)//","//to_text(tol_run%count%evaluations)//","//to_text(tol_run%count%steps)//","// &
+                      to_text(tol_run%count%rejected)//","//exact(tol_run%holds_until)//","//digit(tol_run%is_below)//","// &
+                      digit(tol_run%is_front)
                if (study%reference%statistics%is_there) then
-                  line = line//","//digit(rung%statistics%is_own)
+                  line = line//","//digit(tol_run%statistics%is_own)
                   do kind = 1, n_statistic
-                     line = line//","//exact(rung%statistics%list(kind)%value)//","//exact(rung%statistics%list(kind)%half)
+                     line = line//","//exact(tol_run%statistics%list(kind)%value)//","//exact(tol_run%statistics%list(kind)%half)
                   end do
                end if
-               call lines%line(line//","""//replace(rung%reason, """", "'")//"""")
+               call lines%line(line//","""//replace(tol_run%reason, """", "'")//"""")
             end associate
          end do
       end do

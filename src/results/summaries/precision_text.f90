@@ -7,8 +7,9 @@ module precision_text
    use horizon_text, only: add_horizon
    use, intrinsic :: ieee_arithmetic, only: ieee_is_finite
    use kinds, only: wp
-   use precision_results, only: error_names, error_onsets, error_units, error_words, ladder_t, n_compared, precision_t, rung_done, &
-      rung_failed, rung_other, rung_states, rung_t, rung_unrun
+   use precision_results, only: error_names, error_onsets, error_units, error_words, tol_sweep_t, n_compared, precision_t, &
+        tol_run_done, &
+      tol_run_failed, tol_run_other, tol_run_states, tol_run_t, tol_run_unrun
    use text, only: real_text, replace, split_blank, starts_with, text_t, to_text
    use text_buffer, only: buffer_t
    implicit none (type, external)
@@ -28,15 +29,15 @@ contains
       type(buffer_t) :: lines
 
       call lines%line(title)
-      call lines%line("compared   "//to_text(size(study%ladders))//" settings on a motion of "//real_text(study%end, 6)// &
+      call lines%line("compared   "//to_text(size(study%tol_sweeps))//" settings on a motion of "//real_text(study%end, 6)// &
                       " s"//trim(merge(" with a stop condition", "                      ", study%is_stopped))//", at "// &
-                      to_text(study%instants)//" instants"//window_text(study))
+                      to_text(study%output_times)//" instants"//window_text(study))
       call lines%line("machine    "//study%machine%processor//"; "//study%machine%compiler)
       call lines%line("           "//flags_of(study%machine%flags))
       call add_reference(lines, study)
       call add_growth(lines, study)
       call add_horizon(lines, study%horizon)
-      call add_ladders(lines, study)
+      call add_tol_sweeps(lines, study)
       call add_statistics(lines, study)
       call add_bends(lines, study)
       call add_failures(lines, study)
@@ -54,8 +55,8 @@ contains
       integer :: k, most
 
       most = 0
-      do k = 1, size(study%ladders)
-         most = max(most, maxval(study%ladders(k)%rungs%n_round))
+      do k = 1, size(study%tol_sweeps)
+         most = max(most, maxval(study%tol_sweeps(k)%tol_runs%n_round))
       end do
       words = "timed in "//to_text(study%rounds)
       if (most > study%rounds) words = words//" to "//to_text(most)
@@ -201,44 +202,45 @@ contains
    end function rounded
 
    !> Every setting in a line.
-   subroutine add_ladders(lines, study)
+   subroutine add_tol_sweeps(lines, study)
       type(buffer_t), intent(inout) :: lines      !! grown
       type(precision_t), intent(in) :: study      !! results
 
       integer :: best, k, longest
 
       longest = 8
-      do k = 1, size(study%ladders)
-         longest = max(longest, len(study%ladders(k)%name))
+      do k = 1, size(study%tol_sweeps)
+         longest = max(longest, len(study%tol_sweeps(k)%name))
       end do
       call lines%line("")
       call lines%line(padded("setting", longest)//column("runs")//column("order")//column("exponent")//column("error/tol")// &
                       column("minimum error")//column("CPU/ms")//column("RHS"))
-      do k = 1, size(study%ladders)
-         associate (ladder => study%ladders(k))
-            best = least_error(ladder, study%wanted)
+      do k = 1, size(study%tol_sweeps)
+         associate (tol_sweep => study%tol_sweeps(k))
+            best = min_error(tol_sweep, study%wanted)
             if (best == 0) then
-               call lines%line(padded(ladder%name, longest)//column("0")//repeat(column("-"), 6))
+               call lines%line(padded(tol_sweep%name, longest)//column("0")//repeat(column("-"), 6))
                cycle
             end if
-            call lines%line(padded(ladder%name, longest)//column(to_text(count(ladder%rungs%state == rung_done)))// &
-                            column(figures(ladder%order))//column(figures(ladder%exponent))//column(figures(ladder%ratio))// &
-                            column(known_error(study, ladder%rungs(best)))// &
-                            column(real_text(1.0e3_wp*ladder%rungs(best)%cpu, 3))// &
-                            column(to_text(ladder%rungs(best)%count%evaluations)))
+            call lines%line(padded(tol_sweep%name, longest)//column(to_text(count(tol_sweep%tol_runs%state == tol_run_done)))// &
+                            column(figures(tol_sweep%order))//column(figures(tol_sweep%exponent))// &
+                             column(figures(tol_sweep%ratio))// &
+                            column(known_error(study, tol_sweep%tol_runs(best)))// &
+                            column(real_text(1.0e3_wp*tol_sweep%tol_runs(best)%cpu, 3))// &
+                            column(to_text(tol_sweep%tol_runs(best)%count%evaluations)))
          end associate
       end do
       call lines%line("")
-   end subroutine add_ladders
+   end subroutine add_tol_sweeps
 
    !> An error, or that of the reference if it is within it.
-   function known_error(study, rung) result(word)
+   function known_error(study, tol_run) result(word)
       type(precision_t), intent(in) :: study      !! results
-      type(rung_t), intent(in) :: rung            !! the run
+      type(tol_run_t), intent(in) :: tol_run            !! the run
       character(:), allocatable :: word           !! as `1.0e-9` or `< 1.0e-9`
 
-      word = short(rung%error(study%wanted))
-      if (rung%is_below) word = "< "//short(study%reference%bar(study%wanted))
+      word = short(tol_run%error(study%wanted))
+      if (tol_run%is_below) word = "< "//short(study%reference%bar(study%wanted))
    end function known_error
 
    !> A number of three figures.
@@ -251,20 +253,20 @@ contains
    end function figures
 
    !> The rung of the least error, 0 if there is none.
-   pure integer function least_error(ladder, kind) result(best)
-      type(ladder_t), intent(in) :: ladder        !! the ladder
+   pure integer function min_error(tol_sweep, kind) result(best)
+      type(tol_sweep_t), intent(in) :: tol_sweep        !! the ladder
       integer, intent(in) :: kind                 !! of error
 
       integer :: k
 
       best = 0
-      do k = 1, size(ladder%rungs)
-         if (ladder%rungs(k)%state /= rung_done) cycle
-         if (.not. ieee_is_finite(ladder%rungs(k)%error(kind))) cycle
+      do k = 1, size(tol_sweep%tol_runs)
+         if (tol_sweep%tol_runs(k)%state /= tol_run_done) cycle
+         if (.not. ieee_is_finite(tol_sweep%tol_runs(k)%error(kind))) cycle
          if (best == 0) best = k
-         if (ladder%rungs(k)%error(kind) < ladder%rungs(best)%error(kind)) best = k
+         if (tol_sweep%tol_runs(k)%error(kind) < tol_sweep%tol_runs(best)%error(kind)) best = k
       end do
-   end function least_error
+   end function min_error
 
    !> Runs that failed, were not made, or had other contacts, with their reasons, each reason of a setting once, however
    !> its numbers differ.
@@ -274,19 +276,21 @@ contains
 
       integer :: i, k, n
 
-      do k = 1, size(study%ladders)
-         associate (rungs => study%ladders(k)%rungs)
+      do k = 1, size(study%tol_sweeps)
+         associate (tol_runs => study%tol_sweeps(k)%tol_runs)
             i = 0
-            do while (i < size(rungs))
+            do while (i < size(tol_runs))
                i = i + 1
-               if (rungs(i)%state == rung_done) cycle
+               if (tol_runs(i)%state == tol_run_done) cycle
                n = i
-               do while (n < size(rungs))
-                  if (rungs(n + 1)%state /= rungs(i)%state .or. .not. is_same_reason(rungs(n + 1)%reason, rungs(i)%reason)) exit
+               do while (n < size(tol_runs))
+                  if (tol_runs(n + 1)%state /= tol_runs(i)%state .or. .not. is_same_reason(tol_runs(n + 1)%reason, &
+                                                                                           tol_runs(i)%reason)) exit
                   n = n + 1
                end do
-               call lines%line(trim(rung_states(rungs(i)%state))//": "//study%ladders(k)%name//" "//short(rungs(i)%asked)// &
-                               range_end(rungs, i, n)//why(rungs(i)))
+               call lines%line(trim(tol_run_states(tol_runs(i)%state))//": "//study%tol_sweeps(k)%name//" "// &
+                               short(tol_runs(i)%asked)// &
+                               range_end(tol_runs, i, n)//why(tol_runs(i)))
                i = n
             end do
          end associate
@@ -294,23 +298,24 @@ contains
    end subroutine add_failures
 
    !> The end of a range of runs.
-   function range_end(rungs, i, n) result(words)
-      type(rung_t), intent(in) :: rungs(:)        !! (runs) of a ladder
+   function range_end(tol_runs, i, n) result(words)
+      type(tol_run_t), intent(in) :: tol_runs(:)        !! (runs) of a ladder
       integer, intent(in) :: i                    !! first run
       integer, intent(in) :: n                    !! last run
       character(:), allocatable :: words          !! blank if it is one run
 
       words = ""
-      if (n > i) words = " to "//short(rungs(n)%asked)//" ("//to_text(n - i + 1)//" runs)"
+      if (n > i) words = " to "//short(tol_runs(n)%asked)//" ("//to_text(n - i + 1)//" runs)"
    end function range_end
 
    !> Why a run has no error.
-   function why(rung) result(words)
-      type(rung_t), intent(in) :: rung            !! the run
+   function why(tol_run) result(words)
+      type(tol_run_t), intent(in) :: tol_run            !! the run
       character(:), allocatable :: words          !! as `: reason`
 
-      words = ": "//rung%reason
-      if (rung%state == rung_other .and. rung%reason == "") words = ": the order or number of contacts differs from the reference"
+      words = ": "//tol_run%reason
+      if (tol_run%state == tol_run_other &
+          .and. tol_run%reason == "") words = ": the order or number of contacts differs from the reference"
    end function why
 
    !> The choice.
@@ -325,15 +330,16 @@ contains
          call lines%line("choice     none: no confirmed reference")
          return
       end if
-      if (study%choice%ladder == 0) then
+      if (study%choice%tol_sweep == 0) then
          call lines%line("choice     no setting reaches an error of "//short(study%accuracy)//" ("//kind//")")
          return
       end if
-      associate (ladder => study%ladders(study%choice%ladder), rung => study%ladders(study%choice%ladder)%rungs(study%choice%rung))
-         call lines%line("choice     "//settings_text(ladder, rung))
+      associate (tol_sweep => study%tol_sweeps(study%choice%tol_sweep), &
+                 tol_run => study%tol_sweeps(study%choice%tol_sweep)%tol_runs(study%choice%tol_run))
+         call lines%line("choice     "//settings_text(tol_sweep, tol_run))
          call lines%line("           the cheapest with an error below "//short(study%accuracy)//" ("//kind//"): error "// &
-                         short(rung%error(study%wanted))//", "//real_text(1.0e3_wp*rung%cpu, 3)//" ms, "// &
-                         to_text(rung%count%evaluations)//" right-hand sides")
+                         short(tol_run%error(study%wanted))//", "//real_text(1.0e3_wp*tol_run%cpu, 3)//" ms, "// &
+                         to_text(tol_run%count%evaluations)//" right-hand sides")
          if (study%reference%is_cut) call lines%line("           within the range of the reference, up to "// &
                                            real_text(study%reference%window, 4)//" s of "//real_text(study%end, 4)//" s")
          if (ieee_is_finite(study%choice%error)) then
@@ -346,18 +352,18 @@ contains
    end subroutine add_choice
 
    !> A setting as a deck has it.
-   function settings_text(ladder, rung) result(words)
-      type(ladder_t), intent(in) :: ladder        !! the ladder
-      type(rung_t), intent(in) :: rung            !! its run
+   function settings_text(tol_sweep, tol_run) result(words)
+      type(tol_sweep_t), intent(in) :: tol_sweep        !! the ladder
+      type(tol_run_t), intent(in) :: tol_run            !! its run
       character(:), allocatable :: words          !! as `method = verner, tolerance = 1e-6`
 
-      words = "method = "//ladder%setting%method
-      if (ladder%setting%way /= "") words = words//", stabilise = "//ladder%setting%way
-      if (ladder%setting%solver /= "") words = words//", solver = "//ladder%setting%solver
-      if (ladder%is_fixed) then
-         words = words//", step = "//real_text(rung%asked, 4)//" s"
+      words = "method = "//tol_sweep%setting%method
+      if (tol_sweep%setting%way /= "") words = words//", stabilise = "//tol_sweep%setting%way
+      if (tol_sweep%setting%solver /= "") words = words//", solver = "//tol_sweep%setting%solver
+      if (tol_sweep%is_fixed) then
+         words = words//", step = "//real_text(tol_run%asked, 4)//" s"
       else
-         words = words//", tolerance = "//real_text(rung%asked, 4)
+         words = words//", tolerance = "//real_text(tol_run%asked, 4)
       end if
    end function settings_text
 

@@ -15,7 +15,7 @@ module report_page
    use report_style, only: page_style
    use summary_writer, only: headline, outcome_t
    use system_file, only: read_file
-   use text, only: piece, text_t, to_text
+   use text, only: segment, text_t, to_text
    use text_buffer, only: buffer_t
    implicit none (type, external)
    private
@@ -123,7 +123,7 @@ contains
 
          is_played = .false.
          if (ending(path) /= "gif") return
-         is_played = any([(pictures(i)%s == piece(path, 1, len(path) - 3)//"html", i=1, size(pictures))])
+         is_played = any([(pictures(i)%s == segment(path, 1, len(path) - 3)//"html", i=1, size(pictures))])
       end function is_played
 
       !> The word of the deck that a picture was made for.

@@ -115,8 +115,8 @@ contains
          associate (one => extremes%shown_extreme(k))
             unit = choose_unit(catalogue%groups(extremes%channels(k)%group)%channel%unit, extremes%size_of(k))
             call lines%line("<tr><td>"//escaped(scalar_name(catalogue, extremes%channels(k)), .true.)//"</td><td>"// &
-                            unit%symbol//"</td>"//cell(one%least, unit)//cell(one%least_time, time)//cell(one%greatest, unit)// &
-                            cell(one%greatest_time, time)//cell(extremes%shown_mean(k), unit)// &
+                            unit%symbol//"</td>"//cell(one%minimum, unit)//cell(one%min_time, time)//cell(one%maximum, unit)// &
+                            cell(one%max_time, time)//cell(extremes%shown_mean(k), unit)// &
                             cell(extremes%shown_rms(k), unit)//"</tr>")
          end associate
       end do
@@ -139,7 +139,7 @@ contains
          associate (one => extremes%shown_extreme(k))
             unit = choose_unit(catalogue%groups(extremes%channels(k)%group)%channel%unit, extremes%size_of(k))
             call lines%line("<tr><td>"//escaped(scalar_name(catalogue, extremes%channels(k)), .true.)//"</td><td>"// &
-                            unit%symbol//"</td>"//cell(one%least, unit)//"</tr>")
+                            unit%symbol//"</td>"//cell(one%minimum, unit)//"</tr>")
          end associate
       end do
       call end_table(lines, size(extremes%channels) - n, "run.h5, /extremes/channels")

@@ -14,7 +14,7 @@ module checkpoint_file
    use output_plan, only: output_plan_t
    use posix, only: sync_path
    use saved_run, only: saved_run_t
-   use tape, only: tape_t
+   use archive, only: archive_t
    use text, only: append_text, text_t, to_text
    use whole_file, only: begin_whole_file, end_whole_file
    implicit none (type, external)
@@ -50,11 +50,11 @@ contains
       if (allocated(error)) return
       allocate (names(0), sizes(0), versions(0), row(0))
       do p = 1, size(saved%parts)
-         do k = 1, size(saved%parts(p)%pieces)
-            call append_text(names, saved%parts(p)%pieces(k)%name)
+         do k = 1, size(saved%parts(p)%segments)
+            call append_text(names, saved%parts(p)%segments(k)%name)
          end do
-         sizes = [sizes, saved%parts(p)%pieces%size]
-         versions = [versions, saved%parts(p)%pieces%version]
+         sizes = [sizes, saved%parts(p)%segments%size]
+         versions = [versions, saved%parts(p)%segments%version]
          row = [row, saved%parts(p)%row]
       end do
       call real_dataset(file, "time", [1], [saved%t], "s", "time of the motion", status)
@@ -64,24 +64,24 @@ contains
       call text_dataset(file, "parts/names", names, .false., "names of the saved subsystems", status)
       call integer_dataset(file, "parts/versions", [size(versions)], versions, "format version of each", status)
       call integer_dataset(file, "parts/sizes", [size(sizes)], sizes, "number of values of each", status)
-      call integer_dataset(file, "parts/pieces", [size(saved%parts)], [(size(saved%parts(p)%pieces), p=1, size(saved%parts))], &
+      call integer_dataset(file, "parts/pieces", [size(saved%parts)], [(size(saved%parts(p)%segments), p=1, size(saved%parts))], &
                            "names of each part of the mechanism", status)
       call real_dataset(file, "parts/row", [size(row)], row, "any", "values of all parts, concatenated", status)
-      call put_tape(file, "motion", saved%motion, "state of the whole motion", status)
-      call put_tape(file, "output", saved%output, "state of samples, statistics and files", status)
+      call put_archive(file, "motion", saved%motion, "state of the whole motion", status)
+      call put_archive(file, "output", saved%output, "state of samples, statistics and files", status)
       call end_whole_file(path, file, status, error)
    end subroutine write_checkpoint
 
    !> Write a tape.
-   subroutine put_tape(file, name, tape, long_name, status)
+   subroutine put_archive(file, name, archive, long_name, status)
       integer(hid_t), intent(in) :: file     !! the file
       character(*), intent(in) :: name       !! of the dataset
-      type(tape_t), intent(in) :: tape       !! what is remembered
+      type(archive_t), intent(in) :: archive       !! what is remembered
       character(*), intent(in) :: long_name  !! what it is
       integer, intent(inout) :: status       !! negative: failed
 
-      call real_dataset(file, name, [tape%n], tape%row(:tape%n), "any", long_name, status)
-   end subroutine put_tape
+      call real_dataset(file, name, [archive%n], archive%row(:archive%n), "any", long_name, status)
+   end subroutine put_archive
 
    !> To which run a checkpoint belongs, in the order of `belonging`.
    function whose(plan) result(list)
@@ -150,8 +150,8 @@ contains
       call read_reals(file, "parts/pieces", many, status)
       call read_reals(file, "parts/row", row, status)
       call read_reals(file, "time", time, status)
-      call get_tape(file, "motion", saved%motion, status)
-      call get_tape(file, "output", saved%output, status)
+      call get_archive(file, "motion", saved%motion, status)
+      call get_archive(file, "output", saved%output, status)
       if (status < 0) return
       if (nint(sum(many)) /= size(names) .or. nint(sum(sizes)) /= size(row) .or. size(versions) /= size(sizes)) then
          status = -1
@@ -163,30 +163,30 @@ contains
       place = 0
       do p = 1, size(many)
          associate (part => saved%parts(p))
-            allocate (part%pieces(nint(many(p))))
-            do k = 1, size(part%pieces)
-               part%pieces(k)%name = names(at + k)%s
-               part%pieces(k)%version = nint(versions(at + k))
-               part%pieces(k)%size = nint(sizes(at + k))
+            allocate (part%segments(nint(many(p))))
+            do k = 1, size(part%segments)
+               part%segments(k)%name = names(at + k)%s
+               part%segments(k)%version = nint(versions(at + k))
+               part%segments(k)%size = nint(sizes(at + k))
             end do
-            n = sum(part%pieces%size)
+            n = sum(part%segments%size)
             part%row = row(place + 1:place + n)
-            at = at + size(part%pieces)
+            at = at + size(part%segments)
             place = place + n
          end associate
       end do
    end subroutine read_memory
 
    !> Read a tape.
-   subroutine get_tape(file, name, tape, status)
+   subroutine get_archive(file, name, archive, status)
       integer(hid_t), intent(in) :: file     !! the file
       character(*), intent(in) :: name       !! of the dataset
-      type(tape_t), intent(out) :: tape      !! what was remembered
+      type(archive_t), intent(out) :: archive      !! what was remembered
       integer, intent(inout) :: status       !! negative: failed
 
-      call read_reals(file, name, tape%row, status)
-      tape%n = size(tape%row)
-   end subroutine get_tape
+      call read_reals(file, name, archive%row, status)
+      archive%n = size(archive%row)
+   end subroutine get_archive
 
    !> Name the first difference between the run that was saved and the one that would go on.
    subroutine compare(path, there, here, error)

@@ -6,7 +6,7 @@
 module csv_files
    use errors, only: error_t
    use kinds, only: i8
-   use text, only: append_text, piece, text_t
+   use text, only: append_text, segment, text_t
    use text_file, only: fail_file, text_file_t
    use posix, only: remove_file
    implicit none (type, external)
@@ -42,9 +42,9 @@ contains
          if (at < 1) cycle
          if (names(k)%s(at:) /= ".dat") cycle
          associate (name => names(k)%s)
-            call convert(directory//"/"//name, directory//"/"//piece(name, 1, at)//"csv", error)
+            call convert(directory//"/"//name, directory//"/"//segment(name, 1, at)//"csv", error)
             if (allocated(error)) return
-            call append_text(made, piece(name, 1, at)//"csv")
+            call append_text(made, segment(name, 1, at)//"csv")
          end associate
       end do
    end subroutine write_csv_files

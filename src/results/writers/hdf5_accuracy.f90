@@ -62,7 +62,7 @@ contains
          call text_dataset(file, "accuracy/units", units, .false., "their units", status)
          call put("scale", extremes%scale, "reference values of relative errors")
          call put("error", extremes%error, "maximum error up to claimed_until, and of the extremes")
-         call put("min", extremes%least, "minimum up to claimed_until")
+         call put("min", extremes%minimum, "minimum up to claimed_until")
          call put("max", extremes%most, "maximum up to claimed_until")
       end associate
       if (group >= 0) call h5gclose_f(group, closed)

@@ -24,11 +24,11 @@ module hdf5_calls
 
    interface
       !> Whether so many bytes could be had at once: 1 or 0.
-      integer(c_int) function c_has_room(bytes) bind(c, name="gudgeon_has_room")
+      integer(c_int) function c_has_capacity(bytes) bind(c, name="gudgeon_has_room")
          import :: c_int, c_int64_t
          implicit none (type, external)
          integer(c_int64_t), value :: bytes  !! that are wanted
-      end function c_has_room
+      end function c_has_capacity
 
       !> Set the driver that writes metadata in order (ordered_file.c). Negative: failed.
       integer(c_int) function c_set_driver(access) bind(c, name="gudgeon_set_ordered_driver")
@@ -44,7 +44,7 @@ contains
    logical function is_memory_short()
       integer(c_int64_t), parameter :: little = 16777216_c_int64_t  ! [byte]
 
-      is_memory_short = c_has_room(little) == 0
+      is_memory_short = c_has_capacity(little) == 0
    end function is_memory_short
 
    !> Open the library: it keeps quiet, leaves files to us at the end, and lets others read a running file.

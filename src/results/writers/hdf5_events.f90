@@ -1,7 +1,7 @@
 !> The table /events of run.h5: one record per event, appended in the order told, sorted at the end.
 module hdf5_events
    use catalogue, only: catalogue_t
-   use catalogue_rooms, only: n_rooms
+   use groups_of_catalogue, only: n_groups
    use event_list, only: event_list_t, n_event_numbers, n_event_words, number_long_names, number_names, number_units
    use event_list, only: word_long_names, word_names
    use hdf5, only: h5dclose_f, h5dget_space_f, h5dset_extent_f, h5dwrite_f, h5sclose_f, h5screate_simple_f
@@ -49,7 +49,7 @@ contains
 
       if (status < 0) return
       self%width = shortest_word
-      do room = 1, n_rooms
+      do room = 1, n_groups
          do item = 1, size(catalogue%rooms(room)%names)
             self%width(2) = max(self%width(2), len(catalogue%rooms(room)%names(item)%s))
             self%width(3) = max(self%width(3), len(catalogue%rooms(room)%labels(item)%s))

@@ -45,10 +45,10 @@ contains
          end do
          call text_dataset(file, "extremes/channels/name", names, .false., "names of the statistics", status)
          call text_dataset(file, "extremes/channels/unit", units, .false., "their units", status)
-         call put("channels/least", one%least, "list", "minimum, located between rows too")
-         call put("channels/least_time", one%least_time, "s", "time of the first minimum")
-         call put("channels/greatest", one%greatest, "list", "maximum, located between rows too")
-         call put("channels/greatest_time", one%greatest_time, "s", "time of the first maximum")
+         call put("channels/least", one%minimum, "list", "minimum, located between rows too")
+         call put("channels/least_time", one%min_time, "s", "time of the first minimum")
+         call put("channels/greatest", one%maximum, "list", "maximum, located between rows too")
+         call put("channels/greatest_time", one%max_time, "s", "time of the first maximum")
          call put("channels/mean", [(extremes%mean(k), k=1, n)], "list", "time average")
          call put("channels/rms", [(extremes%rms(k), k=1, n)], "list", "root mean square over time")
       end if

@@ -1,6 +1,6 @@
 !> Unwrapped films in run.h5: a group /film_fields/NAME for each (docs/output.md).
 module hdf5_fields
-   use film_fields, only: film_field_t, moment_end, moment_least
+   use film_fields, only: film_field_t, moment_end, moment_min
    use hdf5, only: h5gclose_f, hid_t
    use hdf5_attributes, only: real_attribute, text_attribute
    use hdf5_calls, only: new_group
@@ -60,7 +60,7 @@ contains
       call text_attribute(group, "film", field%film, status)
       select case (field%request%moment)
       case (moment_end); call text_attribute(group, "moment", "end of the run", status)
-      case (moment_least); call text_attribute(group, "moment", "minimum film thickness", status)
+      case (moment_min); call text_attribute(group, "moment", "minimum film thickness", status)
       case default; call text_attribute(group, "moment", "time", status)
       end select
       call real_attribute(group, "time", field%t, status)

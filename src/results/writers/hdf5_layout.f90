@@ -4,7 +4,7 @@
 !> if it is chosen for some item, and its dataset then holds all items of the room that appear.
 module hdf5_layout
    use catalogue, only: catalogue_t
-   use catalogue_rooms, only: n_rooms, room_clearances, room_contacts, room_energy, room_requests
+   use groups_of_catalogue, only: n_groups, group_clearances, group_contacts, group_energy, group_requests
    use channels, only: selection_t
    use hdf5, only: h5dclose_f, h5dwrite_f, h5gclose_f, h5t_ieee_f64le, h5t_native_double, h5t_std_i8le
    use hdf5, only: hid_t, hsize_t
@@ -15,7 +15,7 @@ module hdf5_layout
    use kinds, only: i8, wp
    use output_plan, only: output_plan_t
    use recorder, only: row_kinds, status_complete, status_failed, status_running, status_stopped
-   use text, only: append_text, piece, text_t
+   use text, only: append_text, segment, text_t
    implicit none (type, external)
    private
    public :: dataset_t, make_quantities, make_root, make_row_kind, make_time, rows_of_block, write_status
@@ -96,7 +96,7 @@ contains
          next = next + at
       end do
       if (len(path) == 0) path = "/unnamed"
-      path = piece(path, 2)
+      path = segment(path, 2)
    end function link_path
 
    !> How many rows make a block: the more, the less they cost, but the file of a short motion has no room for many that never come.
@@ -163,11 +163,11 @@ contains
       end do
       allocate (datasets(n))
       n = 0
-      do room = 1, n_rooms
+      do room = 1, n_groups
          items = pack([(k, k=1, size(catalogue%rooms(room)%names))], &
                       [(selection%has_item(catalogue, room, k), k=1, size(catalogue%rooms(room)%names))])
          if (size(items) == 0) cycle
-         call make_room(file, catalogue, room, items, scales, status)
+         call make_storage(file, catalogue, room, items, scales, status)
          do group = 1, size(catalogue%groups)
             if (catalogue%groups(group)%room /= room .or. .not. selection%has_group(group)) cycle
             n = n + 1
@@ -178,7 +178,7 @@ contains
    end subroutine make_quantities
 
    !> The group of a room and the names of its items.
-   subroutine make_room(file, catalogue, room, items, scales, status)
+   subroutine make_storage(file, catalogue, room, items, scales, status)
       integer(hid_t), intent(in) :: file          !! the file
       type(catalogue_t), intent(in) :: catalogue  !! what can be recorded
       integer, intent(in) :: room                 !! number of the room
@@ -194,9 +194,9 @@ contains
          if (status < 0) return
          call h5gclose_f(group, closed)
          select case (room)
-         case (room_energy, room_requests)
+         case (group_energy, group_requests)
             continue
-         case (room_contacts)
+         case (group_contacts)
             call text_dataset(file, "clearances/contact_joint", picked(this%names, items), .false., &
                               "joint of each contact", status)
             call text_dataset(file, "clearances/contact_label", picked(this%labels, items), .false., &
@@ -205,15 +205,15 @@ contains
             call text_dataset(file, this%name//"/names", picked(this%names, items), .false., &
                               "name of each item", status)
          end select
-         if (all(room /= [room_energy, room_requests])) call add_scale(scales, file, scale_of(catalogue, room), status)
-         if (room /= room_clearances) return
+         if (all(room /= [group_energy, group_requests])) call add_scale(scales, file, scale_of(catalogue, room), status)
+         if (room /= group_clearances) return
          call new_dataset(file, this%name//"/clearance", h5t_ieee_f64le, [size(items, kind=hsize_t)], radius, status)
          if (status >= 0) call h5dwrite_f(radius, h5t_native_double, this%radius(items), &
                                           [size(items, kind=hsize_t)], status)
          call describe(radius, "m", "radial clearance of the joint", "none", status)
          if (radius >= 0) call h5dclose_f(radius, closed)
       end associate
-   end subroutine make_room
+   end subroutine make_storage
 
    !> Path of the scale of a room's items.
    pure function scale_of(catalogue, room) result(path)
@@ -222,7 +222,7 @@ contains
       character(longest_scale) :: path            !! path in the file
 
       path = trim(catalogue%rooms(room)%name)//"/names"
-      if (room == room_contacts) path = "clearances/contact_label"
+      if (room == group_contacts) path = "clearances/contact_label"
    end function scale_of
 
    !> Path of the scale of an item's numbers, made when it is first wanted.
@@ -282,9 +282,9 @@ contains
       associate (this => catalogue%groups(group), room => catalogue%groups(group)%room, &
                  components => catalogue%groups(group)%channel%components)
          dataset%place = [((catalogue%place(group, c, items(i)), c=1, components), i=1, size(items))]
-         dataset%is_state = room == room_contacts .and. this%channel%name == "state"
+         dataset%is_state = room == group_contacts .and. this%channel%name == "state"
          allocate (dataset%rows(size(dataset%place), block))
-         if (room == room_energy .or. room == room_requests) then
+         if (room == group_energy .or. room == group_requests) then
             allocate (dataset%shape(0))
          else if (components == 1) then
             dataset%shape = [size(items, kind=hsize_t)]

@@ -41,13 +41,13 @@ contains
       call text_dataset(file, "statistics/units", units, .false., "their units", status)
       call real_dataset(file, "statistics/values", [size(numbers)], [(numbers(k)%value, k=1, size(numbers))], &
                         trim(adjustl(all_units)), "statistics after the transient", status)
-      if (statistics%n_strobe > 0) call write_strobes(file, statistics, catalogue, status)
+      if (statistics%n_poincare > 0) call write_poincare(file, statistics, catalogue, status)
       if (size(statistics%spectra) > 0) call write_spectra(file, statistics, catalogue, status)
       call write_histograms(file, statistics, catalogue, events, t_end, status)
    end subroutine write_statistics
 
    !> The channels once per period.
-   subroutine write_strobes(file, statistics, catalogue, status)
+   subroutine write_poincare(file, statistics, catalogue, status)
       integer(hid_t), intent(in) :: file               !! the file
       type(statistics_t), intent(in) :: statistics     !! what was gathered
       type(catalogue_t), intent(in) :: catalogue       !! what can be recorded
@@ -55,15 +55,15 @@ contains
 
       integer :: n
 
-      n = statistics%n_strobe
+      n = statistics%n_poincare
       call text_dataset(file, "statistics/strobe_names", names_of(statistics%channels, catalogue), .false., &
                         "channels sampled once per period", status)
-      call real_dataset(file, "statistics/strobe_time", [n], statistics%strobe_times(1:n), "s", &
+      call real_dataset(file, "statistics/strobe_time", [n], statistics%poincare_times(1:n), "s", &
                         "multiples of the drive period", status)
       call real_dataset(file, "statistics/strobe", [size(statistics%channels), n], &
-                        reshape(statistics%strobes(:, 1:n), [n*size(statistics%channels)]), &
+                        reshape(statistics%poincare_samples(:, 1:n), [n*size(statistics%channels)]), &
                         units_of(statistics%channels, catalogue), "channel values at these times", status)
-   end subroutine write_strobes
+   end subroutine write_poincare
 
    !> The spectra.
    subroutine write_spectra(file, statistics, catalogue, status)

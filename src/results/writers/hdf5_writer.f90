@@ -37,7 +37,7 @@ module hdf5_writer
    use posix, only: path_exists, release_space, remove_file, rename_path, reserve_space, sync_path, system_message
    use recorder, only: status_failed, summary_t
    use statistics, only: number_t, statistics_t
-   use tape, only: tape_t
+   use archive, only: archive_t
    use text, only: text_t, to_text
    implicit none (type, external)
    private
@@ -173,22 +173,22 @@ contains
    end function waited
 
    !> Write where the file stands: all rows and events must be in it.
-   subroutine save_file(self, tape)
+   subroutine save_file(self, archive)
       class(hdf5_writer_t), intent(inout) :: self  !! the file, flushed
-      type(tape_t), intent(inout) :: tape          !! receives it
+      type(archive_t), intent(inout) :: archive          !! receives it
 
       integer :: status
 
       status = 0
       call self%sums%extend([self%kinds%id, self%datasets%id, self%time], self%written, status)
-      call tape%put([self%written, self%events%written, transfer(self%sums%sums, [0])])
-      call tape%put(self%last_time)
+      call archive%put([self%written, self%events%written, transfer(self%sums%sums, [0])])
+      call archive%put(self%last_time)
    end subroutine save_file
 
    !> Take over the rows and events that the file of an earlier run had when it was saved, and its place.
-   subroutine go_on_with_file(self, tape, error)
+   subroutine go_on_with_file(self, archive, error)
       class(hdf5_writer_t), intent(inout) :: self        !! the file, made
-      type(tape_t), intent(inout) :: tape                !! holds where that file stood
+      type(archive_t), intent(inout) :: archive                !! holds where that file stood
       type(error_t), allocatable, intent(out) :: error   !! it is not as it was, or cannot be read
 
       character(:), allocatable :: path
@@ -198,12 +198,12 @@ contains
 
       status = 0
       path = self%path(:len(self%path) - len(".part"))
-      call tape%get(self%written)
-      call tape%get(self%events%written)
+      call archive%get(self%written)
+      call archive%get(self%events%written)
       do k = 1, size(sums)
-         call tape%get(sums(k))
+         call archive%get(sums(k))
       end do
-      call tape%get(self%last_time)
+      call archive%get(self%last_time)
       bytes = 9_i8*self%written
       do k = 1, size(self%datasets)
          bytes = bytes + 8_i8*size(self%datasets(k)%rows, 1, i8)*self%written

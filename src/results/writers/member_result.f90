@@ -11,9 +11,9 @@ module member_result
    !> The result of a run. Lists that are not allocated count as empty.
    type :: member_result_t
       type(number_t), allocatable :: numbers(:)       !! (n) of the motion after its transient
-      type(text_t), allocatable :: strobe_names(:)    !! (q) names of the channels once per period
-      real(wp), allocatable :: strobe_times(:)        !! (m) instants once per period [s]
-      real(wp), allocatable :: strobes(:, :)          !! (q, m) the channels at them, SI [any]
+      type(text_t), allocatable :: poincare_names(:)    !! (q) names of the channels once per period
+      real(wp), allocatable :: poincare_times(:)        !! (m) instants once per period [s]
+      real(wp), allocatable :: poincare_samples(:, :)          !! (q, m) the channels at them, SI [any]
       type(text_t), allocatable :: warnings(:)        !! (w) what a careful reader should know
       real(wp) :: cpu_start = 0.0_wp                  !! processor time until the motion begins [s]
       real(wp) :: cpu_run = 0.0_wp                    !! processor time of the motion and of what is written of it [s]
@@ -30,9 +30,9 @@ contains
       class(member_result_t), intent(inout) :: self  !! the result
 
       if (.not. allocated(self%numbers)) allocate (self%numbers(0))
-      if (.not. allocated(self%strobe_names)) allocate (self%strobe_names(0))
-      if (.not. allocated(self%strobe_times)) allocate (self%strobe_times(0))
-      if (.not. allocated(self%strobes)) allocate (self%strobes(0, 0))
+      if (.not. allocated(self%poincare_names)) allocate (self%poincare_names(0))
+      if (.not. allocated(self%poincare_times)) allocate (self%poincare_times(0))
+      if (.not. allocated(self%poincare_samples)) allocate (self%poincare_samples(0, 0))
       if (.not. allocated(self%warnings)) allocate (self%warnings(0))
    end subroutine complete_result
 
@@ -49,9 +49,9 @@ contains
          call packer%text(self%numbers(k)%unit)
       end do
       call packer%reals(self%numbers%value)
-      call packer%texts(self%strobe_names)
-      call packer%reals(self%strobe_times)
-      call packer%reals(reshape(self%strobes, [size(self%strobes)]))
+      call packer%texts(self%poincare_names)
+      call packer%reals(self%poincare_times)
+      call packer%reals(reshape(self%poincare_samples, [size(self%poincare_samples)]))
       call packer%texts(self%warnings)
       call packer%reals([self%cpu_start, self%cpu_run])
    end subroutine pack_result
@@ -61,7 +61,7 @@ contains
       class(member_result_t), intent(out) :: self       !! the result
       class(unpacker_t), intent(inout) :: unpacker      !! the bytes
 
-      real(wp), allocatable :: cpu(:), strobes(:), values(:)
+      real(wp), allocatable :: cpu(:), poincare_samples(:), values(:)
       integer :: k, n
 
       call unpacker%integer(n, len(unpacker%bytes))
@@ -71,15 +71,15 @@ contains
          call unpacker%text(self%numbers(k)%unit)
       end do
       call unpacker%reals(values)
-      call unpacker%texts(self%strobe_names)
-      call unpacker%reals(self%strobe_times)
-      call unpacker%reals(strobes)
+      call unpacker%texts(self%poincare_names)
+      call unpacker%reals(self%poincare_times)
+      call unpacker%reals(poincare_samples)
       call unpacker%texts(self%warnings)
       call unpacker%reals(cpu)
-      associate (q => size(self%strobe_names), m => size(self%strobe_times), is_good => unpacker%is_good)
-         is_good = is_good .and. size(values) == n .and. size(strobes) == q*m .and. size(cpu) == 2
+      associate (q => size(self%poincare_names), m => size(self%poincare_times), is_good => unpacker%is_good)
+         is_good = is_good .and. size(values) == n .and. size(poincare_samples) == q*m .and. size(cpu) == 2
          if (.not. is_good) return
-         self%strobes = reshape(strobes, [q, m])
+         self%poincare_samples = reshape(poincare_samples, [q, m])
       end associate
       self%numbers%value = values
       self%cpu_start = cpu(1)

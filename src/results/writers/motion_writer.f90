@@ -6,7 +6,7 @@
 !> beyond it where there are more; between the two flushes there are fewer, and it takes those that lack as 0.)
 module motion_writer
    use catalogue, only: catalogue_t
-   use catalogue_rooms, only: room_bodies, room_contacts
+   use groups_of_catalogue, only: group_bodies, group_contacts
    use channel_names, only: item_name, label_in_name
    use checksum, only: survives
    use drawing, only: drawing_t
@@ -26,7 +26,7 @@ module motion_writer
    use posix, only: path_exists, release_space, remove_file, rename_path, reserve_space, sync_path, system_message
    use recorder, only: status_failed, status_running
    use scene_poses, only: at_contact, contact_force, contact_penetration, contact_state, contact_value, pose_reader_t, velocity_at
-   use tape, only: tape_t
+   use archive, only: archive_t
    use text, only: text_t, to_text
    implicit none (type, external)
    private
@@ -90,7 +90,8 @@ contains
       call text_attribute(self%file, "program_version", plan%origin%program_version, status)
       call text_attribute(self%file, "title", plan%title, status)
       call write_status(self%file, status_running, status)
-      call text_dataset(self%file, "bodies", catalogue%rooms(room_bodies)%names, .false., "bodies, from 1; 0 is the ground", status)
+      call text_dataset(self%file, "bodies", catalogue%rooms(group_bodies)%names, .false., "bodies, from 1; 0 is the ground", &
+                        status)
       call text_dataset(self%file, "contacts", contact_names(catalogue), .false., "contacts, from 1", status)
       call make_cells(self%file, self%drawing, self%reader%n_contact, self%layout, status)
       block = int(max(int(fewest_steps, i8), min(int(most_steps, i8), bytes_of_block/(24*max(self%layout%n, 1)))))
@@ -111,11 +112,11 @@ contains
 
       integer :: k
 
-      allocate (names(size(catalogue%rooms(room_contacts)%names)))
+      allocate (names(size(catalogue%rooms(group_contacts)%names)))
       do k = 1, size(names)
-         names(k)%s = item_name(catalogue, room_contacts, k)
-         if (len(label_in_name(catalogue, room_contacts, k)) > 0) then
-            names(k)%s = names(k)%s//"."//label_in_name(catalogue, room_contacts, k)
+         names(k)%s = item_name(catalogue, group_contacts, k)
+         if (len(label_in_name(catalogue, group_contacts, k)) > 0) then
+            names(k)%s = names(k)%s//"."//label_in_name(catalogue, group_contacts, k)
          end if
       end do
    end function contact_names
@@ -186,24 +187,24 @@ contains
    end function has_waited
 
    !> Write where the file stands: all steps must be in it.
-   subroutine save_file(self, tape)
+   subroutine save_file(self, archive)
       class(motion_writer_t), intent(inout) :: self  !! the file, flushed
-      type(tape_t), intent(inout) :: tape            !! receives it
+      type(archive_t), intent(inout) :: archive            !! receives it
 
       integer :: k, status
 
       status = 0
-      call tape%put(self%written)
+      call archive%put(self%written)
       do k = 1, most_growing
          call self%sums(k)%extend([self%list(k)%id], self%written*self%list(k)%n_row, status)
-         call tape%put(transfer(self%sums(k)%sums, [0]))
+         call archive%put(transfer(self%sums(k)%sums, [0]))
       end do
    end subroutine save_file
 
    !> Take over the steps that the file of an earlier run had when it was saved, and its place.
-   subroutine go_on_with_file(self, tape, error)
+   subroutine go_on_with_file(self, archive, error)
       class(motion_writer_t), intent(inout) :: self      !! the file, made
-      type(tape_t), intent(inout) :: tape                !! holds where that file stood
+      type(archive_t), intent(inout) :: archive                !! holds where that file stood
       type(error_t), allocatable, intent(out) :: error   !! it is not as it was, or cannot be read
 
       character(:), allocatable :: path
@@ -212,12 +213,12 @@ contains
 
       status = 0
       path = self%path(:len(self%path) - len(".part"))
-      call tape%get(self%written)
+      call archive%get(self%written)
       if (.not. survives(file_can_be_read, path)) status = -1
       call open_file(path, earlier, status)
       do k = 1, most_growing
          do i = 1, 2
-            call tape%get(sum(i))
+            call archive%get(sum(i))
          end do
          call copy_rows(earlier, self%list(k)%id, self%written*self%list(k)%n_row, status)
          call self%sums(k)%extend([self%list(k)%id], self%written*self%list(k)%n_row, status)

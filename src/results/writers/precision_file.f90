@@ -13,7 +13,7 @@ module precision_file
    use horizon_group, only: write_horizon
    use kinds, only: not_a_number, wp
    use output_plan, only: output_plan_t
-   use precision_results, only: error_names, error_units, error_words, n_compared, n_error, n_statistic, precision_t, rung_t, &
+   use precision_results, only: error_names, error_units, error_words, n_compared, n_error, n_statistic, precision_t, tol_run_t, &
       statistic_names, statistic_units, statistic_words
    use recorder, only: status_complete
    use text, only: append_text, text_t
@@ -40,8 +40,8 @@ contains
       if (status >= 0) then
          call text_attribute(file, "machine", study%machine%processor, status)
          call text_attribute(file, "compile_flags", study%machine%flags, status)
-         call write_ladders(file, study, status)
-         call write_rungs(file, study, status)
+         call write_tol_sweeps(file, study, status)
+         call write_tol_runs(file, study, status)
          call write_reference(file, study, status)
          call write_statistics(file, study, status)
          call write_growth(file, study, status)
@@ -54,7 +54,7 @@ contains
    end subroutine write_precision
 
    !> The settings and what their runs tell together.
-   subroutine write_ladders(file, study, status)
+   subroutine write_tol_sweeps(file, study, status)
       integer(hid_t), intent(in) :: file          !! the file
       type(precision_t), intent(in) :: study      !! results
       integer, intent(inout) :: status            !! negative: failed
@@ -62,44 +62,44 @@ contains
       type(text_t), allocatable :: names(:)
       integer :: k, n
 
-      n = size(study%ladders)
+      n = size(study%tol_sweeps)
       allocate (names(0))
       do k = 1, n
-         call append_text(names, study%ladders(k)%name)
+         call append_text(names, study%tol_sweeps(k)%name)
       end do
       call text_dataset(file, "ladders/names", names, .false., "settings compared", status)
-      call integer_dataset(file, "ladders/is_fixed", [n], [(merge(1, 0, study%ladders(k)%is_fixed), k=1, n)], &
+      call integer_dataset(file, "ladders/is_fixed", [n], [(merge(1, 0, study%tol_sweeps(k)%is_fixed), k=1, n)], &
                            "1: sequence of fixed steps, 0: of tolerances", status)
-      call real_dataset(file, "ladders/order", [n], study%ladders%order, "1", "observed order: -d ln error/d ln steps", status)
-      call real_dataset(file, "ladders/exponent", [n], study%ladders%exponent, "1", "d ln error/d ln tolerance", status)
-      call real_dataset(file, "ladders/ratio", [n], study%ladders%ratio, "1", "median of error over tolerance", status)
-   end subroutine write_ladders
+      call real_dataset(file, "ladders/order", [n], study%tol_sweeps%order, "1", "observed order: -d ln error/d ln steps", status)
+      call real_dataset(file, "ladders/exponent", [n], study%tol_sweeps%exponent, "1", "d ln error/d ln tolerance", status)
+      call real_dataset(file, "ladders/ratio", [n], study%tol_sweeps%ratio, "1", "median of error over tolerance", status)
+   end subroutine write_tol_sweeps
 
    !> Every run.
-   subroutine write_rungs(file, study, status)
+   subroutine write_tol_runs(file, study, status)
       integer(hid_t), intent(in) :: file          !! the file
       type(precision_t), intent(in) :: study      !! results
       integer, intent(inout) :: status            !! negative: failed
 
-      type(rung_t), allocatable :: rungs(:)
+      type(tol_run_t), allocatable :: tol_runs(:)
       type(text_t), allocatable :: names(:), reasons(:), units(:), words(:)
       real(wp), allocatable :: errors(:, :), rounds(:, :)
       integer, allocatable :: owner(:)
       integer :: k, most, n
 
-      allocate (rungs(0), owner(0), names(0), reasons(0), units(0), words(0))
-      do k = 1, size(study%ladders)
-         rungs = [rungs, study%ladders(k)%rungs]
-         owner = [owner, spread(k, 1, size(study%ladders(k)%rungs))]
+      allocate (tol_runs(0), owner(0), names(0), reasons(0), units(0), words(0))
+      do k = 1, size(study%tol_sweeps)
+         tol_runs = [tol_runs, study%tol_sweeps(k)%tol_runs]
+         owner = [owner, spread(k, 1, size(study%tol_sweeps(k)%tol_runs))]
       end do
-      n = size(rungs)
-      most = max(1, maxval([0, [(size(rungs(k)%rounds), k=1, n)]]))
+      n = size(tol_runs)
+      most = max(1, maxval([0, [(size(tol_runs(k)%rounds), k=1, n)]]))
       allocate (errors(n_error, n), source=not_a_number())
       allocate (rounds(most, n), source=not_a_number())
       do k = 1, n
-         call append_text(reasons, rungs(k)%reason)
-         errors(:, k) = rungs(k)%error
-         rounds(:size(rungs(k)%rounds), k) = rungs(k)%rounds
+         call append_text(reasons, tol_runs(k)%reason)
+         errors(:, k) = tol_runs(k)%error
+         rounds(:size(tol_runs(k)%rounds), k) = tol_runs(k)%rounds
       end do
       do k = 1, n_error
          call append_text(names, trim(error_names(k)))
@@ -110,25 +110,26 @@ contains
       call text_dataset(file, "errors/units", units, .false., "their units", status)
       call text_dataset(file, "errors/long_names", words, .false., "descriptions", status)
       call integer_dataset(file, "runs/ladder", [n], owner, "number of the setting, from 1", status)
-      call put("asked", rungs%asked, "1 or s", "tolerance, or length of fixed steps")
-      call integer_dataset(file, "runs/state", [n], rungs%state, "0 not run, 1 done, 2 failed, 3 different contact sequence or "// &
+      call put("asked", tol_runs%asked, "1 or s", "tolerance, or length of fixed steps")
+      call integer_dataset(file, "runs/state", [n], tol_runs%state, &
+                           "0 not run, 1 done, 2 failed, 3 different contact sequence or "// &
          "end time", &
                            status)
       call text_dataset(file, "runs/reason", reasons, .false., "reason of a failed or omitted run", status)
       call real_dataset(file, "runs/error", [n_error, n], reshape(errors, [n_error*n]), "list", "errors by type", status)
-      call integer_dataset(file, "runs/is_below", [n], merge(1, 0, rungs%is_below), &
+      call integer_dataset(file, "runs/is_below", [n], merge(1, 0, tol_runs%is_below), &
                            "1: the error is below that of the reference", status)
-      call integer_dataset(file, "runs/is_front", [n], merge(1, 0, rungs%is_front), &
+      call integer_dataset(file, "runs/is_front", [n], merge(1, 0, tol_runs%is_front), &
                            "1: on the Pareto front, no run is both cheaper and more accurate", status)
-      call put("holds_until", rungs%holds_until, "s", "last time with an error below the target")
-      call put("cpu", rungs%cpu, "s", "CPU time of the integration, median of the rounds")
-      call put("cpu_least", rungs%cpu_least, "s", "CPU time of the integration, minimum of the rounds")
+      call put("holds_until", tol_runs%holds_until, "s", "last time with an error below the target")
+      call put("cpu", tol_runs%cpu, "s", "CPU time of the integration, median of the rounds")
+      call put("cpu_least", tol_runs%cpu_min, "s", "CPU time of the integration, minimum of the rounds")
       call real_dataset(file, "runs/rounds", [most, n], reshape(rounds, [most*n]), "s", "CPU time of each round", status)
-      call put("setup", rungs%setup, "s", "CPU time of set-up and initial state")
-      call put("wall", rungs%wall, "s", "total CPU time of the compared run")
-      call put("steps", real(rungs%count%steps, wp), "1", "accepted steps")
-      call put("rejected_steps", real(rungs%count%rejected, wp), "1", "rejected steps")
-      call put("rhs_evaluations", real(rungs%count%evaluations, wp), "1", "right-hand sides, except those for output")
+      call put("setup", tol_runs%setup, "s", "CPU time of set-up and initial state")
+      call put("wall", tol_runs%wall, "s", "total CPU time of the compared run")
+      call put("steps", real(tol_runs%count%steps, wp), "1", "accepted steps")
+      call put("rejected_steps", real(tol_runs%count%rejected, wp), "1", "rejected steps")
+      call put("rhs_evaluations", real(tol_runs%count%evaluations, wp), "1", "right-hand sides, except those for output")
 
    contains
 
@@ -142,7 +143,7 @@ contains
          call real_dataset(file, "runs/"//name, [n], values, units, long_name, status)
       end subroutine put
 
-   end subroutine write_rungs
+   end subroutine write_tol_runs
 
    !> The reference.
    subroutine write_reference(file, study, status)
@@ -176,7 +177,7 @@ contains
       integer(hid_t) :: group
       integer :: closed, i, k, n, s
 
-      associate (reference => study%reference%statistics, ladders => study%ladders)
+      associate (reference => study%reference%statistics, tol_sweeps => study%tol_sweeps)
          if (.not. reference%is_there) return
          call new_group(file, "statistics", group, status)
          if (status < 0) return
@@ -194,22 +195,23 @@ contains
          call text_dataset(file, "statistics/long_names", words, .false., "descriptions", status)
          call put("reference", 1, reference%list%value, "of the reference")
          call put("reference_interval", 1, reference%list%half, "half-width of the 95 % confidence interval")
-         n = size(ladders)
-      call put("settings", n, [(ladders(k)%statistics%list%value, k=1, n)], "mean over the runs of a setting that diverged "// &
+         n = size(tol_sweeps)
+      call put("settings", n, [(tol_sweeps(k)%statistics%list%value, k=1, n)], "mean over the runs of a setting that diverged "// &
          "from the reference")
-         call put("settings_interval", n, [(ladders(k)%statistics%list%half, k=1, n)], &
+         call put("settings_interval", n, [(tol_sweeps(k)%statistics%list%half, k=1, n)], &
                   "half-width of the 95 % confidence interval, from the scatter of runs")
-         call integer_dataset(file, "statistics/runs", [n_statistic, n], [(ladders(k)%statistics%n_run, k=1, n)], &
+         call integer_dataset(file, "statistics/runs", [n_statistic, n], [(tol_sweeps(k)%statistics%n_run, k=1, n)], &
                               "number of runs of a setting that diverged from the reference", status)
-         call integer_dataset(file, "statistics/apart", [n_statistic, n], [(ladders(k)%statistics%n_apart, k=1, n)], &
+         call integer_dataset(file, "statistics/apart", [n_statistic, n], [(tol_sweeps(k)%statistics%n_apart, k=1, n)], &
                               "number of those runs with significantly different statistics", status)
-         call integer_dataset(file, "statistics/is_own", [sum([(size(ladders(k)%rungs), k=1, n)])], &
-                              [((merge(1, 0, ladders(k)%rungs(i)%statistics%is_own), i=1, size(ladders(k)%rungs)), k=1, n)], &
+         call integer_dataset(file, "statistics/is_own", [sum([(size(tol_sweeps(k)%tol_runs), k=1, n)])], &
+                              [((merge(1, 0, tol_sweeps(k)%tol_runs(i)%statistics%is_own), i=1, size(tol_sweeps(k)%tol_runs)), &
+                                k=1, n)], &
                               "1: the run diverges from the reference", status)
-         call put("values", sum([(size(ladders(k)%rungs), k=1, n)]), &
-                  [((ladders(k)%rungs(i)%statistics%list%value, i=1, size(ladders(k)%rungs)), k=1, n)], "of every run")
-         call put("intervals", sum([(size(ladders(k)%rungs), k=1, n)]), &
-                  [((ladders(k)%rungs(i)%statistics%list%half, i=1, size(ladders(k)%rungs)), k=1, n)], &
+         call put("values", sum([(size(tol_sweeps(k)%tol_runs), k=1, n)]), &
+                  [((tol_sweeps(k)%tol_runs(i)%statistics%list%value, i=1, size(tol_sweeps(k)%tol_runs)), k=1, n)], "of every run")
+         call put("intervals", sum([(size(tol_sweeps(k)%tol_runs), k=1, n)]), &
+                  [((tol_sweeps(k)%tol_runs(i)%statistics%list%half, i=1, size(tol_sweeps(k)%tol_runs)), k=1, n)], &
                   "half-width of the 95 % confidence interval of every run, by batch means")
       end associate
 
@@ -275,10 +277,10 @@ contains
       call real_attribute(group, "accuracy", study%accuracy, status)
       call real_attribute(group, "budget", study%budget, status)
       call real_attribute(group, "spent", study%spent, status)
-      if (study%choice%ladder > 0) then
-         associate (ladder => study%ladders(study%choice%ladder))
-            call text_attribute(group, "setting", ladder%name, status)
-            call real_attribute(group, "asked", ladder%rungs(study%choice%rung)%asked, status)
+      if (study%choice%tol_sweep > 0) then
+         associate (tol_sweep => study%tol_sweeps(study%choice%tol_sweep))
+            call text_attribute(group, "setting", tol_sweep%name, status)
+            call real_attribute(group, "asked", tol_sweep%tol_runs(study%choice%tol_run)%asked, status)
             call real_attribute(group, "confirmed_error", study%choice%error, status)
             call real_attribute(group, "confirmed_cpu", study%choice%cpu, status)
          end associate

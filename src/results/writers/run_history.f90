@@ -125,7 +125,7 @@ contains
          call read_reals(file, "row_kind", kinds, status)
          history%is_output = kinds(:size(history%time)) < 0.5_wp
          do k = 1, size(rooms)
-            if (has_top(file, trim(rooms(k)))) call read_room(file, trim(rooms(k)), history, status)
+            if (has_top(file, trim(rooms(k)))) call read_channel_group(file, trim(rooms(k)), history, status)
          end do
          if (has_top(file, "extremes")) call read_extremes(file, history, status)
          if (has_top(file, "events")) call read_impacts(file, history, status)
@@ -146,7 +146,7 @@ contains
    end function has_top
 
    !> All numbers of a room.
-   subroutine read_room(file, room, history, status)
+   subroutine read_channel_group(file, room, history, status)
       integer(hid_t), intent(in) :: file            !! the file
       character(*), intent(in) :: room              !! name of the group
       type(history_t), intent(inout) :: history     !! grown
@@ -167,7 +167,7 @@ contains
          if (labels(k)%s /= "") contacts(k)%s = contacts(k)%s//"."//labels(k)%s
       end do
       if (has_dataset(file, room, "contacts")) call read_group(file, room//"/contacts", contacts, history, status)
-   end subroutine read_room
+   end subroutine read_channel_group
 
    !> All numbers of a group, whose datasets have a row for each time and a column for each item.
    subroutine read_group(file, group, items, history, status)

@@ -129,17 +129,17 @@ contains
       n = size(results%runs)
       allocate (messages(n), warnings(n))
       allocate (values(size(results%names), n), source=not_a_number())
-      m = sum([(size(results%runs(k)%strobe_times), k=1, n)])
-      allocate (owners(m), times(m), samples(m*size(results%strobe_names)))
+      m = sum([(size(results%runs(k)%poincare_times), k=1, n)])
+      allocate (owners(m), times(m), samples(m*size(results%poincare_names)))
       m = 0
       do k = 1, n
-         associate (run => results%runs(k), q => size(results%strobe_names), more => size(results%runs(k)%strobe_times))
+         associate (run => results%runs(k), q => size(results%poincare_names), more => size(results%runs(k)%poincare_times))
             messages(k)%s = run%message
             warnings(k)%s = run%warnings
             values(1:size(run%numbers), k) = run%numbers
             owners(m + 1:m + more) = k
-            times(m + 1:m + more) = run%strobe_times
-            samples(q*m + 1:q*(m + more)) = reshape(results%strobes_of(k), [q*more])
+            times(m + 1:m + more) = run%poincare_times
+            samples(q*m + 1:q*(m + more)) = reshape(results%poincare_of(k), [q*more])
             m = m + more
          end associate
       end do
@@ -155,10 +155,10 @@ contains
       call real_dataset(file, "runs/values", [size(results%names), n], reshape(values, [size(values)]), &
                         all_units(results), "statistics of every run", status)
       if (size(times) == 0) return
-      call text_dataset(file, "strobe/names", results%strobe_names, .false., "channels sampled once per period", status)
+      call text_dataset(file, "strobe/names", results%poincare_names, .false., "channels sampled once per period", status)
       call integer_dataset(file, "strobe/run", [size(owners)], owners, "number of the run, from 1", status)
       call real_dataset(file, "strobe/time", [size(times)], times, "s", "multiples of the drive period", status)
-      call real_dataset(file, "strobe/values", [size(results%strobe_names), size(times)], samples, "list", &
+      call real_dataset(file, "strobe/values", [size(results%poincare_names), size(times)], samples, "list", &
                         "channel values at these times", status)
    end subroutine write_runs
 

@@ -13,7 +13,7 @@ module sweep_journal
    use member_result, only: member_result_t
    use packed, only: packer_t, unpacker_t
    use system_file, only: read_file
-   use text, only: piece
+   use text, only: segment
    use text_file, only: replace_file, text_file_t
    implicit none (type, external)
    private
@@ -273,7 +273,7 @@ contains
          if (len(a%files(k)%bytes) == len(b%files(k)%bytes) .and. a%files(k)%bytes == b%files(k)%bytes) cycle
          words = words//", file "//b%files(k)%path
       end do
-      words = piece(words, len(", ") + 1)
+      words = segment(words, len(", ") + 1)
    end function differences
 
 end module sweep_journal

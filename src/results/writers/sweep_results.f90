@@ -24,9 +24,9 @@ module sweep_results
       character(:), allocatable :: warnings         !! what a careful reader should know; blank: nothing
       real(wp), allocatable :: numbers(:)           !! (n) as in `names`, perhaps fewer; NaN: not known [any]
       integer, allocatable :: order(:)              !! (own) its own names, numbers in `names`
-      real(wp), allocatable :: strobe_times(:)      !! (m) instants once per period [s]
-      real(wp), allocatable :: strobes(:, :)        !! (own channels, m) its channels at them, SI [any]
-      integer, allocatable :: strobe_order(:)       !! (own channels) their numbers in `strobe_names`
+      real(wp), allocatable :: poincare_times(:)      !! (m) instants once per period [s]
+      real(wp), allocatable :: poincare_samples(:, :)        !! (own channels, m) its channels at them, SI [any]
+      integer, allocatable :: poincare_order(:)       !! (own channels) their numbers in `poincare_names`
       real(wp) :: cpu(2) = 0.0_wp                   !! (2) processor time of its start and of itself [s]
    end type run_result_t
 
@@ -37,13 +37,13 @@ module sweep_results
       logical :: is_ensemble = .false.                  !! whether their starts are perturbed
       type(text_t), allocatable :: names(:)             !! (n) names of the numbers
       type(text_t), allocatable :: units(:)             !! (n) their units
-      type(text_t), allocatable :: strobe_names(:)      !! (channels) names of the stroboscopic channels
+      type(text_t), allocatable :: poincare_names(:)      !! (channels) names of the stroboscopic channels
       type(run_result_t), allocatable :: runs(:)        !! (cases*n_member) case by case
    contains
       procedure :: start => start_results
       procedure :: take => take_run
       procedure :: settle
-      procedure :: strobes_of
+      procedure :: poincare_of
    end type sweep_results_t
 
 contains
@@ -54,13 +54,13 @@ contains
 
       integer :: k
 
-      allocate (self%names(0), self%units(0), self%strobe_names(0))
+      allocate (self%names(0), self%units(0), self%poincare_names(0))
       allocate (self%runs(self%sweep%n_cases()*self%n_member))
       do k = 1, size(self%runs)
          self%runs(k)%message = "not run"
          self%runs(k)%warnings = ""
-         allocate (self%runs(k)%numbers(0), self%runs(k)%strobe_times(0), self%runs(k)%strobes(0, 0))
-         allocate (self%runs(k)%order(0), self%runs(k)%strobe_order(0))
+         allocate (self%runs(k)%numbers(0), self%runs(k)%poincare_times(0), self%runs(k)%poincare_samples(0, 0))
+         allocate (self%runs(k)%order(0), self%runs(k)%poincare_order(0))
       end do
    end subroutine start_results
 
@@ -76,11 +76,11 @@ contains
          run%exit_code = record%exit_code
          run%message = record%message
          run%warnings = join(member%warnings, "; ")
-         run%strobe_times = member%strobe_times
-         run%strobes = member%strobes
+         run%poincare_times = member%poincare_times
+         run%poincare_samples = member%poincare_samples
          run%cpu = [member%cpu_start, member%cpu_run]
          allocate (run%numbers(size(self%names)), source=not_a_number())
-         allocate (run%order(size(member%numbers)), run%strobe_order(size(member%strobe_names)))
+         allocate (run%order(size(member%numbers)), run%poincare_order(size(member%poincare_names)))
          do k = 1, size(member%numbers)
             call find_name(member%numbers(k)%name, self%names, at)
             if (at > size(self%units)) call append_text(self%units, member%numbers(k)%unit)
@@ -88,8 +88,8 @@ contains
             run%numbers(at) = member%numbers(k)%value
             run%order(k) = at
          end do
-         do k = 1, size(member%strobe_names)
-            call find_name(member%strobe_names(k)%s, self%strobe_names, run%strobe_order(k))
+         do k = 1, size(member%poincare_names)
+            call find_name(member%poincare_names(k)%s, self%poincare_names, run%poincare_order(k))
          end do
       end associate
    end subroutine take_run
@@ -111,24 +111,24 @@ contains
       class(sweep_results_t), intent(inout) :: self  !! the results
 
       real(wp), allocatable :: numbers(:)
-      integer :: from(size(self%names)), k, n, place(size(self%names)), strobe_place(size(self%strobe_names))
+      integer :: from(size(self%names)), k, n, place(size(self%names)), poincare_place(size(self%poincare_names))
 
       place = 0
-      strobe_place = 0
+      poincare_place = 0
       do k = 1, size(self%runs)
          call enter(self%runs(k)%order, place)
-         call enter(self%runs(k)%strobe_order, strobe_place)
+         call enter(self%runs(k)%poincare_order, poincare_place)
       end do
       call reorder(self%names, place)
       call reorder(self%units, place)
-      call reorder(self%strobe_names, strobe_place)
+      call reorder(self%poincare_names, poincare_place)
       do n = 1, size(place)
          from(place(n)) = n
       end do
       do k = 1, size(self%runs)
          associate (run => self%runs(k))
             run%order = place(run%order)
-            run%strobe_order = strobe_place(run%strobe_order)
+            run%poincare_order = poincare_place(run%poincare_order)
             allocate (numbers(size(place)), source=not_a_number())
             do n = 1, size(place)
                if (from(n) <= size(run%numbers)) numbers(n) = run%numbers(from(n))
@@ -169,21 +169,21 @@ contains
 
    end subroutine settle
 
-   !> The stroboscopic samples of a run, a row for each of `strobe_names`; NaN where the run has no such channel.
-   function strobes_of(self, number) result(strobes)
+   !> The stroboscopic samples of a run, a row for each of `poincare_names`; NaN where the run has no such channel.
+   function poincare_of(self, number) result(poincare_samples)
       class(sweep_results_t), intent(in) :: self     !! the results
       integer, intent(in) :: number                  !! of the run
-      real(wp), allocatable :: strobes(:, :)         !! (channels, m) the channels, SI [any]
+      real(wp), allocatable :: poincare_samples(:, :)         !! (channels, m) the channels, SI [any]
 
       integer :: k
 
       associate (run => self%runs(number))
-         allocate (strobes(size(self%strobe_names), size(run%strobe_times)), source=not_a_number())
-         do k = 1, size(run%strobe_order)
-            strobes(run%strobe_order(k), :) = run%strobes(k, :)
+         allocate (poincare_samples(size(self%poincare_names), size(run%poincare_times)), source=not_a_number())
+         do k = 1, size(run%poincare_order)
+            poincare_samples(run%poincare_order(k), :) = run%poincare_samples(k, :)
          end do
       end associate
-   end function strobes_of
+   end function poincare_of
 
    !> A number over the runs of a case that have it: how many, and mean, deviation, least and greatest.
    pure subroutine case_numbers(self, case_number, number, n, spread)

@@ -4,7 +4,7 @@
 !> before it. A clearance joint's file holds the channels of its contacts too.
 module text_writer
    use catalogue, only: catalogue_t
-   use catalogue_rooms, only: n_rooms, room_clearances, room_contacts
+   use groups_of_catalogue, only: n_groups, group_clearances, group_contacts
    use channel_names, only: item_name, scalar_t
    use channels, only: selection_t
    use decimal_text, only: decimal_width
@@ -14,7 +14,7 @@ module text_writer
    use output_marker, only: enter_file, note_files
    use output_plan, only: output_plan_t
    use posix, only: make_directory
-   use tape, only: tape_t
+   use archive, only: archive_t
    use text, only: text_t, to_text
    use text_buffer, only: buffer_t
    use text_file, only: fail_file, replace_file, text_file_t
@@ -82,8 +82,8 @@ contains
       self%block = max(fewest_rows, min(most_rows, numbers_in_memory/max(1, selection%count())))
       do pass = 1, 2
          n = 0
-         do room = 1, n_rooms
-            if (room == room_contacts) cycle
+         do room = 1, n_groups
+            if (room == group_contacts) cycle
             do item = 1, size(catalogue%rooms(room)%names)
                call add_table(self, pass, n, file_of_item(item_name(catalogue, room, item), plan%suffix), &
                               columns_of_item(catalogue, selection, room, item), plan, catalogue, error)
@@ -136,7 +136,7 @@ contains
       type(output_plan_t), intent(in) :: plan       !! what the files say of the run
       type(catalogue_t), intent(in) :: catalogue    !! what can be recorded
 
-      with_kinds = plan%with%contact_rows .and. size(catalogue%rooms(room_contacts)%names) > 0
+      with_kinds = plan%with%contact_rows .and. size(catalogue%rooms(group_contacts)%names) > 0
    end function with_kinds
 
    !> The chosen numbers of an item and, of a clearance joint, of its contacts.
@@ -151,10 +151,10 @@ contains
 
       allocate (columns(0))
       call append_columns(catalogue, selection, room, item, columns)
-      if (room /= room_clearances) return
-      do k = 1, size(catalogue%rooms(room_contacts)%names)
-         if (catalogue%rooms(room_contacts)%names(k)%s /= catalogue%rooms(room)%names(item)%s) cycle
-         call append_columns(catalogue, selection, room_contacts, k, columns)
+      if (room /= group_clearances) return
+      do k = 1, size(catalogue%rooms(group_contacts)%names)
+         if (catalogue%rooms(group_contacts)%names(k)%s /= catalogue%rooms(room)%names(item)%s) cycle
+         call append_columns(catalogue, selection, group_contacts, k, columns)
       end do
    end function columns_of_item
 
@@ -225,39 +225,39 @@ contains
    end subroutine sample_files
 
    !> Write where the files stand: all rows and events must be in them.
-   subroutine save_files(self, tape)
+   subroutine save_files(self, archive)
       class(text_writer_t), intent(in) :: self  !! the files, flushed
-      type(tape_t), intent(inout) :: tape       !! receives it
+      type(archive_t), intent(inout) :: archive       !! receives it
 
       integer :: k
 
-      call tape%put([self%written, self%written_events])
-      call tape%put(self%last_time)
+      call archive%put([self%written, self%written_events])
+      call archive%put(self%last_time)
       do k = 1, size(self%tables)
-         call tape%put(self%tables(k)%file%length)
+         call archive%put(self%tables(k)%file%length)
       end do
-      if (self%with_events) call tape%put(self%events%length)
+      if (self%with_events) call archive%put(self%events%length)
    end subroutine save_files
 
    !> Go on with the files of an earlier run where they stood when it was saved.
-   subroutine go_on_with_files(self, tape, error)
+   subroutine go_on_with_files(self, archive, error)
       class(text_writer_t), intent(inout) :: self        !! the files, started
-      type(tape_t), intent(inout) :: tape                !! holds where they stood
+      type(archive_t), intent(inout) :: archive                !! holds where they stood
       type(error_t), allocatable, intent(out) :: error   !! one is not as it was
 
       integer(i8) :: length
       integer :: k
 
-      call tape%get(self%written)
-      call tape%get(self%written_events)
-      call tape%get(self%last_time)
+      call archive%get(self%written)
+      call archive%get(self%written_events)
+      call archive%get(self%last_time)
       do k = 1, size(self%tables)
-         call tape%get(length)
+         call archive%get(length)
          call self%tables(k)%file%go_on(length, error)
          if (allocated(error)) return
       end do
       if (.not. self%with_events) return
-      call tape%get(length)
+      call archive%get(length)
       call self%events%go_on(length, error)
    end subroutine go_on_with_files
 

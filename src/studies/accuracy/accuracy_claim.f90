@@ -9,7 +9,7 @@ module accuracy_claim
    use channel_difference, only: set_differences
    use, intrinsic :: ieee_arithmetic, only: ieee_is_finite
    use kinds, only: not_a_number, wp
-   use peak_bracket, only: least_gain => gain
+   use peak_bracket, only: min_gain => gain
    use precision_reference, only: described, last_within
    use run_difference, only: first_other_contact
    implicit none (type, external)
@@ -107,29 +107,29 @@ contains
          allocate (found%extremes(size(error)))
          of_kinds = 0.0_wp
          do k = 1, size(error)
-            associate (greatest => of_kinds(run%kind(k)))
-               greatest = max(greatest, error(k)*run%factor_of(k)/search%scale(run%kind(k)))
+            associate (maximum => of_kinds(run%kind(k)))
+               maximum = max(maximum, error(k)*run%factor_of(k)/search%scale(run%kind(k)))
             end associate
          end do
          do k = 1, size(error)
             associate (extreme => found%extremes(k))
                extreme%scale = search%scale(run%kind(k))/run%factor_of(k)
-               extreme%least = run%series%low(k, last)
+               extreme%minimum = run%series%low(k, last)
                extreme%most = run%series%high(k, last)
                if (last == run%n) then
-                  extreme%least = run%series%least(k)
+                  extreme%minimum = run%series%minimum(k)
                   extreme%most = run%series%most(k)
                end if
-               if (extreme%least > extreme%most) then  ! it never was a number
-                  extreme%least = not_a_number()
+               if (extreme%minimum > extreme%most) then  ! it never was a number
+                  extreme%minimum = not_a_number()
                   extreme%most = not_a_number()
                   extreme%error = not_a_number()
                   cycle
                end if
                ! differences of runs contain neither round-off of the numbers nor the rise at which the search for extremes ends
-               size_of = max(abs(extreme%least), abs(extreme%most))
+               size_of = max(abs(extreme%minimum), abs(extreme%most))
                extreme%error = found%evidence%factor*max(error(k), of_kind*of_kinds(run%kind(k))*extreme%scale, &
-                                                epsilon(1.0_wp)*max(size_of, extreme%scale)) + least_gain*size_of
+                                                epsilon(1.0_wp)*max(size_of, extreme%scale)) + min_gain*size_of
             end associate
          end do
       end associate

@@ -19,7 +19,7 @@ module accuracy_results
       character(:), allocatable :: unit    !! SI, `1` if none
       real(wp) :: scale = 0.0_wp           !! what relative errors of the channel are parts of [any]
       real(wp) :: error = 0.0_wp           !! greatest error of the channel, and half the interval of its extremes [any]
-      real(wp) :: least = 0.0_wp           !! least value [any]
+      real(wp) :: minimum = 0.0_wp           !! least value [any]
       real(wp) :: most = 0.0_wp            !! greatest value [any]
    end type extreme_t
 

@@ -19,9 +19,9 @@ module accuracy_search
    use accuracy_trial, only: agreement, ends_falsely, is_better, make_trial, no_time, same, search_t, trial_t
    use channel_difference, only: channel_scales
    use kept_run, only: n_sort
-   use kinds, only: eps, least_tolerance, wp
+   use kinds, only: eps, min_tolerance, wp
    use precision_info, only: setting_t
-   use precision_reference, only: kept_ladder_t, reference_t, size_of
+   use precision_reference, only: kept_tol_sweep_t, reference_t, size_of
    use precision_results, only: precision_t
    use precision_twins, only: run_twins
    use progress, only: progress_t
@@ -86,8 +86,8 @@ contains
          call confirm(job, budget, search)
          if (.not. search%other%is_there) search%other = before
          if (.not. search%is_false_end .or. search%reason == no_time) exit
-         if (search%taken%what%asked <= same*least_tolerance) exit
-         first = max(least_tolerance, step*search%taken%what%asked)
+         if (search%taken%what%asked <= same*min_tolerance) exit
+         first = max(min_tolerance, step*search%taken%what%asked)
          search%reason = ""
       end do
       if (search%is_false_end .and. search%reason /= no_time) search%reason = ends_apart
@@ -114,7 +114,7 @@ contains
       tolerance = first
       best = [-1.0_wp, huge(1.0_wp)]
       futile = 0
-      do k = 1, nint(-log10(least_tolerance)) + 1
+      do k = 1, nint(-log10(min_tolerance)) + 1
          until = merge(until_taken, 1.0_wp, search%coarser%is_there)
          if (last%is_there .and. rise*last%what%wall > budget%left(until) - last%what%wall) search%reason = no_time
          if (search%reason /= "") return
@@ -137,9 +137,9 @@ contains
             last = next
          end if
          call display%update(0.08_wp*k)
-         if (tolerance <= same*least_tolerance .and. search%reason == "") search%reason = no_tighter
+         if (tolerance <= same*min_tolerance .and. search%reason == "") search%reason = no_tighter
          if (futile == patience) search%reason = no_gain
-         tolerance = max(least_tolerance, step*tolerance)
+         tolerance = max(min_tolerance, step*tolerance)
       end do
    end subroutine descend
 
@@ -170,8 +170,8 @@ contains
             if (own%setting%method == "auto" .and. others(k) == "verner") cycle  ! whose steps these may be
             call confirm_by(trim(others(k)), own%asked)
          end do
-         if (best(1) < pair(1) .and. own%asked > same*least_tolerance .and. .not. search%is_false_end) then
-            call take(own%setting%method, max(least_tolerance, tightest_part*own%asked), 1.0_wp)
+         if (best(1) < pair(1) .and. own%asked > same*min_tolerance .and. .not. search%is_false_end) then
+            call take(own%setting%method, max(min_tolerance, tightest_part*own%asked), 1.0_wp)
          end if
       end associate
       job%rounding = 0.0_wp
@@ -204,8 +204,8 @@ contains
             if (best(1) >= pair(1)) return
             if (next%is_there) then
                has_ended = .true.
-               if (tolerance <= same*least_tolerance) return
-               tolerance = max(least_tolerance, step*tolerance)
+               if (tolerance <= same*min_tolerance) return
+               tolerance = max(min_tolerance, step*tolerance)
             else
                if (has_ended .or. (next%is_late .and. was_late)) return
                was_late = was_late .or. next%is_late
@@ -250,12 +250,12 @@ contains
       type(search_t), intent(in) :: search            !! the runs
       type(accuracy_t), intent(inout) :: found        !! growth is set
 
-      type(kept_ladder_t) :: none(0)
+      type(kept_tol_sweep_t) :: none(0)
       type(precision_t) :: study
       type(reference_t) :: base
 
       if (search%stride /= 1 .or. job%plan%first_output > 0.0_wp) return
-      allocate (study%ladders(0))
+      allocate (study%tol_sweeps(0))
       base = search%taken%what
       base%is_there = .true.
       base%run = search%taken%run%kept_run_t

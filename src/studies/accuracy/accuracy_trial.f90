@@ -2,7 +2,7 @@
 module accuracy_trial
    use channel_difference, only: set_differences
    use kept_channels, only: kept_channels_t
-   use kinds, only: least_tolerance, wp
+   use kinds, only: min_tolerance, wp
    use precision_info, only: setting_t
    use precision_reference, only: arms_of, last_within, reference_t
    use run_difference, only: ends_elsewhere
@@ -66,7 +66,7 @@ contains
       trial%is_late = outcome%is_late
       search%runs = search%runs + 1
       if (outcome%is_late) search%reason = no_time
-      if (.not. (trial%is_there .or. outcome%is_late .or. search%taken%is_there) .and. tolerance <= same*least_tolerance) then
+      if (.not. (trial%is_there .or. outcome%is_late .or. search%taken%is_there) .and. tolerance <= same*min_tolerance) then
          search%reason = outcome%reason
       end if
    end subroutine make_trial

@@ -83,7 +83,7 @@ contains
       if (abs(run%n - other%n) > 1) by_instant(max(1, min(run%n, other%n + 1)):) = not_alike
       if (run%n == 0 .or. run%n /= other%n) return
       do k = 1, size(run%kind)   ! rows behind the last instant
-         d = of_extremes(k, [run%series%least(k), run%series%most(k)], [other%series%least(k), other%series%most(k)])
+         d = of_extremes(k, [run%series%minimum(k), run%series%most(k)], [other%series%minimum(k), other%series%most(k)])
          call raise(run%n, k, d)
       end do
 

@@ -8,7 +8,7 @@
 module kept_channels
    use catalogue, only: catalogue_t
    use catalogue_groups, only: group_t
-   use catalogue_rooms, only: room_bodies, room_contacts, room_joints, room_requests
+   use groups_of_catalogue, only: group_bodies, group_contacts, group_joints, group_requests
    use errors, only: error_t
    use, intrinsic :: ieee_arithmetic, only: ieee_is_finite
    use kept_run, only: kept_run_t, n_sort, sort_of, sort_positions
@@ -43,7 +43,7 @@ module kept_channels
       real(wp), allocatable :: x(:, :)            !! (n, capacity) values at the instants that are kept [any]
       real(wp), allocatable :: low(:, :)          !! (n, capacity) least value up to there [any]
       real(wp), allocatable :: high(:, :)         !! (n, capacity) greatest value up to there [any]
-      real(wp), allocatable :: least(:)           !! (n) least value of all rows [any]
+      real(wp), allocatable :: minimum(:)           !! (n) least value of all rows [any]
       real(wp), allocatable :: most(:)            !! (n) greatest value of all rows [any]
    end type series_t
 
@@ -87,7 +87,7 @@ contains
       allocate (self%factor_of(n), source=1.0_wp)
       allocate (self%further(0))
       allocate (self%series%x(n, size(self%t)), self%series%low(n, size(self%t)), self%series%high(n, size(self%t)), source=0.0_wp)
-      allocate (self%series%least(n), source=huge(1.0_wp))
+      allocate (self%series%minimum(n), source=huge(1.0_wp))
       allocate (self%series%most(n), source=-huge(1.0_wp))
       allocate (self%kind_of(size(catalogue%groups)), source=0)
       allocate (self%goes_round(n), source=.false.)
@@ -100,11 +100,11 @@ contains
             if (self%kind_of(g) == 0) self%kind_of(g) = n_sort + number_of_kind(self, group, g)
             self%kind(k) = self%kind_of(g)
             self%factor_of(k) = factor_to(self, group, self%asked(3, k))
-            if (group%room == room_contacts .and. index(places, " "//group%channel%name//" ") > 0) then
-               self%state_of(k) = catalogue%find_group(room_contacts, "state")
+            if (group%room == group_contacts .and. index(places, " "//group%channel%name//" ") > 0) then
+               self%state_of(k) = catalogue%find_group(group_contacts, "state")
             end if
-            self%goes_round(k) = (group%room == room_contacts .and. group%channel%name == "contact_angle") .or. &
-                                 (group%room == room_joints .and. group%channel%name == "angle")
+            self%goes_round(k) = (group%room == group_contacts .and. group%channel%name == "contact_angle") .or. &
+                                 (group%room == group_joints .and. group%channel%name == "angle")
          end associate
       end do
       allocate (self%magnitude(n_sort + size(self%further)), source=0.0_wp)
@@ -131,7 +131,7 @@ contains
       kind = channel_kind_t(room=group%room, class=class_of(group%channel%unit), unit="")
       if (kind%class == class_other) then
          kind%unit = group%channel%unit
-         if (group%room == room_requests) kind%group = g
+         if (group%room == group_requests) kind%group = g
       end if
       do n = 1, size(self%further)
          associate (other => self%further(n))
@@ -171,7 +171,7 @@ contains
       end if
       if (index(group%channel%unit, "rad") /= 1) return
       factor = maxval(self%arm)
-      if (group%room == room_bodies) factor = self%arm(item)
+      if (group%room == group_bodies) factor = self%arm(item)
    end function factor_to
 
    !> Keep an output instant.
@@ -195,7 +195,7 @@ contains
       do k = 1, size(self%kind)
          self%series%x(k, self%n) = value_of(self, catalogue, k)
       end do
-      self%series%low(:, self%n) = self%series%least
+      self%series%low(:, self%n) = self%series%minimum
       self%series%high(:, self%n) = self%series%most
    end subroutine sample_channels
 
@@ -243,7 +243,7 @@ contains
       do k = 1, size(self%kind)
          x = value_of(self, catalogue, k)
          if (.not. ieee_is_finite(x) .or. (self%goes_round(k) .and. .not. is_output)) cycle
-         if (x < self%series%least(k)) self%series%least(k) = x
+         if (x < self%series%minimum(k)) self%series%minimum(k) = x
          if (x > self%series%most(k)) self%series%most(k) = x
       end do
       do g = 1, size(self%kind_of)

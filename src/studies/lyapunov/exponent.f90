@@ -91,7 +91,7 @@ contains
    pure integer function verdict(horizon)
       type(horizon_t), intent(in) :: horizon   !! what is known
 
-      real(wp), parameter :: greatest_power = 2.0_wp   ! of time, that is not called exponential [1]
+      real(wp), parameter :: max_power = 2.0_wp   ! of time, that is not called exponential [1]
       real(wp), parameter :: earliest = 0.1_wp         ! part of the end from which powers of time are looked at [1]
       type(estimate_t) :: rate
       real(wp) :: end, from
@@ -109,7 +109,7 @@ contains
       verdict = verdict_even
       end = horizon%t(size(horizon%t))
       from = max(horizon%after, earliest*end)
-      if (abs(rate%value)*(end - from) <= greatest_power*log(end/from)) return
+      if (abs(rate%value)*(end - from) <= max_power*log(end/from)) return
       verdict = verdict_unclear
       if (rate%value - rate%half > 0.0_wp) verdict = verdict_apart
       if (rate%value + rate%half < 0.0_wp) verdict = verdict_together
@@ -122,18 +122,18 @@ contains
       real(wp), intent(in) :: error            !! the errors, of the scale of the motion [1]
       real(wp) :: until(n_digit)               !! (k) times of k digits; NaN: beyond the last instant [s]
 
-      real(wp) :: greatest, least
+      real(wp) :: maximum, minimum
       integer :: i, k
 
       until = not_a_number()
-      least = growth(1)
-      greatest = 0.0_wp
+      minimum = growth(1)
+      maximum = 0.0_wp
       do i = 1, size(t)
-         least = min(least, growth(i))
-         greatest = max(greatest, growth(i) - least)
+         minimum = min(minimum, growth(i))
+         maximum = max(maximum, growth(i) - minimum)
          do k = 1, n_digit
             if (ieee_is_finite(until(k))) cycle
-            if (log(max(error, eps)) + greatest > -real(k, wp)*log(10.0_wp)) until(k) = t(max(1, i - 1))
+            if (log(max(error, eps)) + maximum > -real(k, wp)*log(10.0_wp)) until(k) = t(max(1, i - 1))
          end do
       end do
    end function digits_of

@@ -9,7 +9,7 @@
 !> Limits: `verner` only; groups of bodies are one mechanism, whose exponent is the largest of theirs.
 module exponent_runs
    use batch_means, only: mean_of_series
-   use contact_grip, only: sticks
+   use contact_stick_slip, only: sticks
    use errors, only: error_t
    use exponent, only: digits_of, exponent_t, find_exponent, horizon_t
    use friction_law, only: memory_none
@@ -27,7 +27,7 @@ module exponent_runs
    real(wp), parameter :: horizon_tolerance = 1.0e-11_wp   !! of the motions [1]
    real(wp), parameter :: distance = 1.0e-7_wp             !! of the twin, of the scales [1]
    real(wp), parameter :: far = 1.0e-3_wp                  !! distance at which it is no longer beside the motion [1]
-   integer, parameter :: fewest_instants = 64              !! reached before the time was up, for an exponent up to there
+   integer, parameter :: fewest_output_times = 64              !! reached before the time was up, for an exponent up to there
    real(wp), parameter :: out_of_reach = 3.0_wp            !! distance, over the one wanted, from which it is brought back [1]
    character(*), parameter :: on_constraints = "projection"  !! way of holding: both motions are on them, as a twin that is put back
 
@@ -40,17 +40,17 @@ contains
       type(horizon_t), intent(out) :: horizon            !! times are set
 
       real(wp) :: end
-      integer :: instants, k
+      integer :: output_times, k
 
       end = asked%number("exponent_end")
       if (end <= 0.0_wp) end = end_of_motion
-      instants = nint(asked%number("exponent_instants"))
-      horizon%t = [(end*real(k, wp)/real(instants, wp), k=0, instants)]
+      output_times = nint(asked%number("exponent_instants"))
+      horizon%t = [(end*real(k, wp)/real(output_times, wp), k=0, output_times)]
       horizon%after = end*asked%number("settle")
       horizon%tolerance = horizon_tolerance
       horizon%digits = not_a_number()
       horizon%run_digits = not_a_number()
-      allocate (horizon%tangent%growth(instants + 1), horizon%twin%growth(instants + 1), source=not_a_number())
+      allocate (horizon%tangent%growth(output_times + 1), horizon%twin%growth(output_times + 1), source=not_a_number())
       horizon%tangent%rate = mean_of_series([real(wp) ::])
       horizon%twin%rate = horizon%tangent%rate
       horizon%tangent%reason = "not requested"
@@ -84,7 +84,7 @@ contains
          logs(:, k) = tangent%lengths(mover%system)
       end do
       if (allocated(error)) then
-         if (.not. mover%is_late .or. k - 1 < fewest_instants) then
+         if (.not. mover%is_late .or. k - 1 < fewest_output_times) then
             horizon%tangent%reason = first_line(error%message)
             return
          end if
@@ -161,7 +161,7 @@ contains
          level = level + log(d/max(apart(1), apart(2)/first%pace(base%system)))
       end do
       if (allocated(error)) then
-         if ((base%is_late .or. twin%is_late) .and. k - 1 >= max(fewest_instants, size(horizon%t)/2)) then
+         if ((base%is_late .or. twin%is_late) .and. k - 1 >= max(fewest_output_times, size(horizon%t)/2)) then
             call cut(horizon, k - 1)
             logs = logs(:, :k - 1)
             if (horizon%tangent%reason == "") call find_exponent(horizon%t, horizon%after, horizon%tangent)
@@ -229,8 +229,8 @@ contains
 
          integer :: i, k
 
-         do k = 1, size(system%loose%sets)
-            associate (set => system%loose%sets(k)%set)
+         do k = 1, size(system%clearance_joints%sets)
+            associate (set => system%clearance_joints%sets(k)%set)
                do i = 1, set%n_contact
                   if (set%contact(i)%is_touching) call set%set_impact_speed(i, speeds(set%before%contacts + i))
                end do
@@ -243,12 +243,12 @@ contains
    !> Impact speeds that contacts remember.
    pure function speeds_of(system) result(speeds)
       type(mechanism_t), intent(in) :: system    !! the system
-      real(wp) :: speeds(system%loose%n_contact)       !! (contacts) the speeds [m/s]
+      real(wp) :: speeds(system%clearance_joints%n_contact)       !! (contacts) the speeds [m/s]
 
       integer :: k
 
-      do k = 1, size(system%loose%sets)
-         associate (set => system%loose%sets(k)%set)
+      do k = 1, size(system%clearance_joints%sets)
+         associate (set => system%clearance_joints%sets(k)%set)
             speeds(set%before%contacts + 1:set%before%contacts + set%n_contact) = set%contact%impact_speed
          end associate
       end do
@@ -262,12 +262,12 @@ contains
       integer :: k
 
       are_same = .true.
-      do k = 1, size(a%loose%sets)
-         associate (one => a%loose%sets(k)%set, other => b%loose%sets(k)%set)
+      do k = 1, size(a%clearance_joints%sets)
+         associate (one => a%clearance_joints%sets(k)%set, other => b%clearance_joints%sets(k)%set)
             are_same = are_same .and. all(one%contact%is_touching .eqv. other%contact%is_touching)
             are_same = are_same .and. all(one%contact%course == other%contact%course .or. .not. one%contact%is_touching)
-            if (one%grip%memory == memory_none) cycle
-            are_same = are_same .and. all(one%grip%slip == other%grip%slip .and. one%grip%slip /= sticks .or. &
+            if (one%stick_slip%memory == memory_none) cycle
+            are_same = are_same .and. all(one%stick_slip%slip == other%stick_slip%slip .and. one%stick_slip%slip /= sticks .or. &
                                           .not. one%contact%is_touching)
          end associate
       end do

@@ -20,9 +20,9 @@ module growth
    integer, parameter :: n_digit = 12                 !! most digits whose horizon is told
    real(wp), parameter :: saturated = 0.02_wp         !! distance from which it is no longer small [1]
    real(wp), parameter :: first_part = 0.25_wp        !! of the stretch, which the fit leaves to decaying parts [1]
-   real(wp), parameter :: least_growth = 2.0_wp       !! of ln d over the fit, below which nothing is exponential [1]
-   real(wp), parameter :: least_part = 0.25_wp        !! of lambda that each half of the stretch must show by itself [1]
-   real(wp), parameter :: greatest_power = 4.0_wp     !! of time that regular motion has [1]
+   real(wp), parameter :: min_growth = 2.0_wp       !! of ln d over the fit, below which nothing is exponential [1]
+   real(wp), parameter :: min_part = 0.25_wp        !! of lambda that each half of the stretch must show by itself [1]
+   real(wp), parameter :: max_power = 4.0_wp     !! of time that regular motion has [1]
    real(wp), parameter :: two_sided = 2.0_wp          !! standard errors on each side of an interval of about 95 % [1]
    integer, parameter :: fewest = 8                   !! instants of a fit
 
@@ -83,9 +83,9 @@ contains
          middle = size(t)/2
          call fit(t(:middle), y(:middle), halves(:, 1))
          call fit(t(middle:), y(middle:), halves(:, 2))
-         growth%is_exponential = all(halves(2, :) > least_part*law(2, 1)) .and. &
-                                 law(2, 1)*(t(size(t)) - t(1)) > least_growth .and. &
-                                 (sums(1) < sums(2) .or. law(2, 2) > greatest_power)
+         growth%is_exponential = all(halves(2, :) > min_part*law(2, 1)) .and. &
+                                 law(2, 1)*(t(size(t)) - t(1)) > min_growth .and. &
+                                 (sums(1) < sums(2) .or. law(2, 2) > max_power)
          growth%fit_begin = t(1)
          growth%fit_end = t(size(t))
       end associate
@@ -93,7 +93,7 @@ contains
       growth%rate_interval = max(two_sided*max(errors(1), spread(1)), 0.5_wp*abs(halves(2, 2) - halves(2, 1)))
       growth%power = law(2, 2)
       growth%power_interval = two_sided*max(errors(2), spread(2))
-      growth%is_regular = .not. growth%is_exponential .and. growth%power <= greatest_power
+      growth%is_regular = .not. growth%is_exponential .and. growth%power <= max_power
       growth%offset = merge(law(1, 1), law(1, 2), growth%is_exponential)
       call find_horizons(growth, last)
    end subroutine find_growth
@@ -124,20 +124,20 @@ contains
       type(growth_t), intent(inout) :: growth   !! horizons are set
       integer, intent(in) :: last               !! number of the last instant at which distances are small
 
-      real(wp) :: greatest, grown
+      real(wp) :: maximum, grown
       integer :: i, k
 
       growth%horizon = not_a_number()
       do k = 1, n_digit
-         greatest = 0.0_wp
+         maximum = 0.0_wp
          do i = 1, size(growth%t)
             if (i <= last) then
-               greatest = max(greatest, maxval(growth%ratio(i, :)))
-               grown = greatest
+               maximum = max(maximum, maxval(growth%ratio(i, :)))
+               grown = maximum
             else if (growth%is_exponential) then
-               grown = greatest*exp(min(600.0_wp, growth%rate*(growth%t(i) - growth%t(last))))
+               grown = maximum*exp(min(600.0_wp, growth%rate*(growth%t(i) - growth%t(last))))
             else
-               grown = greatest*(growth%t(i)/growth%t(last))**max(0.0_wp, growth%power)
+               grown = maximum*(growth%t(i)/growth%t(last))**max(0.0_wp, growth%power)
             end if
             if (grown*eps <= 10.0_wp**(-k)) cycle
             growth%horizon(k) = growth%t(max(1, i - 1))

@@ -5,7 +5,7 @@ module mover
    use cpu_budget, only: cpu_budget_t
    use errors, only: error_t, exit_integration, set_error
    use guards, only: guards_t, new_guards
-   use instants, only: instants_t, new_instants
+   use output_times, only: output_times_t, new_output_times
    use integrator, only: advance_event, integrator_t
    use kept_run, only: kept_run_t
    use kinds, only: wp
@@ -48,15 +48,15 @@ contains
       type(error_t), allocatable, intent(out) :: error    !! it cannot begin
 
       type(guards_t) :: guards
-      type(instants_t) :: instants
+      type(output_times_t) :: output_times
       real(wp), allocatable :: y(:)
 
       call self%budget%begin(job%cpu, clock=job%clock)
       call prepare_run(job, setting, asked, self%system, self%method, y, error)
       if (allocated(error)) return
-      call new_instants(job%scene, end, self%system%loose%n > 0, instants)
+      call new_output_times(job%scene, end, self%system%clearance_joints%n > 0, output_times)
       call new_guards(job%scene, self%system, guards)
-      call new_part(self%system, self%method, instants, guards, self%part)
+      call new_part(self%system, self%method, output_times, guards, self%part)
       self%nothing%is_kept = .false.
       call begin_part(self%part, y, end, self%tally, self%nothing, error)
    end subroutine start
@@ -94,7 +94,7 @@ contains
             end if
          end if
          if (allocated(error)) return
-         if (.not. self%part%instants%is_at(self%method%t)) cycle
+         if (.not. self%part%output_times%is_at(self%method%t)) cycle
          if (present(tangent)) then
             call cross_instant(tangent, self%part, self%tally, self%nothing, error)
          else
@@ -118,7 +118,7 @@ contains
 
       before = self%method%step%y1
       self%method%step%y1 = y
-      call self%system%mend(self%method%t, self%method%step%y1, status)
+      call self%system%project_state(self%method%t, self%method%step%y1, status)
       is_good = status == 0
       if (is_good) call self%method%restart(self%system, 0.0_wp, status)
       is_good = is_good .and. status == 0
@@ -127,7 +127,7 @@ contains
          self%method%step%y1 = before
          call self%method%restart(self%system, 0.0_wp, status)
       end if
-      if (self%system%loose%n > 0) call self%part%watch%after_restart(self%system, self%method)
+      if (self%system%clearance_joints%n > 0) call self%part%monitor%after_restart(self%system, self%method)
    end subroutine put
 
 end module mover

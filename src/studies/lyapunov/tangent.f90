@@ -39,7 +39,7 @@ module tangent
       integer :: n_grazed = 0               !! events that were passed as if nothing jumped: their functions hardly rise
       integer :: n_together = 0             !! instants of several events, of which the first one counts
       integer, private :: parts = 1         !! parts of a step
-      real(wp), private :: least_rate = 0.0_wp  !! that rates are measured by at least [1/s]
+      real(wp), private :: min_rate = 0.0_wp  !! that rates are measured by at least [1/s]
       real(wp), allocatable :: minus(:), plus(:)      !! (n) scratch: of the states beside [any]
       real(wp), allocatable :: speed(:)               !! (contacts) scratch: impact speeds [m/s]
       real(wp), allocatable, private :: y(:), once(:), twice(:)  !! (n) scratch [any]
@@ -59,22 +59,23 @@ module tangent
 contains
 
    !> Begin with a direction in which everything that is free takes part.
-   subroutine begin(self, system, method, least_rate, status)
+   subroutine begin(self, system, method, min_rate, status)
       class(tangent_t), intent(inout) :: self       !! the direction
       type(mechanism_t), intent(inout) :: system    !! the system, at the start
       class(integrator_t), intent(in) :: method     !! the integrator, begun
-      real(wp), intent(in) :: least_rate            !! that rates are measured by, of mechanisms that hardly move [1/s]
+      real(wp), intent(in) :: min_rate            !! that rates are measured by, of mechanisms that hardly move [1/s]
       integer, intent(out) :: status                !! 0: done; else nothing is free, or the equations cannot be solved
 
       real(wp), parameter :: irrational = 0.618033988749895_wp  ! parts of its multiples are spread evenly [1]
-      real(wp), parameter :: least = 1.0e-5_wp                  ! of a direction, that constraints leave if anything is free [1]
+      real(wp), parameter :: minimum = 1.0e-5_wp                  ! of a direction, that constraints leave if anything is free [1]
       integer :: i, m, n
 
       n = system%n
       m = n - system%n_quadrature
-      self%least_rate = least_rate
+      self%min_rate = min_rate
       allocate (self%w(n), self%y(n), self%once(n), self%twice(n), self%minus(n), self%plus(n), source=0.0_wp)
-      allocate (self%k(n, 4), self%impact(system%loose%n_contact), self%speed(system%loose%n_contact), source=0.0_wp)
+      allocate (self%k(n, 4), self%impact(system%clearance_joints%n_contact), self%speed(system%clearance_joints%n_contact), &
+                source=0.0_wp)
       call system%weights(method%step%y1, self%plus)
       self%scale = self%plus(:system%linkage%n_position + system%linkage%n_rate)
       associate (nq => system%linkage%n_position)
@@ -90,7 +91,7 @@ contains
       call self%project(system, method, status)
       self%level = 0.0_wp
       call self%renew(system)
-      if (.not. self%level > log(least) .or. .not. any(abs(self%w) > 0.0_wp)) status = 1
+      if (.not. self%level > log(minimum) .or. .not. any(abs(self%w) > 0.0_wp)) status = 1
       self%level = 0.0_wp
    end subroutine begin
 
@@ -203,8 +204,8 @@ contains
 
       integer :: k
 
-      do k = 1, size(system%loose%sets)
-         associate (set => system%loose%sets(k)%set)
+      do k = 1, size(system%clearance_joints%sets)
+         associate (set => system%clearance_joints%sets(k)%set)
             self%speed(set%before%contacts + 1:set%before%contacts + set%n_contact) = set%contact%impact_speed
          end associate
       end do
@@ -218,8 +219,8 @@ contains
 
       integer :: i, k
 
-      do k = 1, size(system%loose%sets)
-         associate (set => system%loose%sets(k)%set)
+      do k = 1, size(system%clearance_joints%sets)
+         associate (set => system%clearance_joints%sets(k)%set)
             if (set%n_touching == 0) cycle
             do i = 1, set%n_contact
                if (.not. set%contact(i)%is_touching) cycle
@@ -249,8 +250,8 @@ contains
          part = beside/length
          self%plus = y + part*self%w
          self%minus = y - part*self%w
-         call system%mend(method%t, self%plus, status)
-         if (status == 0) call system%mend(method%t, self%minus, status)
+         call system%project_state(method%t, self%plus, status)
+         if (status == 0) call system%project_state(method%t, self%minus, status)
          call system%linkage%tidy(self%plus)
          call system%linkage%tidy(self%minus)
          if (status == 0) self%w(:m) = (self%plus(:m) - self%minus(:m))/(2.0_wp*part)
@@ -279,7 +280,7 @@ contains
       class(tangent_t), intent(in) :: self          !! the direction
       type(mechanism_t), intent(in) :: system       !! the system
 
-      pace = max(self%least_rate, system%linkage%scales%pace)
+      pace = max(self%min_rate, system%linkage%scales%pace)
    end function pace
 
    !> Logarithms of the lengths of the change itself: of positions, and of rates [ln 1 and ln s^-1].

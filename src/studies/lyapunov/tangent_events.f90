@@ -11,7 +11,7 @@
 !>
 !> Source: R. I. Leine, H. Nijmeijer, Dynamics and Bifurcations of Non-Smooth Mechanical Systems (2004), chapter 7 (saltation
 !> matrix); P. C. Mueller, Chaos, Solitons & Fractals 5 (1995) 1671-1681.
-!> Limits: of events at one instant the first alone moves in time; the speed at which a contact rests (`turn_watch`) is held.
+!> Limits: of events at one instant the first alone moves in time; the speed at which a contact rests (`turn_monitor`) is held.
 module tangent_events
    use contact_peaks, only: look, trend_t
    use contact_places, only: touch_function
@@ -92,7 +92,7 @@ contains
             return
          end if
          tangent%n_crossed = tangent%n_crossed + 1
-         if (system%loose%functions%kind_of(event) /= touch_function) return
+         if (system%clearance_joints%functions%kind_of(event) /= touch_function) return
          aside = spacings*eps*max(system%linkage%scales%length, maxval(abs(method%step%y1(:system%n_position))))
          aside = (abs(g(event)) + aside)/rate(event) + spacings*eps*method%t
       end associate
@@ -103,7 +103,7 @@ contains
       type(tangent_t), intent(in) :: tangent             !! the change
       type(moving_part_t), intent(inout) :: part         !! the mechanism, at the events
       real(wp), intent(in) :: shift                      !! when the neighbour meets them [s]
-      real(wp) :: impact(part%system%loose%n_contact)          !! (contacts) changes of the speeds [m/s]
+      real(wp) :: impact(part%system%clearance_joints%n_contact)          !! (contacts) changes of the speeds [m/s]
 
       real(wp) :: along, beside, moment
       integer :: i, k, n
@@ -112,10 +112,10 @@ contains
       associate (system => part%system, method => part%method)
          moment = system%time_of_difference(method%t)
          do n = 1, method%events%n_happened
-            if (system%loose%functions%kind_of(method%events%happened(n)) /= touch_function) cycle
+            if (system%clearance_joints%functions%kind_of(method%events%happened(n)) /= touch_function) cycle
             call system%find_contact(method%events%happened(n), k, i)
             impact(method%events%happened(n)) = 0.0_wp
-            if (system%loose%sets(k)%set%contact(i)%is_touching) cycle
+            if (system%clearance_joints%sets(k)%set%contact(i)%is_touching) cycle
             beside = (rate_at(0.0_wp, nearness*tangent%w) - rate_at(0.0_wp, -nearness*tangent%w))/(2.0_wp*nearness)
             along = (rate_at(moment, moment*method%step%f1) - rate_at(-moment, -moment*method%step%f1))/(2.0_wp*moment)
             impact(method%events%happened(n)) = beside + along*shift
@@ -147,12 +147,12 @@ contains
       integer :: i, k, n
 
       do n = 1, part%method%events%n_happened
-         if (part%system%loose%functions%kind_of(part%method%events%happened(n)) /= touch_function) cycle
+         if (part%system%clearance_joints%functions%kind_of(part%method%events%happened(n)) /= touch_function) cycle
          call part%system%find_contact(part%method%events%happened(n), k, i)
-         associate (grip => part%system%loose%sets(k)%set%grip, place => part%system%bristle_place(k, i))
-            if (grip%memory /= memory_bristle) cycle
-            tangent%w(place + 1:place + grip%n_component) = 0.0_wp
-            before(place + 1:place + grip%n_component) = 0.0_wp
+         associate (stick_slip => part%system%clearance_joints%sets(k)%set%stick_slip, place => part%system%bristle_place(k, i))
+            if (stick_slip%memory /= memory_bristle) cycle
+            tangent%w(place + 1:place + stick_slip%n_component) = 0.0_wp
+            before(place + 1:place + stick_slip%n_component) = 0.0_wp
          end associate
       end do
    end subroutine drop_deflections

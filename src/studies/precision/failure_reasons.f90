@@ -1,6 +1,6 @@
 !> Reasons why runs of a setting failed or were not made: each told once, however its numbers differ from run to run.
 module failure_reasons
-   use precision_results, only: rung_t
+   use precision_results, only: tol_run_t
    implicit none (type, external)
    private
    public :: is_same_reason, reason_t, reasons_of
@@ -17,18 +17,18 @@ module failure_reasons
 contains
 
    !> The reasons of the runs in some state, in the order in which they first appear.
-   pure function reasons_of(rungs, state) result(reasons)
-      type(rung_t), intent(in) :: rungs(:)          !! (runs) of a setting
+   pure function reasons_of(tol_runs, state) result(reasons)
+      type(tol_run_t), intent(in) :: tol_runs(:)          !! (runs) of a setting
       integer, intent(in) :: state                  !! of those that are looked at
       type(reason_t), allocatable :: reasons(:)     !! (n) their reasons
 
       integer :: i, k
 
       allocate (reasons(0))
-      do i = 1, size(rungs)
-         if (rungs(i)%state /= state) cycle
+      do i = 1, size(tol_runs)
+         if (tol_runs(i)%state /= state) cycle
          do k = 1, size(reasons)
-            if (is_same_reason(rungs(reasons(k)%first)%reason, rungs(i)%reason)) exit
+            if (is_same_reason(tol_runs(reasons(k)%first)%reason, tol_runs(i)%reason)) exit
          end do
          if (k > size(reasons)) reasons = [reasons, reason_t(i, 0)]
          reasons(k)%n = reasons(k)%n + 1

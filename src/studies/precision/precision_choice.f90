@@ -2,7 +2,7 @@
 module precision_choice
    use, intrinsic :: ieee_arithmetic, only: ieee_is_finite
    use kinds, only: not_a_number, wp
-   use precision_results, only: ladder_t, median, precision_t, rung_done, rung_other, rung_t
+   use precision_results, only: tol_sweep_t, median, precision_t, tol_run_done, tol_run_other, tol_run_t
    implicit none (type, external)
    private
    public :: choose_best, find_orders, hidden_below
@@ -21,17 +21,17 @@ contains
       real(wp), allocatable :: error(:)
       integer :: k
 
-      do k = 1, size(study%ladders)
-         associate (ladder => study%ladders(k))
-            error = errors_of(ladder, study%wanted)
-            is_good = ladder%rungs%state == rung_done
+      do k = 1, size(study%tol_sweeps)
+         associate (tol_sweep => study%tol_sweeps(k))
+            error = errors_of(tol_sweep, study%wanted)
+            is_good = tol_sweep%tol_runs%state == tol_run_done
             is_good = is_good .and. error > hidden_below(study) .and. error > 0.0_wp .and. error < coarse
             call drop_floor(error, is_good)
-            ladder%order = order_of(pack(real(ladder%rungs%count%steps, wp), is_good), pack(error, is_good))
-            ladder%exponent = slope(log(pack(ladder%rungs%asked, is_good)), log(pack(error, is_good)))
-            ladder%ratio = not_a_number()
-            if (.not. ladder%is_fixed) ladder%ratio = median(pack(error/ladder%rungs%asked, is_good))
-            if (ladder%is_fixed) ladder%exponent = not_a_number()
+            tol_sweep%order = order_of(pack(real(tol_sweep%tol_runs%count%steps, wp), is_good), pack(error, is_good))
+            tol_sweep%exponent = slope(log(pack(tol_sweep%tol_runs%asked, is_good)), log(pack(error, is_good)))
+            tol_sweep%ratio = not_a_number()
+            if (.not. tol_sweep%is_fixed) tol_sweep%ratio = median(pack(error/tol_sweep%tol_runs%asked, is_good))
+            if (tol_sweep%is_fixed) tol_sweep%exponent = not_a_number()
          end associate
       end do
    end subroutine find_orders
@@ -42,11 +42,11 @@ contains
       real(wp), intent(in) :: steps(:)    !! (n) numbers of steps [1]
       real(wp), intent(in) :: error(:)    !! (n) errors [1]
 
-      real(wp), parameter :: least_change = 1.5_wp  ! of the number of steps, from the fewest to the most [1]
+      real(wp), parameter :: min_change = 1.5_wp  ! of the number of steps, from the fewest to the most [1]
 
       order = not_a_number()
       if (size(steps) == 0) return
-      if (maxval(steps) < least_change*minval(steps)) return
+      if (maxval(steps) < min_change*minval(steps)) return
       order = -slope(log(steps), log(error))
    end function order_of
 
@@ -62,25 +62,25 @@ contains
    end subroutine drop_floor
 
    !> Errors of a ladder, 0 where there are none.
-   pure function errors_of(ladder, kind) result(error)
-      type(ladder_t), intent(in) :: ladder       !! the ladder
+   pure function errors_of(tol_sweep, kind) result(error)
+      type(tol_sweep_t), intent(in) :: tol_sweep       !! the ladder
       integer, intent(in) :: kind                !! of error
-      real(wp) :: error(size(ladder%rungs))      !! (rungs) errors [1]
+      real(wp) :: error(size(tol_sweep%tol_runs))      !! (rungs) errors [1]
 
       integer :: k
 
       error = 0.0_wp
       do k = 1, size(error)
-         if (ladder%rungs(k)%state /= rung_done) cycle
-         if (ieee_is_finite(ladder%rungs(k)%error(kind))) error(k) = ladder%rungs(k)%error(kind)
+         if (tol_sweep%tol_runs(k)%state /= tol_run_done) cycle
+         if (ieee_is_finite(tol_sweep%tol_runs(k)%error(kind))) error(k) = tol_sweep%tol_runs(k)%error(kind)
       end do
    end function errors_of
 
    !> Errors up to this one tell of the reference, not of a method.
-   pure real(wp) function hidden_below(study) result(least)
+   pure real(wp) function hidden_below(study) result(minimum)
       type(precision_t), intent(in) :: study  !! the study
 
-      least = above_bar*bar_of(study)
+      minimum = above_bar*bar_of(study)
    end function hidden_below
 
    !> Error of the reference, 0 if nothing confirms it.
@@ -122,63 +122,63 @@ contains
       type(precision_t), intent(inout) :: study  !! costs and errors are known; front and choice are set
 
       integer :: i, k
-      real(wp) :: least
+      real(wp) :: minimum
 
-      study%choice%ladder = 0
-      study%choice%rung = 0
-      least = huge(1.0_wp)
-      do k = 1, size(study%ladders)
-         do i = 1, size(study%ladders(k)%rungs)
-            associate (rung => study%ladders(k)%rungs(i))
-               if (can_be_chosen(rung, study%wanted)) rung%is_front = .not. is_beaten(study, rung)
+      study%choice%tol_sweep = 0
+      study%choice%tol_run = 0
+      minimum = huge(1.0_wp)
+      do k = 1, size(study%tol_sweeps)
+         do i = 1, size(study%tol_sweeps(k)%tol_runs)
+            associate (tol_run => study%tol_sweeps(k)%tol_runs(i))
+               if (can_be_chosen(tol_run, study%wanted)) tol_run%is_front = .not. is_beaten(study, tol_run)
             end associate
          end do
          if (.not. ieee_is_finite(study%reference%bar(study%wanted))) cycle
-         do i = size(study%ladders(k)%rungs), 1, -1
-            associate (rung => study%ladders(k)%rungs(i))
-               if (rung%state == rung_other) exit
-               if (.not. can_be_chosen(rung, study%wanted)) cycle
-               if (level(study, rung) > study%accuracy) exit
-               if (rung%cpu >= least) cycle
-               least = rung%cpu
-               study%choice%ladder = k
-               study%choice%rung = i
+         do i = size(study%tol_sweeps(k)%tol_runs), 1, -1
+            associate (tol_run => study%tol_sweeps(k)%tol_runs(i))
+               if (tol_run%state == tol_run_other) exit
+               if (.not. can_be_chosen(tol_run, study%wanted)) cycle
+               if (level(study, tol_run) > study%accuracy) exit
+               if (tol_run%cpu >= minimum) cycle
+               minimum = tol_run%cpu
+               study%choice%tol_sweep = k
+               study%choice%tol_run = i
             end associate
          end do
       end do
    end subroutine choose_best
 
    !> Whether a run has an error and a cost.
-   pure logical function can_be_chosen(rung, kind)
-      type(rung_t), intent(in) :: rung  !! the run
+   pure logical function can_be_chosen(tol_run, kind)
+      type(tol_run_t), intent(in) :: tol_run  !! the run
       integer, intent(in) :: kind       !! of error
 
-      can_be_chosen = rung%state == rung_done
-      if (can_be_chosen) can_be_chosen = ieee_is_finite(rung%error(kind))
+      can_be_chosen = tol_run%state == tol_run_done
+      if (can_be_chosen) can_be_chosen = ieee_is_finite(tol_run%error(kind))
    end function can_be_chosen
 
    !> Error of a run that can be told from the reference's.
-   pure real(wp) function level(study, rung)
+   pure real(wp) function level(study, tol_run)
       type(precision_t), intent(in) :: study  !! the study
-      type(rung_t), intent(in) :: rung        !! the run
+      type(tol_run_t), intent(in) :: tol_run        !! the run
 
-      level = max(rung%error(study%wanted), bar_of(study))
+      level = max(tol_run%error(study%wanted), bar_of(study))
    end function level
 
    !> Whether another run is cheaper and no less exact, or more exact and no dearer.
-   pure logical function is_beaten(study, rung)
+   pure logical function is_beaten(study, tol_run)
       type(precision_t), intent(in) :: study  !! the study
-      type(rung_t), intent(in) :: rung        !! the run
+      type(tol_run_t), intent(in) :: tol_run        !! the run
 
       integer :: i, k
 
       is_beaten = .true.
-      do k = 1, size(study%ladders)
-         do i = 1, size(study%ladders(k)%rungs)
-            associate (other => study%ladders(k)%rungs(i))
+      do k = 1, size(study%tol_sweeps)
+         do i = 1, size(study%tol_sweeps(k)%tol_runs)
+            associate (other => study%tol_sweeps(k)%tol_runs(i))
                if (.not. can_be_chosen(other, study%wanted)) cycle
-               if (other%cpu < rung%cpu .and. level(study, other) <= level(study, rung)) return
-               if (other%cpu <= rung%cpu .and. level(study, other) < level(study, rung)) return
+               if (other%cpu < tol_run%cpu .and. level(study, other) <= level(study, tol_run)) return
+               if (other%cpu <= tol_run%cpu .and. level(study, other) < level(study, tol_run)) return
             end associate
          end do
       end do

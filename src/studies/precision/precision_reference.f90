@@ -10,22 +10,22 @@ module precision_reference
    use perturbation, only: arm_of
    use precision_info, only: setting_t
    use precision_results, only: error_motion, error_onsets, error_peaks, error_positions, error_reactions, error_restitution, &
-      error_velocities, precision_t, rung_done, rung_other, rung_t
+      error_velocities, precision_t, tol_run_done, tol_run_other, tol_run_t
    use run_difference, only: compare_contacts, compare_sorts, distances, ends_elsewhere, scales_of
    use scene_size, only: extent_of_scene, size_of_bodies
    use setting_run, only: job_t
    use text, only: real_text
    implicit none (type, external)
    private
-   public :: agreement, arms_of, described, last_within, kept_ladder_t, measure_all, measure_rung, motion_of, reference_t, &
+   public :: agreement, arms_of, described, last_within, kept_tol_sweep_t, measure_all, measure_tol_run, motion_of, reference_t, &
       set_bar, size_of
 
    real(wp), parameter :: part_wanted = 0.1_wp  !! of the error wanted that the reference may have [1]
 
    !> The runs of a ladder.
-   type :: kept_ladder_t
+   type :: kept_tol_sweep_t
       type(kept_run_t), allocatable :: runs(:)   !! (rungs) their motions
-   end type kept_ladder_t
+   end type kept_tol_sweep_t
 
    !> The reference.
    type :: reference_t
@@ -130,7 +130,7 @@ contains
       type(reference_t), intent(in) :: reference     !! the reference
       type(precision_t), intent(inout) :: study      !! window and bar are set
 
-      type(rung_t) :: own
+      type(tol_run_t) :: own
       real(wp), allocatable :: x(:)
       real(wp) :: far, last
       integer :: k
@@ -142,62 +142,62 @@ contains
       if (.not. study%reference%is_unsure) study%reference%window = last
       study%reference%is_cut = study%reference%window < study%end*(1.0_wp - 1.0e-9_wp)
       own%error = not_a_number()
-      call measure_rung(other, reference, study, own)
+      call measure_tol_run(other, reference, study, own)
       study%reference%bar = own%error(:size(study%reference%bar))
    end subroutine set_bar
 
    !> Errors of all runs against the reference.
    subroutine measure_all(study, kept, reference)
       type(precision_t), intent(inout) :: study           !! errors of its rungs are set
-      type(kept_ladder_t), intent(in) :: kept(:)          !! (ladders) the runs
+      type(kept_tol_sweep_t), intent(in) :: kept(:)          !! (ladders) the runs
       type(reference_t), intent(in) :: reference          !! what they are compared with
 
       integer :: i, k
 
       do k = 1, size(kept)
          do i = 1, size(kept(k)%runs)
-            if (study%ladders(k)%rungs(i)%state == rung_done) then
-               call measure_rung(kept(k)%runs(i), reference, study, study%ladders(k)%rungs(i))
+            if (study%tol_sweeps(k)%tol_runs(i)%state == tol_run_done) then
+               call measure_tol_run(kept(k)%runs(i), reference, study, study%tol_sweeps(k)%tol_runs(i))
             end if
          end do
       end do
    end subroutine measure_all
 
    !> Errors of a run; the time of an end by a condition is among its onsets, if the motion is compared up to there.
-   subroutine measure_rung(run, reference, study, rung)
+   subroutine measure_tol_run(run, reference, study, tol_run)
       type(kept_run_t), intent(in) :: run            !! the run
       type(reference_t), intent(in) :: reference     !! what it is compared with
       type(precision_t), intent(in) :: study         !! window and error wanted
-      type(rung_t), intent(inout) :: rung            !! errors are set
+      type(tol_run_t), intent(inout) :: tol_run            !! errors are set
 
       real(wp), allocatable :: d(:, :)
       real(wp) :: error(n_sort)
       logical :: is_other
 
       call distances(run, reference%run, reference%scale, d)
-      call compare_sorts(d, reference%run%t, study%reference%window, error, rung%error(error_motion))
-      rung%error(error_positions) = error(sort_positions)
-      rung%error(error_velocities) = error(sort_velocities)
-      rung%error(error_reactions) = error(sort_reactions)
-      if (all(reference%run%sort /= sort_reactions)) rung%error(error_reactions) = not_a_number()
-      call compare_contacts(run, reference%run, study%reference%window, rung%error(error_onsets), rung%error(error_peaks), &
-                            rung%error(error_restitution), is_other)
+      call compare_sorts(d, reference%run%t, study%reference%window, error, tol_run%error(error_motion))
+      tol_run%error(error_positions) = error(sort_positions)
+      tol_run%error(error_velocities) = error(sort_velocities)
+      tol_run%error(error_reactions) = error(sort_reactions)
+      if (all(reference%run%sort /= sort_reactions)) tol_run%error(error_reactions) = not_a_number()
+      call compare_contacts(run, reference%run, study%reference%window, tol_run%error(error_onsets), tol_run%error(error_peaks), &
+                            tol_run%error(error_restitution), is_other)
       if (ends_elsewhere(run, reference%run, study%reference%window)) then
          is_other = .true.
-         rung%reason = "its end time differs from that of the reference"
+         tol_run%reason = "its end time differs from that of the reference"
       end if
-      if (is_other) rung%state = rung_other
+      if (is_other) tol_run%state = tol_run_other
       if (study%is_stopped .and. .not. (study%reference%is_cut .or. is_other)) then
-         associate (onsets => rung%error(error_onsets))
+         associate (onsets => tol_run%error(error_onsets))
             if (.not. ieee_is_finite(onsets)) onsets = 0.0_wp
             onsets = max(onsets, abs(run%end - reference%run%end))
          end associate
       end if
-      rung%is_below = .false.
-      if (ieee_is_finite(rung%error(study%wanted)) .and. ieee_is_finite(study%reference%bar(study%wanted))) then
-         rung%is_below = rung%error(study%wanted) <= study%reference%bar(study%wanted)
+      tol_run%is_below = .false.
+      if (ieee_is_finite(tol_run%error(study%wanted)) .and. ieee_is_finite(study%reference%bar(study%wanted))) then
+         tol_run%is_below = tol_run%error(study%wanted) <= study%reference%bar(study%wanted)
       end if
-      rung%holds_until = last_within(wanted_of(d, study%wanted), reference%run%t, study%accuracy)
-   end subroutine measure_rung
+      tol_run%holds_until = last_within(wanted_of(d, study%wanted), reference%run%t, study%accuracy)
+   end subroutine measure_tol_run
 
 end module precision_reference

@@ -7,11 +7,11 @@ module precision_results
    use precision_info, only: setting_t
    implicit none (type, external)
    private
-   public :: bend_t, ladder_t, precision_t, rung_t, statistics_t
+   public :: bend_t, tol_sweep_t, precision_t, tol_run_t, statistics_t
    public :: bend_lost, bend_luck, bend_scatter, bend_short, bend_steps, bend_violation
    public :: error_ledger, error_motion, error_names, error_onsets, error_peaks, error_positions, error_reactions, &
       error_restitution, error_units, error_velocities, error_violation, error_words, n_compared, n_error
-   public :: rung_done, rung_failed, rung_other, rung_states, rung_unrun
+   public :: tol_run_done, tol_run_failed, tol_run_other, tol_run_states, tol_run_unrun
    public :: median
    public :: n_statistic, statistic_names, statistic_peaks, statistic_rate, statistic_reactions, statistic_speeds, &
       statistic_units, statistic_velocities, statistic_words
@@ -39,11 +39,11 @@ module precision_results
       "maximum error of separation over impact speed", &
       "maximum energy error, relative to the maximum energy", "maximum constraint violation"]  !! what they are
 
-   integer, parameter :: rung_unrun = 0    !! no time was left for it
-   integer, parameter :: rung_done = 1     !! ran to the end
-   integer, parameter :: rung_failed = 2   !! failed
-   integer, parameter :: rung_other = 3    !! ran to its end, with other contacts than the reference, or another end
-   character(*), parameter :: rung_states(0:3) = [character(26) :: "not run", "done", "failed", &
+   integer, parameter :: tol_run_unrun = 0    !! no time was left for it
+   integer, parameter :: tol_run_done = 1     !! ran to the end
+   integer, parameter :: tol_run_failed = 2   !! failed
+   integer, parameter :: tol_run_other = 3    !! ran to its end, with other contacts than the reference, or another end
+   character(*), parameter :: tol_run_states(0:3) = [character(26) :: "not run", "done", "failed", &
       "different contact sequence"]  !! in words
 
    ! statistics of the time that is not compared
@@ -72,16 +72,16 @@ module precision_results
    end type statistics_t
 
    !> What a run did.
-   type :: rung_counts_t
+   type :: tol_run_counts_t
       integer(i8) :: steps = 0         !! accepted steps
       integer(i8) :: rejected = 0      !! rejected steps
       integer(i8) :: evaluations = 0   !! of right-hand sides, without those for output
-   end type rung_counts_t
+   end type tol_run_counts_t
 
    !> A run of a ladder.
-   type :: rung_t
+   type :: tol_run_t
       real(wp) :: asked = 0.0_wp                     !! tolerance, or length of fixed steps [1 or s]
-      integer :: state = rung_unrun                  !! one of the above
+      integer :: state = tol_run_unrun                  !! one of the above
       character(:), allocatable :: reason            !! why it failed or was not run; blank: neither
       real(wp) :: error(n_error) = 0.0_wp            !! (n_error) errors by kind; NaN: not defined [1, s or m]
       logical :: is_below = .false.                  !! the error is within the reference's own
@@ -89,13 +89,13 @@ module precision_results
       integer :: n_round = 0                         !! times that it was timed
       real(wp), allocatable :: rounds(:)             !! (n_round or more) processor times of the solution [s]
       real(wp) :: cpu = 0.0_wp                       !! their median; of the run that was compared if there are none [s]
-      real(wp) :: cpu_least = 0.0_wp                 !! the least of them [s]
+      real(wp) :: cpu_min = 0.0_wp                 !! the least of them [s]
       real(wp) :: setup = 0.0_wp                     !! processor time of the system and its start [s]
       real(wp) :: wall = 0.0_wp                      !! that the compared run took, all in all [s]
-      type(rung_counts_t) :: count                   !! steps and evaluations
+      type(tol_run_counts_t) :: count                   !! steps and evaluations
       logical :: is_front = .false.                  !! no other one is both cheaper and more exact
       type(statistics_t) :: statistics               !! of the time that is not compared
-   end type rung_t
+   end type tol_run_t
 
    integer, parameter :: bend_scatter = 0     !! no cause is known
    integer, parameter :: bend_steps = 1       !! the steps do not change either
@@ -112,17 +112,17 @@ module precision_results
    end type bend_t
 
    !> The runs of a setting, from the coarsest on.
-   type :: ladder_t
+   type :: tol_sweep_t
       type(setting_t) :: setting                 !! the setting
       character(:), allocatable :: name          !! its word
       logical :: is_fixed = .false.              !! a ladder of steps, not of tolerances
-      type(rung_t), allocatable :: rungs(:)      !! (n) runs
+      type(tol_run_t), allocatable :: tol_runs(:)      !! (n) runs
       real(wp) :: order = 0.0_wp                 !! observed: -d ln error/d ln steps; NaN: not known [1]
       real(wp) :: exponent = 0.0_wp              !! of proportionality: d ln error/d ln tolerance; NaN: not known [1]
       real(wp) :: ratio = 0.0_wp                 !! median of error over tolerance; NaN: not known [1]
       type(bend_t), allocatable :: bends(:)      !! (n) where errors do not fall
       type(statistics_t) :: statistics           !! of its runs in the time that is not compared
-   end type ladder_t
+   end type tol_sweep_t
 
    !> What the runs are compared with.
    type :: reference_t
@@ -139,8 +139,8 @@ module precision_results
 
    !> The cheapest setting that reaches the error wanted, run once more.
    type :: choice_t
-      integer :: ladder = 0            !! its ladder, 0: none does
-      integer :: rung = 0              !! its rung
+      integer :: tol_sweep = 0            !! its ladder, 0: none does
+      integer :: tol_run = 0              !! its rung
       real(wp) :: error = 0.0_wp       !! when it was run once more; NaN: it was not [1]
       real(wp) :: cpu = 0.0_wp         !! its processor time then [s]
    end type choice_t
@@ -154,12 +154,12 @@ module precision_results
 
    !> All of it.
    type :: precision_t
-      type(ladder_t), allocatable :: ladders(:)       !! (n) the ladders
+      type(tol_sweep_t), allocatable :: tol_sweeps(:)       !! (n) the ladders
       integer :: wanted = error_motion                !! kind of error that is wanted and drawn
       real(wp) :: accuracy = 0.0_wp                   !! error wanted [1]
       real(wp) :: end = 0.0_wp                        !! of the motion [s]
       logical :: is_stopped = .false.                 !! a condition of the deck ends it
-      integer :: instants = 0                         !! compared, with the start
+      integer :: output_times = 0                         !! compared, with the start
       type(reference_t) :: reference                  !! what all are compared with
       type(growth_t) :: growth                        !! of the distance of neighbouring starts
       type(horizon_t) :: horizon                      !! largest Lyapunov exponent, and digits by it

@@ -14,8 +14,9 @@ module precision_statistics
    use, intrinsic :: ieee_arithmetic, only: ieee_is_finite
    use kept_run, only: contact_t, kept_run_t, sort_reactions, sort_velocities
    use kinds, only: not_a_number, wp
-   use precision_reference, only: kept_ladder_t, motion_of, reference_t
-   use precision_results, only: ladder_t, n_statistic, precision_t, rung_done, rung_other, statistic_peaks, statistic_rate, &
+   use precision_reference, only: kept_tol_sweep_t, motion_of, reference_t
+   use precision_results, only: tol_sweep_t, n_statistic, precision_t, tol_run_done, tol_run_other, statistic_peaks, &
+        statistic_rate, &
       statistic_reactions, statistic_speeds, statistic_velocities, statistics_t
    use run_difference, only: by_onset
    implicit none (type, external)
@@ -29,7 +30,7 @@ contains
 
    !> Statistics of all runs that ended, and of the reference, if there is a time that is not compared.
    subroutine take_statistics(kept, reference, study)
-      type(kept_ladder_t), intent(in) :: kept(:)        !! (ladders) the runs
+      type(kept_tol_sweep_t), intent(in) :: kept(:)        !! (ladders) the runs
       type(reference_t), intent(in) :: reference        !! what they are compared with
       type(precision_t), intent(inout) :: study         !! statistics are set
 
@@ -41,18 +42,18 @@ contains
          if (.not. study%reference%is_unsure) of_reference%from = study%reference%window
          call statistics_of_run(reference%run, of_reference%from, study%end, of_reference%list)
          do k = 1, size(kept)
-            study%ladders(k)%statistics%from = of_reference%from
+            study%tol_sweeps(k)%statistics%from = of_reference%from
             do i = 1, size(kept(k)%runs)
-               associate (rung => study%ladders(k)%rungs(i))
-                  rung%statistics%from = of_reference%from
-                  rung%statistics%list%value = not_a_number()
-                  rung%statistics%list%half = not_a_number()
-                  if (rung%state /= rung_done .and. rung%state /= rung_other) cycle
-                  rung%statistics%is_own = maxval(motion_of(kept(k)%runs(i), reference)) > own_way
-                  call statistics_of_run(kept(k)%runs(i), of_reference%from, study%end, rung%statistics%list)
+               associate (tol_run => study%tol_sweeps(k)%tol_runs(i))
+                  tol_run%statistics%from = of_reference%from
+                  tol_run%statistics%list%value = not_a_number()
+                  tol_run%statistics%list%half = not_a_number()
+                  if (tol_run%state /= tol_run_done .and. tol_run%state /= tol_run_other) cycle
+                  tol_run%statistics%is_own = maxval(motion_of(kept(k)%runs(i), reference)) > own_way
+                  call statistics_of_run(kept(k)%runs(i), of_reference%from, study%end, tol_run%statistics%list)
                end associate
             end do
-            call gather_runs(of_reference, study%ladders(k))
+            call gather_runs(of_reference, study%tol_sweeps(k))
          end do
       end associate
    end subroutine take_statistics
@@ -129,27 +130,28 @@ contains
    end function root_mean_square
 
    !> What the runs of a ladder tell together, and how many of them are apart from the reference.
-   pure subroutine gather_runs(reference, ladder)
+   pure subroutine gather_runs(reference, tol_sweep)
       type(statistics_t), intent(in) :: reference   !! statistics of the reference
-      type(ladder_t), intent(inout) :: ladder       !! its statistics are set
+      type(tol_sweep_t), intent(inout) :: tol_sweep       !! its statistics are set
 
       real(wp), allocatable :: values(:)
       logical, allocatable :: is_counted(:)
       integer :: k, s
 
-      allocate (is_counted(size(ladder%rungs)))
+      allocate (is_counted(size(tol_sweep%tol_runs)))
       do s = 1, n_statistic
-         do k = 1, size(ladder%rungs)
-            is_counted(k) = ladder%rungs(k)%statistics%is_own .and. ieee_is_finite(ladder%rungs(k)%statistics%list(s)%value)
+         do k = 1, size(tol_sweep%tol_runs)
+            is_counted(k) = tol_sweep%tol_runs(k)%statistics%is_own &
+                 .and. ieee_is_finite(tol_sweep%tol_runs(k)%statistics%list(s)%value)
          end do
-         values = pack([(ladder%rungs(k)%statistics%list(s)%value, k=1, size(ladder%rungs))], is_counted)
-         ladder%statistics%list(s) = mean_of_batches(values)
-         ladder%statistics%n_run(s) = size(values)
-         ladder%statistics%n_apart(s) = 0
-         do k = 1, size(ladder%rungs)
+         values = pack([(tol_sweep%tol_runs(k)%statistics%list(s)%value, k=1, size(tol_sweep%tol_runs))], is_counted)
+         tol_sweep%statistics%list(s) = mean_of_batches(values)
+         tol_sweep%statistics%n_run(s) = size(values)
+         tol_sweep%statistics%n_apart(s) = 0
+         do k = 1, size(tol_sweep%tol_runs)
             if (.not. is_counted(k)) cycle
-            if (is_apart(ladder%rungs(k)%statistics%list(s), reference%list(s))) then
-               ladder%statistics%n_apart(s) = ladder%statistics%n_apart(s) + 1
+            if (is_apart(tol_sweep%tol_runs(k)%statistics%list(s), reference%list(s))) then
+               tol_sweep%statistics%n_apart(s) = tol_sweep%statistics%n_apart(s) + 1
             end if
          end do
       end do

@@ -12,9 +12,9 @@ module precision_study
    use precision_bends, only: find_bends
    use precision_choice, only: choose_best, find_orders
    use precision_info, only: setting_t, settings_of
-   use precision_ladders, only: least_rise, new_ladders, run_ladders, run_rung
-   use precision_reference, only: kept_ladder_t, measure_all, measure_rung, reference_t
-   use precision_results, only: median, precision_t, rung_done, rung_other, rung_t
+   use precision_tol_sweeps, only: min_rise, new_tol_sweeps, run_tol_sweeps, run_tol_run
+   use precision_reference, only: kept_tol_sweep_t, measure_all, measure_tol_run, reference_t
+   use precision_results, only: median, precision_t, tol_run_done, tol_run_other, tol_run_t
    use precision_statistics, only: take_statistics
    use precision_twins, only: run_twins
    use progress, only: progress_t
@@ -51,7 +51,7 @@ contains
       type(error_t), allocatable, intent(out) :: error   !! a condition ends the motion as it begins
 
       type(job_t) :: job
-      type(kept_ladder_t), allocatable :: kept(:)
+      type(kept_tol_sweep_t), allocatable :: kept(:)
       type(reference_t) :: reference
       type(setting_t), allocatable :: settings(:)
       type(time_budget_t) :: budget
@@ -59,13 +59,13 @@ contains
       call budget%begin(study%budget)
       call new_job(scene, plan, stop, job)
       study%end = plan%end
-      study%instants = nint(scene%settings%precision%number("instants")) + 1
+      study%output_times = nint(scene%settings%precision%number("instants")) + 1
       study%longest_step = scene%settings%dynamic%number("maximum_step")
-      call space_instants(scene%settings%precision%number("finest"), budget, job, error)
+      call space_output_times(scene%settings%precision%number("finest"), budget, job, error)
       if (allocated(error)) return
       call settings_of(words, settings)
-      call new_ladders(scene, settings, study)
-      call run_ladders(job, budget, display, study, kept)
+      call new_tol_sweeps(scene, settings, study)
+      call run_tol_sweeps(job, budget, display, study, kept)
       call find_reference(job, budget, until_reference, scene%settings%precision%number("finest"), study, kept, reference)
       call display%update(0.4_wp)
       if (reference%is_there) call measure_all(study, kept, reference)
@@ -124,13 +124,13 @@ contains
       job%plan = plan
       job%plan%first_output = 0.0_wp
       job%plan%every = plan%end/scene%settings%precision%number("instants")
-      job%plan%strobes = [real(wp) ::]
+      job%plan%poincare_samples = [real(wp) ::]
       job%stop = stop
    end subroutine new_job
 
    !> Where a condition ends the motion, the instants compared are equal parts of what there is of it; the last one comes before the
    !> end, which is another by a little in every run.
-   subroutine space_instants(finest, budget, job, error)
+   subroutine space_output_times(finest, budget, job, error)
       real(wp), intent(in) :: finest                !! tolerance of the run that tells [1]
       type(time_budget_t), intent(in) :: budget     !! the time
       type(job_t), intent(inout) :: job             !! its plan may change
@@ -151,7 +151,7 @@ contains
          return
       end if
       job%plan%every = job%plan%every*(1.0_wp - before)*outcome%summary%time_end/job%plan%end
-   end subroutine space_instants
+   end subroutine space_output_times
 
    !> Time all runs that ended, round by round.
    subroutine time_rounds(job, budget, rounds, display, study)
@@ -167,33 +167,34 @@ contains
       integer :: i, k, round
 
       all_walls = 0.0_wp
-      do k = 1, size(study%ladders)
-         all_walls = all_walls + sum(study%ladders(k)%rungs%wall, mask=is_timed(study%ladders(k)%rungs%state))
+      do k = 1, size(study%tol_sweeps)
+         all_walls = all_walls + sum(study%tol_sweeps(k)%tol_runs%wall, mask=is_timed(study%tol_sweeps(k)%tol_runs%state))
       end do
       timed = 0.0_wp
       job%clock = 0.0_wp
       nothing%is_kept = .false.
       do round = 1, rounds
-         do k = 1, size(study%ladders)
-            do i = 1, size(study%ladders(k)%rungs)
-               associate (ladder => study%ladders(k), rung => study%ladders(k)%rungs(i))
-                  if (.not. is_timed(rung%state) .or. rung%wall*least_rise > budget%left(until_times)) cycle
+         do k = 1, size(study%tol_sweeps)
+            do i = 1, size(study%tol_sweeps(k)%tol_runs)
+               associate (tol_sweep => study%tol_sweeps(k), tol_run => study%tol_sweeps(k)%tol_runs(i))
+                  if (.not. is_timed(tol_run%state) .or. tol_run%wall*min_rise > budget%left(until_times)) cycle
                   if (allocated(nothing%contacts)) deallocate (nothing%contacts)
-                  call run_setting(job, ladder%setting, rung%asked, nothing, outcome)
-                  rung%rounds = [rung%rounds, outcome%summary%cpu_seconds]
-                  rung%n_round = round
-                  rung%cpu = median(rung%rounds)
-                  rung%cpu_least = minval(rung%rounds)
-                  timed = timed + rung%wall
+                  call run_setting(job, tol_sweep%setting, tol_run%asked, nothing, outcome)
+                  tol_run%rounds = [tol_run%rounds, outcome%summary%cpu_seconds]
+                  tol_run%n_round = round
+                  tol_run%cpu = median(tol_run%rounds)
+                  tol_run%cpu_min = minval(tol_run%rounds)
+                  timed = timed + tol_run%wall
                end associate
             end do
             call display%update(0.5_wp + 0.5_wp*min(1.0_wp, timed/(rounds*max(all_walls, tiny(1.0_wp)))))
          end do
       end do
       study%rounds = rounds
-      do k = 1, size(study%ladders)
-         do i = 1, size(study%ladders(k)%rungs)
-            if (is_timed(study%ladders(k)%rungs(i)%state)) study%rounds = min(study%rounds, study%ladders(k)%rungs(i)%n_round)
+      do k = 1, size(study%tol_sweeps)
+         do i = 1, size(study%tol_sweeps(k)%tol_runs)
+            if (is_timed(study%tol_sweeps(k)%tol_runs(i)%state)) study%rounds = min(study%rounds, &
+                                                                                    study%tol_sweeps(k)%tol_runs(i)%n_round)
          end do
       end do
    end subroutine time_rounds
@@ -202,7 +203,7 @@ contains
    elemental logical function is_timed(state)
       integer, intent(in) :: state  !! of a rung
 
-      is_timed = state == rung_done .or. state == rung_other
+      is_timed = state == tol_run_done .or. state == tol_run_other
    end function is_timed
 
    !> Run the choice once more: it must give the same again.
@@ -213,21 +214,21 @@ contains
       type(precision_t), intent(inout) :: study          !! with its choice
 
       type(kept_run_t) :: run
-      type(rung_t) :: again
+      type(tol_run_t) :: again
       logical :: is_late
 
       study%choice%error = not_a_number()
       study%choice%cpu = not_a_number()
-      if (study%choice%ladder == 0) return
-      associate (ladder => study%ladders(study%choice%ladder))
-         again%asked = ladder%rungs(study%choice%rung)%asked
+      if (study%choice%tol_sweep == 0) return
+      associate (tol_sweep => study%tol_sweeps(study%choice%tol_sweep))
+         again%asked = tol_sweep%tol_runs(study%choice%tol_run)%asked
          again%error = not_a_number()
-         if (ladder%rungs(study%choice%rung)%wall*least_rise > budget%left(until_choice)) return
+         if (tol_sweep%tol_runs(study%choice%tol_run)%wall*min_rise > budget%left(until_choice)) return
          job%clock = 0.0_wp
-         call run_rung(job, budget, ladder%setting, again, run, is_late)
-         if (again%state /= rung_done) return
-         call measure_rung(run, reference, study, again)
-         if (again%state == rung_done) study%choice%error = again%error(study%wanted)
+         call run_tol_run(job, budget, tol_sweep%setting, again, run, is_late)
+         if (again%state /= tol_run_done) return
+         call measure_tol_run(run, reference, study, again)
+         if (again%state == tol_run_done) study%choice%error = again%error(study%wanted)
          study%choice%cpu = again%cpu
       end associate
    end subroutine confirm_choice

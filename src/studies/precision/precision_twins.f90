@@ -5,9 +5,9 @@ module precision_twins
    use growth, only: find_growth
    use kept_run, only: kept_run_t, sort_velocities
    use kinds, only: not_a_number, wp
-   use precision_ladders, only: not_ready
-   use precision_reference, only: kept_ladder_t, motion_of, reference_t, size_of
-   use precision_results, only: precision_t, rung_done, rung_unrun
+   use precision_tol_sweeps, only: not_ready
+   use precision_reference, only: kept_tol_sweep_t, motion_of, reference_t, size_of
+   use precision_results, only: precision_t, tol_run_done, tol_run_unrun
    use text, only: real_text, to_text
    use setting_run, only: has_fixed_steps, job_t, outcome_t, run_setting
    use time_budget, only: time_budget_t
@@ -32,7 +32,7 @@ contains
       type(time_budget_t), intent(in) :: budget          !! the time
       real(wp), intent(in) :: until                      !! part of the budget that may be spent [1]
       real(wp), intent(in) :: perturbation               !! of the size of the mechanism, 0: no twins [1]
-      type(kept_ladder_t), intent(in) :: kept(:)         !! (ladders) the runs
+      type(kept_tol_sweep_t), intent(in) :: kept(:)         !! (ladders) the runs
       type(reference_t), intent(in) :: reference         !! the reference
       type(precision_t), intent(inout) :: study          !! growth is set
 
@@ -40,7 +40,7 @@ contains
       type(reference_t) :: base
       type(kept_run_t) :: fresh, twin
       real(wp), allocatable :: distance(:), ratio(:, :)
-      real(wp) :: greatest
+      real(wp) :: maximum
       integer :: common, k, n
 
       study%growth%horizon = not_a_number()
@@ -55,7 +55,7 @@ contains
       job%length = perturbation*size_of(job)
       job%speed = perturbation*base%scale(sort_velocities)
       allocate (ratio(base%run%n, wanted), source=0.0_wp)
-      greatest = 0.0_wp
+      maximum = 0.0_wp
       n = 0
       common = base%run%n
       study%growth%reason = no_time
@@ -77,7 +77,7 @@ contains
          n = n + 1
          common = min(common, size(distance))
          ratio(:size(distance), n) = distance/distance(1)
-         greatest = max(greatest, distance(1))
+         maximum = max(maximum, distance(1))
       end do
       job%member = 0
       study%growth%n_twin = n
@@ -85,7 +85,7 @@ contains
       study%growth%reason = ""
       study%growth%t = base%run%t(:common)
       study%growth%ratio = ratio(:common, :n)
-      call find_growth(study%growth, greatest)
+      call find_growth(study%growth, maximum)
    end subroutine run_twins
 
    !> The reference, or the tightest run of its integrator that does not take longer than there is time for. Its tolerance must be
@@ -94,7 +94,7 @@ contains
       real(wp), intent(in) :: time                              !! for one run [s]
       real(wp), intent(in) :: loosest                           !! greatest tolerance [1]
       type(precision_t), intent(in) :: study                    !! with its ladders
-      type(kept_ladder_t), intent(in) :: kept(:)                !! (ladders) the runs
+      type(kept_tol_sweep_t), intent(in) :: kept(:)                !! (ladders) the runs
       type(reference_t), intent(in) :: reference                !! the reference
       type(reference_t), intent(out) :: base                    !! the run, if there is one
       character(:), allocatable, intent(inout) :: reason        !! why there is none
@@ -108,16 +108,16 @@ contains
       if (has_fixed_steps(reference%setting) .or. reference%asked <= loosest) call consider(reference%wall)
       if (base%is_there) return
       do k = 1, size(kept)
-         if (study%ladders(k)%setting%method /= reference%setting%method) cycle
+         if (study%tol_sweeps(k)%setting%method /= reference%setting%method) cycle
          do i = size(kept(k)%runs), 1, -1
-            associate (rung => study%ladders(k)%rungs(i))
-               if (rung%state /= rung_done) cycle
-               if (.not. study%ladders(k)%is_fixed .and. rung%asked > loosest) cycle
-               call consider(rung%wall)
+            associate (tol_run => study%tol_sweeps(k)%tol_runs(i))
+               if (tol_run%state /= tol_run_done) cycle
+               if (.not. study%tol_sweeps(k)%is_fixed .and. tol_run%asked > loosest) cycle
+               call consider(tol_run%wall)
                if (.not. base%is_there) cycle
-               base%setting = study%ladders(k)%setting
-               base%asked = rung%asked
-               base%wall = rung%wall
+               base%setting = study%tol_sweeps(k)%setting
+               base%asked = tol_run%asked
+               base%wall = tol_run%wall
                base%run = kept(k)%runs(i)
                return
             end associate
@@ -150,14 +150,14 @@ contains
 
       is_asked = .false.
       is_late = .false.
-      do k = 1, size(study%ladders)
-         associate (ladder => study%ladders(k))
-            if (ladder%is_fixed) cycle
-            is_asked = is_asked .or. any(ladder%rungs%asked <= loosest)
-            if (ladder%setting%method /= reference%setting%method) cycle
-            do i = 1, size(ladder%rungs)
-               if (ladder%rungs(i)%asked > loosest) cycle
-               is_late = is_late .or. ladder%rungs(i)%state == rung_unrun .or. ladder%rungs(i)%reason == not_ready
+      do k = 1, size(study%tol_sweeps)
+         associate (tol_sweep => study%tol_sweeps(k))
+            if (tol_sweep%is_fixed) cycle
+            is_asked = is_asked .or. any(tol_sweep%tol_runs%asked <= loosest)
+            if (tol_sweep%setting%method /= reference%setting%method) cycle
+            do i = 1, size(tol_sweep%tol_runs)
+               if (tol_sweep%tol_runs(i)%asked > loosest) cycle
+               is_late = is_late .or. tol_sweep%tol_runs(i)%state == tol_run_unrun .or. tol_sweep%tol_runs(i)%reason == not_ready
             end do
          end associate
       end do

@@ -8,11 +8,11 @@
 !> tighter one if both can be.
 module reference_search
    use kept_run, only: kept_run_t
-   use kinds, only: least_tolerance, not_a_number, wp
+   use kinds, only: min_tolerance, not_a_number, wp
    use precision_info, only: setting_t
-   use precision_ladders, only: not_ready
-   use precision_reference, only: agreement, arms_of, described, kept_ladder_t, reference_t, set_bar, size_of
-   use precision_results, only: precision_t, rung_done, rung_t, rung_unrun
+   use precision_tol_sweeps, only: not_ready
+   use precision_reference, only: agreement, arms_of, described, kept_tol_sweep_t, reference_t, set_bar, size_of
+   use precision_results, only: precision_t, tol_run_done, tol_run_t, tol_run_unrun
    use run_difference, only: scales_of
    use setting_run, only: job_t, outcome_t, run_setting
    use text, only: append_text, text_t
@@ -39,7 +39,7 @@ contains
       real(wp), intent(in) :: until                      !! part of the budget that may be spent [1]
       real(wp), intent(in) :: finest                     !! tolerance of the ladders [1]
       type(precision_t), intent(inout) :: study          !! with its ladders; the reference's errors are set
-      type(kept_ladder_t), intent(in) :: kept(:)         !! (ladders) their runs
+      type(kept_tol_sweep_t), intent(in) :: kept(:)         !! (ladders) their runs
       type(reference_t), intent(out) :: reference        !! the reference
 
       type(reference_t), allocatable :: runs(:)
@@ -51,7 +51,7 @@ contains
       study%reference%bar = not_a_number()
       study%reference%window = study%end
       study%reference%is_unsure = .true.
-      wanted = max(least_tolerance, tighter*finest)
+      wanted = max(min_tolerance, tighter*finest)
       call run_tight(job, budget, until, wanted, study, runs)
       do k = 1, size(kept)
          call append_tightest(study, kept, k, runs)
@@ -66,7 +66,7 @@ contains
       associate (last => reference%run%t(reference%run%n))
          study%is_stopped = last < study%end*(1.0_wp - 1.0e-9_wp)
          if (study%is_stopped) study%end = last
-         if (study%is_stopped) study%instants = reference%run%n
+         if (study%is_stopped) study%output_times = reference%run%n
          study%reference%window = study%end
       end associate
       study%reference%is_poor = is_fixed(study, reference) .or. reference%asked > rounding*wanted
@@ -91,13 +91,13 @@ contains
       integer :: i, k
 
       allocate (runs(0))
-      has_ended = any([(any(study%ladders(k)%rungs%state == rung_done), k=1, size(study%ladders))])
+      has_ended = any([(any(study%tol_sweeps(k)%tol_runs%state == tol_run_done), k=1, size(study%tol_sweeps))])
       untried = [text_t("verner"), text_t("adams")]
-      do k = 1, size(study%ladders)
-         associate (ladder => study%ladders(k))
-            if (ladder%is_fixed .or. ladder%setting%method == "auto") cycle
-            if (any([(untried(i)%s == ladder%setting%method, i=1, size(untried))])) cycle
-            call append_text(untried, ladder%setting%method)
+      do k = 1, size(study%tol_sweeps)
+         associate (tol_sweep => study%tol_sweeps(k))
+            if (tol_sweep%is_fixed .or. tol_sweep%setting%method == "auto") cycle
+            if (any([(untried(i)%s == tol_sweep%setting%method, i=1, size(untried))])) cycle
+            call append_text(untried, tol_sweep%setting%method)
          end associate
       end do
       part = until - for_other
@@ -121,16 +121,16 @@ contains
       real(wp), intent(in) :: time                 !! that is left [s]
 
       type(reference_t) :: none(0)
-      real(wp) :: least, tolerance
+      real(wp) :: minimum, tolerance
       integer :: k
 
       next = 0
-      least = huge(1.0_wp)
+      minimum = huge(1.0_wp)
       do k = 1, size(names)
          if (names(k)%s == "") cycle
-         tolerance = least_in_time(study, none, names(k)%s, wanted, time)
-         if (tolerance <= 0.0_wp .or. tolerance*rounding >= least) cycle
-         least = tolerance
+         tolerance = min_in_time(study, none, names(k)%s, wanted, time)
+         if (tolerance <= 0.0_wp .or. tolerance*rounding >= minimum) cycle
+         minimum = tolerance
          next = k
       end do
    end function next_of
@@ -147,15 +147,15 @@ contains
 
       type(outcome_t) :: outcome
       type(reference_t) :: best(0:1), fresh, next
-      real(wp) :: begun, least
+      real(wp) :: begun, minimum
       integer :: k, n
 
       n = 0
-      least = wanted
+      minimum = wanted
       do k = 1, attempts
          next = fresh
          next%setting = setting_t(name, "", "")
-         next%asked = least_in_time(study, best(1:n), name, least, for_one*budget%left(part))
+         next%asked = min_in_time(study, best(1:n), name, minimum, for_one*budget%left(part))
          if (next%asked <= 0.0_wp) exit
          next%run%arm = arms_of(job)
          begun = budget%elapsed()
@@ -167,9 +167,9 @@ contains
          if (next%is_there) then
             n = 1
             best(n) = next
-            if (next%asked <= rounding*least) exit
+            if (next%asked <= rounding*minimum) exit
          else
-            least = 10.0_wp*next%asked
+            minimum = 10.0_wp*next%asked
          end if
       end do
       if (n == 1) call append(runs, best(n))
@@ -190,7 +190,7 @@ contains
 
    !> The least tolerance, decades above the one wanted, for which there is time, from what the tightest run of the integrator took
    !> and one a decade or more before it; the one wanted where no run of it was tried, 0 where there is no time for a tighter one.
-   pure real(wp) function least_in_time(study, runs, name, wanted, time) result(tolerance)
+   pure real(wp) function min_in_time(study, runs, name, wanted, time) result(tolerance)
       type(precision_t), intent(in) :: study    !! with its ladders
       type(reference_t), intent(in) :: runs(:)  !! (n) further runs of the integrator
       character(*), intent(in) :: name          !! of the integrator
@@ -198,7 +198,7 @@ contains
       real(wp), intent(in) :: time              !! that is left [s]
 
       real(wp), parameter :: usual = 1.6_wp     ! time of a run over that of one with ten times the tolerance [1]
-      real(wp), parameter :: least = 1.4_wp     ! the same, at least [1]
+      real(wp), parameter :: minimum = 1.4_wp     ! the same, at least [1]
       real(wp), allocatable :: asked(:), wall(:)
       logical, allocatable :: is_known(:)
       logical :: is_tried
@@ -210,14 +210,14 @@ contains
       asked = runs%asked
       wall = runs%wall
       is_tried = size(asked) > 0
-      do i = 1, size(study%ladders)
-         if (study%ladders(i)%setting%method /= name .or. study%ladders(i)%is_fixed) cycle
-         associate (rungs => study%ladders(i)%rungs)
-            is_known = [(tells_time(rungs(k)), k=1, size(rungs))]
+      do i = 1, size(study%tol_sweeps)
+         if (study%tol_sweeps(i)%setting%method /= name .or. study%tol_sweeps(i)%is_fixed) cycle
+         associate (tol_runs => study%tol_sweeps(i)%tol_runs)
+            is_known = [(tells_time(tol_runs(k)), k=1, size(tol_runs))]
             is_tried = .true.
             if (.not. any(is_known)) cycle
-            asked = [pack(rungs%asked, is_known), asked]
-            wall = [pack(rungs%wall, is_known), wall]
+            asked = [pack(tol_runs%asked, is_known), asked]
+            wall = [pack(tol_runs%wall, is_known), wall]
             exit
          end associate
       end do
@@ -226,38 +226,38 @@ contains
       i = minloc(asked, dim=1)
       before = findloc(asked > 9.0_wp*asked(i), .true., dim=1, back=.true.)
       rise = usual
-      if (before > 0) rise = max(least, (wall(i)/wall(before))**(1.0_wp/log10(asked(before)/asked(i))))
+      if (before > 0) rise = max(minimum, (wall(i)/wall(before))**(1.0_wp/log10(asked(before)/asked(i))))
       tolerance = wanted
       do while (wall(i)*rise**log10(asked(i)/tolerance) > time .and. tolerance < asked(i))
          tolerance = 10.0_wp*tolerance
       end do
       if (rounding*tolerance >= asked(i)) tolerance = 0.0_wp
-   end function least_in_time
+   end function min_in_time
 
    !> Whether a run tells how long its integrator takes: it was not ended by the clock.
-   pure logical function tells_time(rung)
-      type(rung_t), intent(in) :: rung   !! the run
+   pure logical function tells_time(tol_run)
+      type(tol_run_t), intent(in) :: tol_run   !! the run
 
-      tells_time = rung%state /= rung_unrun .and. rung%reason /= not_ready .and. rung%wall > 0.0_wp
+      tells_time = tol_run%state /= tol_run_unrun .and. tol_run%reason /= not_ready .and. tol_run%wall > 0.0_wp
    end function tells_time
 
    !> Append the tightest run of a ladder that came to its end. `auto` makes the steps of others, and confirms none of them.
    subroutine append_tightest(study, kept, k, runs)
       type(precision_t), intent(in) :: study                     !! with its ladders
-      type(kept_ladder_t), intent(in) :: kept(:)                 !! (ladders) their runs
+      type(kept_tol_sweep_t), intent(in) :: kept(:)                 !! (ladders) their runs
       integer, intent(in) :: k                                   !! the ladder
       type(reference_t), allocatable, intent(inout) :: runs(:)   !! (n) grown, if there is such a run
 
       type(reference_t) :: found
       integer :: i
 
-      associate (ladder => study%ladders(k))
-         i = findloc(ladder%rungs%state == rung_done, .true., dim=1, back=.true.)
-         if (i == 0 .or. ladder%setting%method == "auto") return
+      associate (tol_sweep => study%tol_sweeps(k))
+         i = findloc(tol_sweep%tol_runs%state == tol_run_done, .true., dim=1, back=.true.)
+         if (i == 0 .or. tol_sweep%setting%method == "auto") return
          found%is_there = .true.
-         found%setting = ladder%setting
-         found%asked = ladder%rungs(i)%asked
-         found%wall = ladder%rungs(i)%wall
+         found%setting = tol_sweep%setting
+         found%asked = tol_sweep%tol_runs(i)%asked
+         found%wall = tol_sweep%tol_runs(i)%wall
          found%run = kept(k)%runs(i)
          call append(runs, found)
       end associate
@@ -319,9 +319,9 @@ contains
       integer :: k
 
       is_fixed = .false.
-      do k = 1, size(study%ladders)
-         associate (ladder => study%ladders(k))
-            if (ladder%setting%word() == run%setting%word()) is_fixed = is_fixed .or. ladder%is_fixed
+      do k = 1, size(study%tol_sweeps)
+         associate (tol_sweep => study%tol_sweeps(k))
+            if (tol_sweep%setting%word() == run%setting%word()) is_fixed = is_fixed .or. tol_sweep%is_fixed
          end associate
       end do
    end function is_fixed

@@ -7,7 +7,7 @@
 module kept_run
    use catalogue, only: catalogue_t
    use catalogue_groups, only: group_t
-   use catalogue_rooms, only: room_bodies, room_clearances, room_contacts, room_drivers, room_joints
+   use groups_of_catalogue, only: group_bodies, group_clearances, group_contacts, group_drivers, group_joints
    use errors, only: error_t
    use, intrinsic :: ieee_arithmetic, only: ieee_is_finite
    use kinds, only: not_a_number, wp
@@ -121,7 +121,7 @@ contains
    pure logical function is_orientation(group)
       type(group_t), intent(in) :: group   !! the quantity
 
-      is_orientation = group%room == room_bodies .and. group%channel%name == "orientation"
+      is_orientation = group%room == group_bodies .and. group%channel%name == "orientation"
    end function is_orientation
 
    !> Numbers that are kept of one item of a quantity.
@@ -138,10 +138,10 @@ contains
 
       sort = 0
       select case (room)
-      case (room_bodies)
+      case (group_bodies)
          if (name == "position" .or. name == "angle" .or. name == "orientation") sort = sort_positions
          if (name == "velocity" .or. name == "angular_velocity") sort = sort_velocities
-      case (room_joints, room_drivers, room_clearances)
+      case (group_joints, group_drivers, group_clearances)
          if (name == "force" .or. name == "moment" .or. name == "tension") sort = sort_reactions
       end select
    end function sort_of
@@ -187,7 +187,7 @@ contains
       integer :: k
 
       if (.not. self%is_kept .or. event%kind /= "contact") return
-      associate (room => self%names%rooms(room_contacts))
+      associate (room => self%names%rooms(group_contacts))
          do k = 1, room%n
             if (room%names(k)%s == event%item .and. room%labels(k)%s == event%contact) exit
          end do

@@ -111,7 +111,7 @@ contains
 
       type(contact_t), allocatable :: a(:), b(:)
       integer, allocatable :: partner(:)
-      real(wp) :: last, greatest, fastest
+      real(wp) :: last, maximum, fastest
       integer :: k, n
 
       onset = not_a_number()
@@ -125,12 +125,12 @@ contains
       call find_partners(a(:n), b, last, together*until, partner, is_other)
       if (is_other .or. n == 0) return
       onset = maxval(abs(b(partner)%onset - a(:n)%onset))
-      greatest = 0.0_wp
+      maximum = 0.0_wp
       fastest = maxval(a(:n)%impact_speed)
       do k = 1, n
          associate (one => a(k), other => b(partner(k)))
             if (.not. (ieee_is_finite(one%release_speed) .and. ieee_is_finite(other%release_speed))) cycle
-            greatest = max(greatest, one%peak_force)
+            maximum = max(maximum, one%peak_force)
             call raise(peak, abs(other%peak_force - one%peak_force))
             if (one%impact_speed > 0.0_wp .and. other%impact_speed > 0.0_wp) then
                call raise(restitution, one%impact_speed/fastest* &
@@ -138,7 +138,7 @@ contains
             end if
          end associate
       end do
-      if (greatest > 0.0_wp) peak = peak/greatest
+      if (maximum > 0.0_wp) peak = peak/maximum
    end subroutine compare_contacts
 
    !> Time from which two runs meet other contacts, to a thousandth of the motion; not a number if they do not.
@@ -178,12 +178,12 @@ contains
    end function first_other_contact
 
    !> Raise a maximum that may not be a number yet.
-   pure subroutine raise(greatest, x)
-      real(wp), intent(inout) :: greatest  !! the maximum so far, not a number before the first [any]
+   pure subroutine raise(maximum, x)
+      real(wp), intent(inout) :: maximum  !! the maximum so far, not a number before the first [any]
       real(wp), intent(in) :: x            !! what may be more [any]
 
-      if (.not. ieee_is_finite(greatest)) greatest = 0.0_wp
-      greatest = max(greatest, x)
+      if (.not. ieee_is_finite(maximum)) maximum = 0.0_wp
+      maximum = max(maximum, x)
    end subroutine raise
 
    !> For every contact of a reference the same one of a run: that of the same place which began as many times before.

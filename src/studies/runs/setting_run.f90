@@ -24,7 +24,7 @@ module setting_run
    use step_check, only: check_steps
    use stop_condition, only: stop_t
    use subsystems, only: new_subsystems, subsystem_t
-   use text, only: piece, starts_with
+   use text, only: segment, starts_with
    use time_plan, only: time_plan_t
    implicit none (type, external)
    private
@@ -209,8 +209,8 @@ contains
       character(:), allocatable :: line     !! one line
 
       line = message
-      if (starts_with(line, "error: ")) line = piece(line, 8)
-      if (index(line, new_line("a")) > 0) line = piece(line, 1, index(line, new_line("a")) - 1)
+      if (starts_with(line, "error: ")) line = segment(line, 8)
+      if (index(line, new_line("a")) > 0) line = segment(line, 1, index(line, new_line("a")) - 1)
    end function first_line
 
 end module setting_run

@@ -1,0 +1,94 @@
+!> Rooms of the catalogue: the items of each sort (bodies, joints, ...), their names and where they stand in the output file.
+module groups_of_catalogue
+   use kinds, only: wp
+   use text, only: text_t
+   implicit none (type, external)
+   private
+   public :: add_to_group, has_channel, resize_storage, group_paths, room_t
+   public :: n_groups, group_bodies, group_clearances, group_contacts, group_drivers, group_energy, group_forces, group_joints
+   public :: group_motions, group_points, group_reactions, group_requests
+
+   integer, parameter :: group_bodies = 1      !! bodies, in deck order, without the ground
+   integer, parameter :: group_joints = 2      !! ideal joints
+   integer, parameter :: group_drivers = 3     !! drivers
+   integer, parameter :: group_clearances = 4  !! joints with clearance
+   integer, parameter :: group_contacts = 5    !! possible contacts of the joints with clearance
+   integer, parameter :: group_forces = 6      !! force elements
+   integer, parameter :: group_energy = 7      !! the energy ledger: one item without a name
+   integer, parameter :: group_points = 8      !! points of the deck
+   integer, parameter :: group_motions = 9     !! points as seen from elsewhere
+   integer, parameter :: group_reactions = 10  !! reactions at points
+   integer, parameter :: group_requests = 11   !! expressions over channels: one item, a group of its own for each
+   integer, parameter :: n_groups = 11         !! number of rooms
+
+   !> (n_rooms) groups of the output file, in the order of the rooms
+   character(*), parameter :: group_paths(n_groups) = [character(19) :: "bodies", "joints", "drivers", "clearances", &
+                                                     "clearances/contacts", "forces", "energy", "points", "motions", &
+                                                     "reactions", "requests"]
+
+   !> The items of one sort.
+   type :: room_t
+      integer :: n = 0                         !! number of items
+      character(:), allocatable :: name        !! path in the output file: bodies, joints, clearances/contacts ...
+      type(text_t), allocatable :: names(:)    !! (items) name of each item; of a contact: its joint's
+      type(text_t), allocatable :: labels(:)   !! (items) of contacts: label within the joint; else blank
+      real(wp), allocatable :: radius(:)       !! (items) of clearances: radial clearance; else 0 [m]
+      type(text_t), allocatable :: channels(:) !! (items) " name name " of the channels it has; empty: all of the room's
+   end type room_t
+
+contains
+
+   !> Add an item to a room.
+   subroutine add_to_group(room, name, label, radius, channels)
+      type(room_t), intent(inout) :: room              !! the room
+      character(*), intent(in) :: name                 !! its name
+      character(*), intent(in), optional :: label      !! of a contact: label within the joint
+      real(wp), intent(in), optional :: radius         !! of a clearance joint: radial clearance [m]
+      character(*), intent(in), optional :: channels   !! present: it has only these, see `names_of_channels`
+
+      if (.not. allocated(room%names)) call resize_storage(room, 8)
+      if (room%n == size(room%names)) call resize_storage(room, 2*room%n)
+      room%n = room%n + 1
+      room%names(room%n)%s = name
+      room%labels(room%n)%s = ""
+      if (present(label)) room%labels(room%n)%s = label
+      room%radius(room%n) = 0.0_wp
+      if (present(radius)) room%radius(room%n) = radius
+      room%channels(room%n)%s = ""
+      if (present(channels)) room%channels(room%n)%s = channels
+   end subroutine add_to_group
+
+   !> Give a room another number of places, and keep its items.
+   subroutine resize_storage(room, places)
+      type(room_t), intent(inout) :: room  !! the room
+      integer, intent(in) :: places        !! as many as it has items, or more
+
+      type(text_t), allocatable :: channels(:), names(:), labels(:)
+      real(wp), allocatable :: radius(:)
+      integer :: k
+
+      allocate (names(places), labels(places), channels(places))
+      allocate (radius(places), source=0.0_wp)
+      do k = 1, room%n
+         call move_alloc(room%names(k)%s, names(k)%s)
+         call move_alloc(room%labels(k)%s, labels(k)%s)
+         call move_alloc(room%channels(k)%s, channels(k)%s)
+         radius(k) = room%radius(k)
+      end do
+      call move_alloc(names, room%names)
+      call move_alloc(labels, room%labels)
+      call move_alloc(channels, room%channels)
+      call move_alloc(radius, room%radius)
+   end subroutine resize_storage
+
+   !> Whether an item of a room has a channel: it names its own, or has all of the room's.
+   pure logical function has_channel(room, channel, item) result(has)
+      type(room_t), intent(in) :: room        !! the room
+      character(*), intent(in) :: channel     !! name of the channel between blanks
+      integer, intent(in) :: item             !! number of the item
+
+      has = len(room%channels(item)%s) == 0
+      if (.not. has) has = index(room%channels(item)%s, channel) > 0
+   end function has_channel
+
+end module groups_of_catalogue
