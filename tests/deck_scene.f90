@@ -1,4 +1,4 @@
-!> Scenes from decks, ready to run, and a recorder that keeps what it is told.
+!> Scenes from decks, ready to run, and a recorder that keeps what it is reported.
 module deck_scene
    use assembly_report, only: assembly_t
    use build_system, only: levels_as_written, new_system
@@ -41,14 +41,14 @@ module deck_scene
 
    !> Keeps times, one channel and all events in memory.
    type, extends(recorder_t) :: keeper_t
-      integer :: room = 0                               !! room of the channel that is kept, 0: none
+      integer :: room = 0                               !! workspace of the channel that is kept, 0: none
       character(:), allocatable :: channel              !! its name; first component of the last item
       integer :: n_sample = 0                           !! samples
       integer :: n_event = 0                            !! events
       integer :: n_start = 0                            !! calls of start
       integer :: n_finish = 0                           !! calls of finish
       integer :: n_progress = 0                         !! calls of progress
-      real(wp) :: fraction = 0.0_wp                     !! last progress told [1]
+      real(wp) :: fraction = 0.0_wp                     !! last progress reported [1]
       integer :: n_broken = huge(0)                     !! sample that cannot be written
       real(wp), allocatable :: time(:)                  !! (capacity) of the samples [s]
       real(wp), allocatable :: value(:)                 !! (capacity) of the channel [any]
@@ -68,7 +68,7 @@ contains
    subroutine load_file(path, loaded, error, overrides)
       character(*), intent(in) :: path                   !! of the deck
       type(loaded_t), intent(out) :: loaded              !! the deck, ready to run
-      type(error_t), allocatable, intent(out) :: error   !! a mistake
+      type(error_t), allocatable, intent(out) :: error   !! an error
       character(*), intent(in), optional :: overrides    !! as "c=1mm;speed=2rpm"
 
       type(assembly_t) :: assembly
@@ -107,7 +107,7 @@ contains
    subroutine load_text(text, loaded, error)
       character(*), intent(in) :: text                   !! the deck
       type(loaded_t), intent(out) :: loaded              !! the deck, ready to run
-      type(error_t), allocatable, intent(out) :: error   !! a mistake
+      type(error_t), allocatable, intent(out) :: error   !! an error
 
       character(:), allocatable :: path
 

@@ -5,7 +5,7 @@ module differences
    private
    public :: five_point, places, six_places, six_point
 
-   real(wp), parameter :: places(4) = [-2.0_wp, -1.0_wp, 1.0_wp, 2.0_wp]  !! where values are wanted, in steps [1]
+   real(wp), parameter :: places(4) = [-2.0_wp, -1.0_wp, 1.0_wp, 2.0_wp]  !! where values are requested, in steps [1]
    real(wp), parameter :: six_places(6) = [-2.0_wp, -1.0_wp, -0.5_wp, 0.5_wp, 1.0_wp, 2.0_wp]  !! the same for `six_point` [1]
 
 contains

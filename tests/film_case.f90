@@ -17,7 +17,7 @@ module film_case
       type(film_bearing_t) :: bearing                    !! the bearing
       real(wp) :: parameters(n_film_parameter) = 0.0_wp  !! (n_film_parameter) for the bearing [any]
       character(:), allocatable :: name                  !! of the kind, without `film.`
-      character(:), allocatable :: message               !! why it does not fit, empty: it does
+      character(:), allocatable :: message               !! why it does not match, empty: it does
    end type film_case_t
 
 contains

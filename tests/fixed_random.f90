@@ -39,8 +39,8 @@ contains
    !> The next number, evenly distributed.
    function between(self, low, high) result(x)
       class(random_t), intent(inout) :: self  !! the sequence
-      real(wp), intent(in) :: low             !! least value [any]
-      real(wp), intent(in) :: high            !! greatest value [any]
+      real(wp), intent(in) :: low             !! minimum value [any]
+      real(wp), intent(in) :: high            !! maximum value [any]
       real(wp) :: x                           !! the number [any]
 
       self%state = modulo(self%state*multiplier, modulus)
@@ -51,8 +51,8 @@ contains
    function vector(self, n, low, high) result(x)
       class(random_t), intent(inout) :: self  !! the sequence
       integer, intent(in) :: n                !! how many
-      real(wp), intent(in) :: low             !! least value [any]
-      real(wp), intent(in) :: high            !! greatest value [any]
+      real(wp), intent(in) :: low             !! minimum value [any]
+      real(wp), intent(in) :: high            !! maximum value [any]
       real(wp) :: x(n)                        !! (n) the numbers [any]
 
       integer :: k

@@ -12,8 +12,8 @@ module free_impact
    type :: impact_t
       real(wp) :: duration = 0.0_wp      !! from onset to end [s]
       real(wp) :: end_rate = 0.0_wp      !! penetration rate at the end, negative [m/s]
-      real(wp) :: peak_delta = 0.0_wp    !! greatest penetration at a step [m]
-      real(wp) :: peak_force = 0.0_wp    !! greatest force at a step [N]
+      real(wp) :: peak_delta = 0.0_wp    !! maximum penetration at a step [m]
+      real(wp) :: peak_force = 0.0_wp    !! maximum force at a step [N]
       real(wp) :: lost = 0.0_wp          !! energy that damping took [J]
    end type impact_t
 

@@ -85,7 +85,7 @@ contains
       end select
    end subroutine fill_value
 
-   !> A list: places in order, or values that end as they begin.
+   !> A list: places in order, or values that end as they start.
    function column_of_samples(name, random) result(list)
       character(*), intent(in) :: name         !! of the column
       type(random_t), intent(inout) :: random  !! where numbers come from

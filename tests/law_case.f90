@@ -17,7 +17,7 @@ module law_case
    type :: case_t
       class(normal_law_t), allocatable :: law           !! the law
       real(wp) :: parameters(n_law_parameter) = 0.0_wp  !! (n_law_parameter) for surfaces of steel [any]
-      character(:), allocatable :: message              !! why it does not fit, empty: it does
+      character(:), allocatable :: message              !! why it does not match, empty: it does
    end type case_t
 
 contains

@@ -1,6 +1,6 @@
-!> Systems with known and guided bodies, against the same deck with all bodies among the unknowns.
+!> Systems with known and bodies with one degree of freedom, against the same deck with all bodies among the unknowns.
 !>
-!> At any state of the other bodies, and with the known ones where their drivers want them, both systems of equations must
+!> At any state of the other bodies, and with the known ones where their drivers need them, both systems of equations must
 !> give the same accelerations, reactions, driving moments and powers: nothing but which rows are solved for differs.
 module reduction_comparison
    use, intrinsic :: ieee_arithmetic, only: ieee_is_nan
@@ -53,7 +53,7 @@ contains
 
    !> State of all bodies from that of the unknown ones and the time.
    subroutine complete_state(small, t, y, full)
-      type(mechanism_t), intent(inout) :: small   !! the system without the known bodies
+      type(mechanism_t), intent(inout) :: small   !! the system without the prescribed bodies
       real(wp), intent(in) :: t                       !! time [s]
       real(wp), intent(in) :: y(:)                    !! (small's n) its state [any]
       real(wp), intent(out) :: full(:)                !! (full's n) state of all bodies, works as those of y [any]
@@ -100,7 +100,7 @@ contains
       call check_close(error, direct, general, 1.0e-13_wp*maxval(abs(general)), "the direct way at t = "//to_text(t))
    end subroutine compare_at
 
-   !> What a system tells the direct way, by balances, against what it tells the general one, from rows and multipliers.
+   !> What a system reports the direct way, by balances, against what it reports the general one, from rows and multipliers.
    subroutine compare_reports(system, t, y, error)
       type(mechanism_t), intent(inout) :: system          !! a system that is evaluated the direct way; the general one is set
       real(wp), intent(in) :: t                           !! time [s]
@@ -201,7 +201,7 @@ contains
    subroutine compare_often(deck, n_known, t_end, error)
       character(*), intent(in) :: deck                    !! the deck
       integer, intent(in) :: n_known                      !! bodies that must be known
-      real(wp), intent(in) :: t_end                       !! greatest time [s]
+      real(wp), intent(in) :: t_end                       !! maximum time [s]
       type(error_t), allocatable, intent(inout) :: error  !! first failure
 
       type(mechanism_t) :: full, small

@@ -24,11 +24,11 @@ module scene_fixture
 
 contains
 
-   !> Read a scene from the text of a deck. Mistakes of the deck are an error.
+   !> Read a scene from the text of a deck. Errors of the deck are an error.
    subroutine read_scene_text(text, scene, error)
       character(*), intent(in) :: text                    !! the deck, without `deck = 1`
       type(scene_t), intent(out) :: scene                 !! what it means
-      type(error_t), allocatable, intent(inout) :: error  !! first failure; mistakes in it
+      type(error_t), allocatable, intent(inout) :: error  !! first failure; errors in it
 
       type(deck_t) :: deck
       type(diagnostics_t) :: mistakes
@@ -47,7 +47,7 @@ contains
    subroutine system_of_text(text, system, error)
       character(*), intent(in) :: text                    !! the deck, without `deck = 1`
       type(mechanism_t), intent(out) :: system        !! its equations
-      type(error_t), allocatable, intent(inout) :: error  !! first failure; mistakes in it
+      type(error_t), allocatable, intent(inout) :: error  !! first failure; errors in it
 
       type(scene_t) :: scene
 
@@ -61,7 +61,7 @@ contains
       character(*), intent(in) :: text                         !! the deck, without `deck = 1`
       type(mechanism_t), intent(out) :: system             !! its equations
       real(wp), allocatable, intent(out) :: y(:)               !! (n) state [any]
-      type(error_t), allocatable, intent(inout) :: error       !! first failure; mistakes, or it has no start
+      type(error_t), allocatable, intent(inout) :: error       !! first failure; errors, or it has no start
       type(assembly_t), intent(out), optional :: report        !! how the assembly went
 
       type(assembly_t) :: assembly
@@ -120,7 +120,7 @@ contains
    function slider_crank(settings, law, friction, level) result(deck)
       character(*), intent(in) :: settings          !! lines of [analysis.dynamic]
       character(*), intent(in) :: law               !! normal law of the gudgeon: hertz or damped
-      character(*), intent(in) :: friction          !! rubbing or none
+      character(*), intent(in) :: friction          !! friction or none
       character(*), intent(in) :: level             !! of the gudgeon: ideal or clearance
       character(:), allocatable :: deck             !! the deck
 

@@ -23,7 +23,7 @@ module verb_compare
    private
    public :: compare_runs
 
-   real(wp), parameter :: usual = 1.0e-6_wp   !! difference allowed, of a channel's greatest magnitude [1]
+   real(wp), parameter :: usual = 1.0e-6_wp   !! difference allowed, of a channel's maximum magnitude [1]
 
 contains
 
@@ -93,7 +93,7 @@ contains
       type(options_t), intent(in) :: options               !! the command line
       type(spec_t), allocatable, intent(out) :: specs(:)   !! (n) channels
       type(spec_t), intent(out) :: time                    !! the time
-      type(error_t), allocatable, intent(out) :: error     !! a mistake in one of them
+      type(error_t), allocatable, intent(out) :: error     !! an error in one of them
 
       type(source_t) :: source
       type(spec_t) :: one
@@ -132,7 +132,7 @@ contains
    !> A line before its comment.
    pure function line_before(line, at) result(part)
       character(*), intent(in) :: line         !! the line
-      integer, intent(in) :: at                !! where the comment begins
+      integer, intent(in) :: at                !! where the comment starts
       character(:), allocatable :: part        !! what is before it
 
       part = line(:at - 1)

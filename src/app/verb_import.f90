@@ -19,7 +19,7 @@ contains
    !> Write the deck beside the current directory's files, or into `--out`, and say what it does not have.
    subroutine import_model(options, error)
       type(options_t), intent(in) :: options               !! the command line
-      type(error_t), allocatable, intent(out) :: error     !! no dataset, mistakes in it, or no place for the deck
+      type(error_t), allocatable, intent(out) :: error     !! no dataset, errors in it, or no place for the deck
 
       type(diagnostics_t) :: mistakes
       type(imported_t) :: imported

@@ -45,7 +45,7 @@ contains
    !> Compare the settings that the deck, or the command line, names.
    subroutine compare_precision(options, error)
       type(options_t), intent(in) :: options               !! the command line
-      type(error_t), allocatable, intent(out) :: error     !! mistakes, no directory, or no run came to its end
+      type(error_t), allocatable, intent(out) :: error     !! errors, no directory, or no run came to its end
 
       type(loaded_t) :: loaded
       type(output_directory_t) :: directory
@@ -123,7 +123,7 @@ contains
    subroutine begin_study(options, loaded, study)
       type(options_t), intent(in) :: options               !! the command line
       type(loaded_t), intent(in) :: loaded                 !! the deck
-      type(precision_t), intent(out) :: study              !! asked, not begun
+      type(precision_t), intent(out) :: study              !! asked, not started
 
       associate (asked => loaded%scene%settings%precision)
          study%budget = budget_of(options, loaded)

@@ -1,6 +1,6 @@
-!> Time and error of the hand-coded dry slider-crank over a ladder of tolerances.
+!> Time and error of the hand-coded dry slider-crank over a tolerance sweep of tolerances.
 !>
-!> Prints one line per tolerance; the first line names the columns. Errors are the greatest of the
+!> Prints one line per tolerance; the first line names the columns. Errors are the maximum of the
 !> first 4 and the first 10 onsets [s] and of the first 5 impact speeds [1]; CPU times are medians.
 !> One argument, optional: seconds to spend on each of the five (default 0.05).
 program minimal_slider_crank

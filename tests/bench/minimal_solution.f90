@@ -48,7 +48,7 @@ module minimal_solution
    !> Rounding error of the gap function [m^2]
    real(dp), parameter :: rounding = 4.0_dp*epsilon(1.0_dp)*2.0_dp*c*(l2 + l3)
 
-   !> What a run cost and where contact began.
+   !> What a run cost and where contact started.
    type :: counts_t
       integer :: steps = 0                  !! accepted
       integer :: rejected = 0               !! steps
@@ -199,7 +199,7 @@ contains
       end do
    end subroutine simulate
 
-   !> Keep an onset of contact and its impact speed; begin with a twentieth of Hertz' contact time.
+   !> Keep an onset of contact and its impact speed; start with a twentieth of Hertz' contact time.
    subroutine begin_contact(t, y, chi, h, counts)
       real(dp), intent(in) :: t                 !! time of the onset [s]
       real(dp), intent(in) :: y(n)              !! (n) unknowns then [any]

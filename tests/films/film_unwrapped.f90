@@ -1,7 +1,7 @@
 !> The unwrapped film of a bearing of L/D = 1 at eps = 0.6 that turns: film_unwrapped none|grooves > FILE
 !>
 !> Columns: angle from the wide gap [deg], place along the bearing over its length, P over w_J + w_B, gap over c; a blank line
-!> between columns of the film, as gnuplot wants it.
+!> between columns of the film, as gnuplot needs it.
 program film_unwrapped
    use, intrinsic :: iso_fortran_env, only: output_unit
    use film_grid_case, only: result_of, steady, two_grooves

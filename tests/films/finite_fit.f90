@@ -32,11 +32,11 @@ contains
       node_ratio = sqrt(min_ratio*max_ratio)*sqrt(max_ratio/min_ratio)**cos(pi*(k - 0.5_wp)/n_ratio)
    end function node_ratio
 
-   !> Splines of one L/D, and the greatest error of force over force at the states.
+   !> Splines of one L/D, and the maximum error of force over force at the states.
    subroutine fit_ratio(ratio, coefficient, max_error)
       real(wp), intent(in) :: ratio                                   !! L/D [1]
       real(wp), intent(out) :: coefficient(0:n_nu, -n_mu:n_mu)        !! (0:n_nu, -n_mu:n_mu) splines of S [1]
-      real(wp), intent(out) :: max_error                         !! greatest residual [1]
+      real(wp), intent(out) :: max_error                         !! maximum residual [1]
 
       real(wp), allocatable :: a(:, :), b(:), kept(:, :), work(:)
       integer :: info, n_data, n_row_used

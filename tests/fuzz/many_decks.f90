@@ -23,7 +23,7 @@ program many_decks
    implicit none (type, external)
 
    interface
-      !> Begin with a deck.
+      !> Start with a deck.
       subroutine coverage_begin() bind(c)
          implicit none (type, external)
       end subroutine coverage_begin
@@ -89,7 +89,7 @@ contains
    subroutine read_one(reader, path, is_ideal, code)
       character(*), intent(in) :: reader  !! which reader
       character(*), intent(in) :: path    !! of the file
-      logical, intent(in) :: is_ideal     !! loose joints are taken as ideal
+      logical, intent(in) :: is_ideal     !! clearance joints are taken as ideal
       integer, intent(out) :: code        !! how it ended
 
       type(error_t), allocatable :: error
@@ -124,7 +124,7 @@ contains
    subroutine read_echo(options, code, error)
       type(options_t), intent(inout) :: options            !! deck
       integer, intent(out) :: code                         !! -2: it is not
-      type(error_t), allocatable, intent(out) :: error     !! mistakes of the deck, or of its echo
+      type(error_t), allocatable, intent(out) :: error     !! errors of the deck, or of its echo
 
       type(loaded_t) :: again, loaded
       character(:), allocatable :: path, text

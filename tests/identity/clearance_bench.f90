@@ -53,7 +53,7 @@ module clearance_bench
       integer :: first = 0                         !! place of the set's first contact among all
       integer :: last = 0                          !! place of its last contact
       logical :: has_form = .true.                 !! the kind has such a form, and the law fits it; if not, there is no set
-      logical :: is_in_contact = .true.            !! all items have the wanted penetration
+      logical :: is_in_contact = .true.            !! all items have the requested penetration
       character(:), allocatable :: name            !! for messages
    end type bench_t
 
@@ -281,12 +281,12 @@ contains
       end select
    end subroutine align
 
-   !> Move a body until a contact has the wanted penetration: Newton along the gradient.
+   !> Move a body until a contact has the requested penetration: Newton along the gradient.
    subroutine bring_into_contact(bench, item, contact, offset)
       type(bench_t), intent(inout) :: bench   !! the set
       integer, intent(in) :: item             !! item
       integer, intent(in) :: contact          !! its contact
-      real(wp), intent(in) :: offset(2)       !! (2) where the journal begins, from the bearing [m]
+      real(wp), intent(in) :: offset(2)       !! (2) where the journal starts, from the bearing [m]
 
       real(wp), parameter :: h = 1.0e-8_wp
       real(wp) :: delta(n_all), gradient(2), high(n_all), low(n_all), p_i(2), p_j(2), rate(n_all)

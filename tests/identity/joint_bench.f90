@@ -25,7 +25,7 @@ module joint_bench
    integer, parameter :: n_seed = 4       !! geometries for each kind
    integer, parameter :: before = 2       !! rows of others before those of the kind
    real(wp), parameter :: now = 0.37_wp   !! time of all tests [s]
-   real(wp), parameter :: far = 1.2_wp    !! least distance of the points of an item, so that directions are smooth [m]
+   real(wp), parameter :: far = 1.2_wp    !! minimum distance of the points of an item, so that directions are smooth [m]
 
    !> A kind with generic geometry and motion.
    type :: bench_t

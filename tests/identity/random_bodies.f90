@@ -105,7 +105,7 @@ contains
       end associate
    end function full_jacobian
 
-   !> Accelerations and multipliers from the full matrix; where it is singular the solution with the least multipliers, measured
+   !> Accelerations and multipliers from the full matrix; where it is singular the solution with the minimum multipliers, measured
    !> by the roots of D. Unset entries stay as they are.
    subroutine solve_fully(problem, is_singular, a, lambda, error)
       type(problem_t), intent(in) :: problem              !! the equations
@@ -146,7 +146,7 @@ contains
       end associate
    end subroutine solve_fully
 
-   !> The least x, by singular values, that fulfils as much of A x = b as there can be.
+   !> The minimum x, by singular values, that fulfils as much of A x = b as there can be.
    subroutine min_solution(matrix, x, rank)
       real(wp), intent(in) :: matrix(:, :)             !! (m, n) A [any]
       real(wp), allocatable, intent(inout) :: x(:)     !! (m) b, then (n) the solution [any]

@@ -74,7 +74,7 @@ contains
       call system%linkage%solution%solver%prepare(system%linkage%bodies%n, system%linkage%rows)
    end subroutine use_solver
 
-   !> M a + Phi_q^T lambda = g of the unknown bodies, Phi_q a = b of the solved rows, in parts of the greatest terms and of
+   !> M a + Phi_q^T lambda = g of the unknown bodies, Phi_q a = b of the solved rows, in parts of the maximum terms and of
    !> what the loads alone would do.
    subroutine check_equations(system, what, error)
       type(mechanism_t), intent(in) :: system         !! the system, evaluated

@@ -227,7 +227,7 @@ contains
    !> Tilt the journal and shift it so that two of its contacts overlap, or its only one.
    subroutine bring_into_contact(random, bench)
       type(random_t), intent(inout) :: random   !! where numbers come from
-      type(bench_t), intent(inout) :: bench     !! the set; contacts begin
+      type(bench_t), intent(inout) :: bench     !! the set; contacts start
 
       real(wp) :: delta(most_of_item), rate(most_of_item), shift(3), start(3)
       logical :: is_deep(most_of_item)

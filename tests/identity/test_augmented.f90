@@ -50,7 +50,7 @@ contains
                        "baumgarte_adaptive partitioning augmented_lagrangian projection", "words for the way of holding")
    end subroutine test_words
 
-   !> An option that a deck may give changes what a way says of itself; any other leaves it as it is.
+   !> An option that a deck may give changes description of a way; any other leaves it as it is.
    subroutine test_options(error)
       type(error_t), allocatable, intent(out) :: error  !! what failed
 
@@ -233,7 +233,7 @@ contains
                       "star", error)
    end subroutine test_star
 
-   !> Bodies that hang on the ground or a known body by one row and by two are lone; by three rows, or beside another unknown
+   !> Bodies that hang on the ground or a prescribed body by one row and by two are lone; by three rows, or beside another unknown
    !> body, they are not.
    subroutine test_lone_bodies(error)
       type(error_t), allocatable, intent(out) :: error  !! what failed
@@ -254,7 +254,7 @@ contains
       type(mechanism_t) :: system
       real(wp), allocatable :: start(:)
 
-      ! an integrator that wants all constraints leaves the known bodies alone, but guides none
+      ! an integrator that needs all constraints leaves the prescribed bodies alone, but guides none
       call start_text(replace(deck, "coordinates = full", "method = ida"), system, start, error)
       if (allocated(error)) return
       call use_solver(system, "schur")

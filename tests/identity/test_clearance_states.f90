@@ -1,5 +1,5 @@
-!> Contacts of every joint with clearance that are free, centred, told or remembered, for all laws, with and without friction, in
-!> all forms.
+!> Contacts of every joint with clearance that are free, centred, reported or remembered, for all laws, with and without friction,
+!> in all forms.
 module test_clearance_states
    use, intrinsic :: ieee_arithmetic, only: ieee_is_finite
    use check, only: check_close, check_equal, check_true, suite_t
@@ -203,7 +203,7 @@ contains
          bench%motion%number = 1
       end subroutine look
 
-      !> What is watched of the contact at the motion.
+      !> What is monitored of the contact at the motion.
       subroutine monitor(number, found)
          integer, intent(in) :: number       !! of the motion
          real(wp), intent(out) :: found(4)   !! (4) penetration, its rate, force, its rate [m, m/s, N, N/s]

@@ -245,8 +245,8 @@ contains
       call claim_all(error, force_rate)
    end subroutine test_force_rate
 
-   !> What the watch sees: penetration, rate, force, and the rate of the force against differences along a motion. A contact that
-   !> moves slowly by chance has its rate as right as one at the greatest speed of all, F v/delta: differences know no better.
+   !> What the monitor sees: penetration, rate, force, and the rate of the force against differences along a motion. A contact that
+   !> moves slowly by chance has its rate as right as one at the maximum speed of all, F v/delta: differences know no better.
    subroutine force_rate(error, bench)
       type(error_t), allocatable, intent(inout) :: error  !! what failed
       type(bench_t), intent(inout) :: bench               !! the combination

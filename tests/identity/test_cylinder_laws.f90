@@ -140,7 +140,7 @@ contains
       call check_close(error, f(1)/f(4), 1.0_wp + 0.75_wp*0.19_wp*2.0_wp/3.0_wp, 1.0e-12_wp, "damping")
    end subroutine test_pereira
 
-   !> Force against angle as printed, tan(e/2) for s; the half-width of Hertz when it is small; the greatest angle.
+   !> Force against angle as printed, tan(e/2) for s; the half-width of Hertz when it is small; the maximum angle.
    subroutine test_persson(error)
       type(error_t), allocatable, intent(out) :: error  !! what failed
 
@@ -165,7 +165,7 @@ contains
       call check_close(error, log(b**2 + 1.0_wp) + 2.0_wp*b**4, 2.0_wp, 1.0e-6_wp, "where the force has no bound")
    end subroutine test_persson
 
-   !> A straight line beyond nine tenths of the greatest angle, with its energy.
+   !> A straight line beyond nine tenths of the maximum angle, with its energy.
    subroutine test_persson_beyond(error)
       type(error_t), allocatable, intent(out) :: error  !! what failed
 

@@ -106,7 +106,7 @@ contains
    end subroutine test_slow_onsets
 
    !> Every law whose damping is h rate/v0, h measured in an impact: without v0 the factor is the closed form in the speed of
-   !> the depth, never zero however fast the surfaces part; where the depth begins to count the force has neither a jump nor a kink.
+   !> the depth, never zero however fast the surfaces part; where the depth starts to count the force has neither a jump nor a kink.
    subroutine test_pressed_and_let_go(error)
       type(error_t), allocatable, intent(out) :: error  !! what failed
 

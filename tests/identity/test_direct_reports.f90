@@ -1,5 +1,5 @@
-!> What a scene that is evaluated the direct way tells of one channel, asked alone, against what it tells when all are asked: the
-!> quantities of joints from the balance of fewer bodies, those of contacts by another way.
+!> What a scene that is evaluated the direct way reports of one channel, asked alone, against what it reports when all are asked:
+!> the quantities of joints from the balance of fewer bodies, those of contacts by another way.
 module test_direct_reports
    use, intrinsic :: ieee_arithmetic, only: ieee_is_nan
    use catalogue, only: catalogue_t
@@ -26,7 +26,7 @@ contains
       call suite%test("only_what_is_needed", test_needed)
    end subroutine run_test_direct_reports
 
-   !> The contact is free, once within its clearance and once beyond it, as just before it begins.
+   !> The contact is free, once within its clearance and once beyond it, as just before it starts.
    subroutine test_free(error)
       type(error_t), allocatable, intent(out) :: error  !! what failed
 
@@ -47,10 +47,10 @@ contains
    !> Every channel of every item alone.
    subroutine compare_alone(friction, touches, aside, error, speed)
       character(*), intent(in) :: friction                 !! law of friction
-      logical, intent(in) :: touches                       !! whether the contact has begun
+      logical, intent(in) :: touches                       !! whether the contact has started
       real(wp), intent(in) :: aside                        !! displacement of the slider [m]
       type(error_t), allocatable, intent(inout) :: error   !! first failure
-      real(wp), intent(in), optional :: speed              !! impact speed of a contact that has begun, instead of 2 m/s [m/s]
+      real(wp), intent(in), optional :: speed              !! impact speed of a contact that has started, instead of 2 m/s [m/s]
 
       type(catalogue_t) :: all_of, one_of
       type(mechanism_t) :: system
@@ -90,7 +90,7 @@ contains
       end do
    end subroutine compare_alone
 
-   !> One channel of one item is wanted and no other; what was told before is forgotten.
+   !> One channel of one item is requested and no other; what was reported before is forgotten.
    subroutine ask_alone(system, group, item, catalogue)
       type(mechanism_t), intent(in) :: system           !! the system
       integer, intent(in) :: group                      !! the channel

@@ -128,7 +128,7 @@ contains
    end subroutine test_reynolds_equation
 
    !> Integral of the pressure with cosine and sine, by Gauss' formula in Sommerfeld's variable between the places where the film
-   !> begins and ends.
+   !> starts and ends.
    function force_of_pressure(shape, extent, eps, eps_dot, om) result(f)
       integer, intent(in) :: shape               !! of the pressure
       integer, intent(in) :: extent              !! of the film

@@ -110,7 +110,7 @@ contains
                        1.0e-13_wp, "half film")
    end subroutine test_book_feeds_energy_in
 
-   !> Greatest power of random states, of |F| |v|.
+   !> Maximum power of random states, of |F| |v|.
    real(wp) function max_power(case) result(maximum)
       type(film_case_t), intent(in) :: case  !! the film
 
@@ -222,7 +222,7 @@ contains
       end do
    end subroutine test_rigid_rotation
 
-   !> Beyond eps_max forces are finite, and go on from those at it.
+   !> Beyond eps_max forces are finite, and continue from those at it.
    subroutine test_beyond_the_wall(error)
       type(error_t), allocatable, intent(out) :: error  !! what failed
 

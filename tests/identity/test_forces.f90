@@ -31,8 +31,8 @@ contains
       call suite%test("action_and_reaction", test_action_and_reaction)
    end subroutine run_test_forces
 
-   !> What a kind tells the ledger, and the power of its channel, are the power of its loads: power of the loads
-   !> is that told, less that lost, less the rate of the stored energy, by differences along the velocities.
+   !> What a kind reports the ledger, and the power of its channel, are the power of its loads: power of the loads
+   !> is that reported, less that lost, less the rate of the stored energy, by differences along the velocities.
    subroutine test_power(error)
       type(error_t), allocatable, intent(out) :: error  !! what failed
 

@@ -53,7 +53,7 @@ contains
       end do
    end subroutine make_friction
 
-   !> Not negative, not above the greatest coefficient times the normal force and in proportion to it, or constant.
+   !> Not negative, not above the maximum coefficient times the normal force and in proportion to it, or constant.
    subroutine test_magnitude(error)
       type(error_t), allocatable, intent(out) :: error  !! what failed
 
@@ -228,7 +228,7 @@ contains
    end subroutine test_stribeck
 
    !> The deflections that follow for a way s from z = 0: mu/sigma (1 - exp(-sigma s/mu)) for i = 1 and, of sigma s/mu = x,
-   !> mu/sigma x/(1 + x) for i = 2; back from the steady one it yields twice as fast as it began; steady is steady.
+   !> mu/sigma x/(1 + x) for i = 2; back from the steady one it yields twice as fast as it started; steady is steady.
    subroutine test_dahl(error)
       type(error_t), allocatable, intent(out) :: error  !! what failed
 
@@ -280,7 +280,7 @@ contains
       call law%prepare(item)
    end subroutine make_ambrosio
 
-   !> A ramp that does not rise is a mistake of the deck.
+   !> A ramp that does not rise is an error of the deck.
    subroutine test_mistake(error)
       type(error_t), allocatable, intent(out) :: error  !! what failed
 

@@ -1,4 +1,4 @@
-!> What ideal joints and drivers tell of themselves, and what they put into checkpoints: a kind is tested by being registered.
+!> What ideal joints and drivers report of themselves, and what they put into checkpoints: a kind is tested by being registered.
 module test_joint_channels
    use, intrinsic :: ieee_arithmetic, only: ieee_is_finite
    use check, only: check_close, check_equal, check_true, suite_t

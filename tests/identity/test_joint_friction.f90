@@ -11,7 +11,7 @@ module test_joint_friction
    private
    public :: run_test_joint_friction
 
-   integer, parameter :: n_rubbing = 2    !! kinds that rub
+   integer, parameter :: n_rubbing = 2    !! kinds with friction
    real(wp), parameter :: step = 1.0e-6_wp  !! of differences [N or N.m]
 
 contains

@@ -1,4 +1,4 @@
-!> Identities that the rows of every ideal joint and driver fulfil, whose they are, and lengths that are left out or zero: a kind is
+!> Identities that the rows of every ideal joint and driver fulfil, whose they are, and lengths that are omitted or zero: a kind is
 !> tested by being registered.
 !>
 !> Rows are taken at positions that violate them, at any velocity: nothing here needs a solution.
@@ -149,7 +149,7 @@ contains
       end do
    end subroutine test_lengths_and_angles
 
-   !> A length that a row leaves out is that of the start, whatever stands elsewhere in the row.
+   !> A length that a row omits is that of the start, whatever stands elsewhere in the row.
    subroutine test_left_out_at_start(error)
       type(error_t), allocatable, intent(out) :: error  !! what failed
 

@@ -140,7 +140,7 @@ contains
       call check_equal(error, status, 1, "where it has none")
    end subroutine test_direct
 
-   !> Drivers in series and of either sense, a weld, loads on known bodies.
+   !> Drivers in series and of either sense, a weld, loads on prescribed bodies.
    subroutine test_robot_arm(error)
       type(error_t), allocatable, intent(out) :: error  !! what failed
 
@@ -184,7 +184,7 @@ contains
       call compare_often(deck, 1, 1.0_wp, error)
    end subroutine test_one_dof
 
-   !> Two bars between two driven cranks: known bodies at both ends of a loop, which a distance closes.
+   !> Two bars between two driven cranks: prescribed bodies at both ends of a loop, which a distance closes.
    subroutine test_loop(error)
       type(error_t), allocatable, intent(out) :: error  !! what failed
 
@@ -215,7 +215,7 @@ contains
 
    contains
 
-      !> One driver, and two that want the same by different formulas.
+      !> One driver, and two that need the same by different formulas.
       subroutine check_twins(number, joint)
          integer, intent(in) :: number         !! of the solver
          character(*), intent(in) :: joint     !! row of the joint between both bodies, or a table of what joins them else
@@ -265,7 +265,7 @@ contains
 
    end subroutine test_two_drivers
 
-   !> A deck without the line that begins with a word.
+   !> A deck without the line that starts with a word.
    function without(deck, word) result(text)
       character(*), intent(in) :: deck     !! the deck
       character(*), intent(in) :: word     !! first of the line
@@ -293,7 +293,7 @@ contains
       !> Two driven links in series, the first by the given function.
       subroutine check_known(angle, expected)
          character(*), intent(in) :: angle    !! of the first
-         integer, intent(in) :: expected      !! known bodies
+         integer, intent(in) :: expected      !! prescribed bodies
 
          type(mechanism_t) :: system
 
@@ -325,7 +325,7 @@ contains
       subroutine check_driven(xi, other, n_known, n_unknown)
          character(*), intent(in) :: xi       !! where the crank is held, in m along its axis
          character(*), intent(in) :: other    !! row of another body, or nothing
-         integer, intent(in) :: n_known       !! known bodies that are expected
+         integer, intent(in) :: n_known       !! prescribed bodies that are expected
          integer, intent(in) :: n_unknown     !! unknown ones
 
          type(mechanism_t) :: system
@@ -344,7 +344,7 @@ contains
 
    end subroutine test_all_driven
 
-   !> The scale of the rates counts the known bodies: 5000 rpm of the crank, at whatever rest of the others.
+   !> The scale of the rates counts the prescribed bodies: 5000 rpm of the crank, at whatever rest of the others.
    subroutine test_error_scales(error)
       type(error_t), allocatable, intent(out) :: error  !! what failed
 

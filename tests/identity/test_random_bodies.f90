@@ -37,7 +37,7 @@ contains
       real(wp), intent(in) :: a(:, 0:)                    !! (n_v, 0:bodies) accelerations [m/s^2 or rad/s^2]
       real(wp), intent(in) :: lambda(:)                   !! (rows) multipliers [N or N.m]
       logical, intent(in) :: is_singular                  !! whether the rows depend on one another
-      real(wp), intent(in) :: tolerance(2)                !! (2) for accelerations and multipliers, of the greatest [1]
+      real(wp), intent(in) :: tolerance(2)                !! (2) for accelerations and multipliers, of the maximum [1]
       character(*), intent(in) :: what                    !! which solver
       type(error_t), allocatable, intent(inout) :: error  !! first failure
 
@@ -78,7 +78,7 @@ contains
    !> What a solver allows: penalties cost digits.
    function tolerance_of(solver) result(tolerance)
       class(augmented_t), intent(in) :: solver   !! the solver
-      real(wp) :: tolerance(2)                   !! (2) for accelerations and multipliers, of the greatest [1]
+      real(wp) :: tolerance(2)                   !! (2) for accelerations and multipliers, of the maximum [1]
 
       tolerance = [1.0e-12_wp, 1.0e-11_wp]
       if (solver%name() == "augmented_lagrangian") tolerance = [1.0e-11_wp, 1.0e-8_wp]
@@ -130,8 +130,8 @@ contains
 
    end subroutine test_independent
 
-   !> All solvers where some rows are combinations of others and one ties known bodies: accelerations as they are, multipliers of
-   !> least norm, both where that is known before and, to the smaller damping, where it shows.
+   !> All solvers where some rows are combinations of others and one ties prescribed bodies: accelerations as they are, multipliers
+   !> of least norm, both where that is known before and, to the smaller damping, where it shows.
    subroutine test_dependent(error)
       type(error_t), allocatable, intent(out) :: error  !! what failed
 
@@ -175,7 +175,7 @@ contains
       !> One solver.
       subroutine check_solver(is_redundant, tolerance)
          logical, intent(in) :: is_redundant    !! whether that is known before
-         real(wp), intent(in) :: tolerance(2)   !! (2) for accelerations and multipliers, of the greatest [1]
+         real(wp), intent(in) :: tolerance(2)   !! (2) for accelerations and multipliers, of the maximum [1]
 
          type(solution_t) :: solution
          character(:), allocatable :: name

@@ -111,7 +111,7 @@ contains
       end do
    end subroutine test_right_hand_side
 
-   !> What accelerations of known bodies take off the right-hand side.
+   !> What accelerations of prescribed bodies take off the right-hand side.
    subroutine test_known(error)
       type(error_t), allocatable, intent(out) :: error  !! what failed
 
@@ -170,7 +170,7 @@ contains
       weight = reshape(problem%inverse_mass(:, 1:), [n_v*problem%n_body])
    end subroutine new_start
 
-   !> The least change of coordinates with given changes of rows, in a metric of weights.
+   !> The minimum change of coordinates with given changes of rows, in a metric of weights.
    subroutine test_min_change(error)
       type(error_t), allocatable, intent(out) :: error  !! what failed
 
@@ -201,7 +201,7 @@ contains
       end do
    end subroutine test_min_change
 
-   !> Rows that are there twice are found, with their twins.
+   !> Rows that are there twice are found, with their reference runs.
    subroutine test_start_dependent(error)
       type(error_t), allocatable, intent(out) :: error  !! what failed
 

@@ -1,4 +1,5 @@
-!> Known and guided bodies of space against the same deck with all bodies among the unknowns: see `reduction_comparison`.
+!> Known and bodies with one degree of freedom of space against the same deck with all bodies among the unknowns: see
+!> `reduction_comparison`.
 module test_reduced_in_space
    use check, only: check_equal, check_true, suite_t
    use clearance_set, only: loss_contact
@@ -71,7 +72,7 @@ contains
       call suite%test("works", test_works)
    end subroutine run_test_reduced_in_space
 
-   !> Drivers in series and of either sense about skew axes, a weld, loads on known bodies.
+   !> Drivers in series and of either sense about skew axes, a weld, loads on prescribed bodies.
    subroutine test_robot_arm(error)
       type(error_t), allocatable, intent(out) :: error  !! what failed
 
@@ -136,7 +137,7 @@ contains
       end do
    end subroutine test_contact
 
-   !> Works and energies after a run agree, and the ledger closes in both: with known bodies, and with guided ones.
+   !> Works and energies after a run agree, and the ledger closes in both: with prescribed bodies, and with guided ones.
    subroutine test_works(error)
       type(error_t), allocatable, intent(out) :: error  !! what failed
 

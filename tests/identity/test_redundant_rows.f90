@@ -1,4 +1,5 @@
-!> Redundant mechanisms against twins without redundant rows, by every way of solving the augmented equations that is registered.
+!> Redundant mechanisms against reference runs without redundant rows, by every way of solving the augmented equations that is
+!> registered.
 module test_redundant_rows
    use check, only: check_close, check_equal, check_true, suite_t
    use errors, only: error_t
@@ -23,7 +24,7 @@ contains
       call suite%test("frame_on_rails", test_frame)
    end subroutine run_test_redundant_rows
 
-   !> A redundant mechanism and its twin with the same bodies at their common start: accelerations by every solver.
+   !> A redundant mechanism and its reference run with the same bodies at their common start: accelerations by every solver.
    subroutine check_twins(redundant, twin, what, error)
       character(*), intent(in) :: redundant               !! the deck
       character(*), intent(in) :: twin                    !! the deck without redundant rows
@@ -93,8 +94,8 @@ contains
       end do
    end subroutine test_duplicated_joint
 
-   !> A parallel four-bar with a third bar. In the twin the third bar meets the coupler by a slot along itself: what its pin
-   !> fixes along the bar is fixed already.
+   !> A parallel four-bar with a third bar. In the reference run the third bar meets the coupler by a slot along itself: what its
+   !> pin fixes along the bar is fixed already.
    subroutine test_overdetermined_four_bar(error)
       type(error_t), allocatable, intent(out) :: error  !! what failed
 
@@ -115,7 +116,7 @@ contains
                        "overdetermined four-bar", error)
    end subroutine test_overdetermined_four_bar
 
-   !> A bar on three pins along one line of a swinging rod; in the twin it is welded on.
+   !> A bar on three pins along one line of a swinging rod; in the reference run it is welded on.
    subroutine test_three_pins(error)
       type(error_t), allocatable, intent(out) :: error  !! what failed
 
@@ -128,7 +129,7 @@ contains
                        bars//"[joint.rigid]"//nl//"name i j"//nl//"weld rod_2 bar_2"//nl//second, "three pins", error)
    end subroutine test_three_pins
 
-   !> A frame that slides on two parallel rails, driven aside; the twin slides on one.
+   !> A frame that slides on two parallel rails, driven aside; the reference run slides on one.
    subroutine test_frame(error)
       type(error_t), allocatable, intent(out) :: error  !! what failed
 

@@ -104,7 +104,7 @@ contains
       call bench%coordinates%move(n_body, [(k, k=1, n_body)], q, bench%v, bench%motion)
    end subroutine move
 
-   !> What a kind tells the ledger, and the power of its channel, are the power of its loads.
+   !> What a kind reports the ledger, and the power of its channel, are the power of its loads.
    subroutine test_power(error)
       type(error_t), allocatable, intent(out) :: error  !! what failed
 

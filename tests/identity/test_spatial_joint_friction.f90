@@ -12,11 +12,11 @@ module test_spatial_joint_friction
    public :: run_test_spatial_joint_friction
 
    integer, parameter :: n_seed = 4         !! geometries for each kind
-   integer, parameter :: n_rubbing = 2      !! kinds that rub
+   integer, parameter :: n_rubbing = 2      !! kinds with friction
    real(wp), parameter :: step = 1.0e-6_wp  !! of differences [N or N.m]
 
    abstract interface
-      !> What is claimed of one item that rubs.
+      !> What is claimed of one item that has friction.
       subroutine claim_of_item(error, bench, k)
          import :: bench_t, error_t
          implicit none (type, external)
@@ -57,7 +57,7 @@ contains
       call claim_all(error, presses)
    end subroutine test_normal_force
 
-   !> Claim something of every item of all kinds that rub.
+   !> Claim something of every item of all kinds with friction.
    subroutine claim_all(error, what)
       type(error_t), allocatable, intent(out) :: error  !! what failed
       procedure(claim_of_item) :: what                  !! the claim

@@ -216,7 +216,7 @@ contains
       end do
    end subroutine test_turned_scene
 
-   !> Where axes are left out, all rows of axes and angles are closed where the deck puts the bodies.
+   !> Where axes are omitted, all rows of axes and angles are closed where the deck puts the bodies.
    subroutine test_start_is_closed(error)
       type(error_t), allocatable, intent(out) :: error  !! what failed
 

@@ -49,7 +49,7 @@ contains
    !> release speed, energy lost.
    subroutine find_impacts(loaded, impacts, error)
       type(loaded_t), intent(inout) :: loaded              !! the deck
-      real(wp), intent(out) :: impacts(7, n_impact)        !! (7, n_impact) what is told of each [any]
+      real(wp), intent(out) :: impacts(7, n_impact)        !! (7, n_impact) what is reported of each [any]
       type(error_t), allocatable, intent(out) :: error     !! it failed
 
       type(keeper_t) :: keeper
@@ -72,7 +72,7 @@ contains
       end do
    end subroutine find_impacts
 
-   !> A deck has the impacts of the deck in inputs/, each number to a part of its greatest.
+   !> A deck has the impacts of the deck in inputs/, each number to a part of its maximum.
    subroutine check_same_impacts(error, text)
       type(error_t), allocatable, intent(out) :: error  !! first failure
       character(*), intent(in) :: text                  !! the deck without its first line

@@ -1,4 +1,4 @@
-!> Saved, loaded into fresh objects and gone on with, a run is equal bit for bit; so is a run repeated.
+!> Saved, loaded into fresh objects and continued with, a run is equal bit for bit; so is a run repeated.
 !>
 !> What is saved and refused by name: test_restart_refused.
 module test_restart
@@ -26,8 +26,8 @@ module test_restart
    type :: run_t
       type(loaded_t) :: loaded                   !! deck, system, integrator
       type(moving_part_t) :: part                !! these in motion
-      type(run_tally_t) :: tally                 !! contacts that began
-      type(keeper_t) :: keeper                   !! what is told of contacts that ended
+      type(run_tally_t) :: tally                 !! contacts that started
+      type(keeper_t) :: keeper                   !! what is reported of contacts that ended
    end type run_t
 
 contains
@@ -45,10 +45,10 @@ contains
       call suite%test("repeated_run_is_bitwise_equal", test_repeated)
    end subroutine run_test_restart
 
-   !> Load a deck and begin: the dry slider-crank with friction, if none is given.
+   !> Load a deck and start: the dry slider-crank with friction, if none is given.
    subroutine begin(run, error, deck, setting, end)
       type(run_t), intent(out), target :: run            !! the run, at t = 0
-      type(error_t), allocatable, intent(out) :: error   !! a mistake
+      type(error_t), allocatable, intent(out) :: error   !! an error
       character(*), intent(in), optional :: deck         !! its path
       character(*), intent(in), optional :: setting      !! a parameter, as name=value
       real(wp), intent(in), optional :: end              !! no step goes beyond; absent: t_end [s]
@@ -88,7 +88,7 @@ contains
       call save_part_memory(run%part, checkpoint)
    end subroutine save_run
 
-   !> Take it back into a run that has just begun.
+   !> Take it back into a run that has just started.
    subroutine load_run(run, checkpoint, error)
       type(run_t), intent(inout) :: run                     !! a fresh run
       type(checkpoint_t), intent(in) :: checkpoint          !! memory
@@ -177,7 +177,7 @@ contains
    !> The numbers of events.
    pure function told(events) result(numbers)
       type(event_t), intent(in) :: events(:)      !! (any) events
-      real(wp) :: numbers(7*size(events))         !! (7 events) what is told of each [any]
+      real(wp) :: numbers(7*size(events))         !! (7 events) what is reported of each [any]
 
       numbers = [events%time, events%impact_speed, events%peak_force, events%peak_penetration, events%duration, &
                  events%release_speed, events%energy_lost]
@@ -205,7 +205,7 @@ contains
       call go_on_thrown("lugre", error)
    end subroutine test_goes_on_bristling
 
-   !> Films: of pressures on a grid, which begin with those of the solution before; and one that goes over into dry contact.
+   !> Films: of pressures on a grid, which start with those of the solution before; and one that goes over into dry contact.
    subroutine test_goes_on_lubricated(error)
       type(error_t), allocatable, intent(out) :: error  !! what failed
 
@@ -249,7 +249,7 @@ contains
       character(*), intent(in) :: setting                  !! a parameter, as name=value
       real(wp), intent(in) :: t_stop                       !! no checkpoint, and no step, after this time [s]
       type(error_t), allocatable, intent(out) :: error     !! what failed
-      logical, intent(in), optional :: has_contact         !! a contact begins; absent: it does
+      logical, intent(in), optional :: has_contact         !! a contact starts; absent: it does
 
       integer, parameter :: every = 2, most = 1000  ! steps between checkpoints; checkpoints
       type(run_t), allocatable, target :: second

@@ -1,6 +1,7 @@
-!> Saved at any step of a motion whose load jumps and bends, loaded into fresh objects and gone on with, a run is equal bit for bit.
+!> Saved at any step of a motion whose load jumps and bends, loaded into fresh objects and continued with, a run is equal bit for
+!> bit.
 !>
-!> The stretch of smooth time is part of the system's memory; the search for instants, begun anew, is brought to it.
+!> The stretch of smooth time is part of the system's memory; the search for instants, started anew, is brought to it.
 !> The history of a multistep method is not saved: the run that is not disturbed takes its own checkpoints back, as runs with
 !> checkpoints do.
 module test_restart_instants
@@ -27,7 +28,7 @@ module test_restart_instants
       type(loaded_t) :: loaded                !! deck, system, integrator
       type(moving_part_t) :: part             !! these in motion
       type(run_tally_t) :: tally              !! of it
-      type(keeper_t) :: keeper                !! what it tells
+      type(keeper_t) :: keeper                !! what it reports
       integer :: n_passed = 0                 !! instants passed
       logical :: begins = .true.              !! it stands at t = 0, or behind an instant
    end type run_t
@@ -96,7 +97,7 @@ contains
    subroutine save_here(run, has_history, error, saved, n_save)
       type(run_t), intent(inout) :: run                   !! the run
       logical, intent(in) :: has_history                  !! whether it is saved at instants only
-      type(error_t), allocatable, intent(inout) :: error  !! it cannot go on
+      type(error_t), allocatable, intent(inout) :: error  !! it cannot continue
       type(checkpoint_t), intent(inout), optional :: saved(:) !! (most) where it is kept
       integer, intent(inout), optional :: n_save              !! kept so far
 
@@ -119,7 +120,7 @@ contains
    subroutine begin(method, run, error)
       character(*), intent(in) :: method                 !! name of the integrator
       type(run_t), intent(out), target :: run            !! the run, at t = 0
-      type(error_t), allocatable, intent(out) :: error   !! a mistake
+      type(error_t), allocatable, intent(out) :: error   !! an error
 
       character(*), parameter :: nl = new_line("a")
       type(catalogue_t) :: catalogue

@@ -17,12 +17,12 @@ module test_restart_refused
    private
    public :: run_test_restart_refused
 
-   !> A run that has begun.
+   !> A run that has started.
    type :: begun_t
       type(loaded_t) :: loaded         !! deck, system, integrator
       type(moving_part_t) :: part      !! these in motion
       type(run_tally_t) :: tally       !! of it
-      type(keeper_t) :: keeper         !! what it tells
+      type(keeper_t) :: keeper         !! what it reports
    end type begun_t
 
 contains
@@ -41,10 +41,10 @@ contains
       call suite%test("a_row_cut_off", test_cut_row)
    end subroutine run_test_restart_refused
 
-   !> Begin the dry slider-crank.
+   !> Start the dry slider-crank.
    subroutine begin(run, error, setting, method)
       type(begun_t), intent(out), target :: run              !! the run, at t = 0
-      type(error_t), allocatable, intent(out) :: error       !! a mistake
+      type(error_t), allocatable, intent(out) :: error       !! an error
       character(*), intent(in), optional :: setting          !! a parameter, as name=value
       character(*), intent(in), optional :: method           !! the integrator; absent: the deck's
 
@@ -97,7 +97,7 @@ contains
    !> A run, and its memory after so many steps.
    subroutine save_after(n_step, run, checkpoint, error)
       integer, intent(in) :: n_step                         !! steps
-      type(begun_t), intent(inout) :: run                   !! begun, gone on with
+      type(begun_t), intent(inout) :: run                   !! started, continued with
       type(checkpoint_t), intent(inout) :: checkpoint       !! its memory
       type(error_t), allocatable, intent(inout) :: error    !! first failure
 
@@ -111,7 +111,7 @@ contains
       call save_part_memory(run%part, checkpoint)
    end subroutine save_after
 
-   !> A run that has made some steps, what it saved, and another one that has only begun.
+   !> A run that has made some steps, what it saved, and another one that has only started.
    subroutine begin_again(n_step, run, saved, fresh, error, change)
       integer, intent(in) :: n_step                             !! steps of the first
       type(begun_t), intent(inout), target :: run               !! the first
@@ -125,7 +125,7 @@ contains
       if (.not. allocated(error)) call begin(fresh, error, change)
    end subroutine begin_again
 
-   !> The method, the way of holding the constraints and the loose joint are named as in the deck.
+   !> The method, the stabilisation method and the clearance joint are named as in the deck.
    subroutine test_names(error)
       type(error_t), allocatable, intent(out) :: error  !! what failed
 

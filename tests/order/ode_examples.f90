@@ -24,7 +24,7 @@ module ode_examples
    end type kepler_t
 
    !> Pendulum, theta'' = -sin theta, from its lowest point to the amplitude 2 asin k.
-   !> Quadratures, if wanted: w cos theta and -w sin theta, so that z = sin theta, cos theta - 1.
+   !> Quadratures, if requested: w cos theta and -w sin theta, so that z = sin theta, cos theta - 1.
    type, extends(plain_t) :: pendulum_t
       real(wp) :: modulus = 0.0_wp  !! k [1]
    contains
@@ -39,7 +39,7 @@ module ode_examples
       procedure :: evaluate => power_evaluate
    end type power_t
 
-   !> y' = 2.5 |t - root|^1.5 y: as velocities where a contact begins or ends.
+   !> y' = 2.5 |t - root|^1.5 y: as velocities where a contact starts or ends.
    type, extends(plain_t) :: root_t
       real(wp) :: root = 0.0_wp  !! where it is [s]
    contains
@@ -74,7 +74,7 @@ module ode_examples
 
 contains
 
-   !> Order seen from the errors of two steps, the second half the first.
+   !> Order observed from the errors of two steps, the second half the first.
    pure elemental function slope(coarse, fine)
       real(wp), intent(in) :: coarse  !! error with the greater step [any]
       real(wp), intent(in) :: fine    !! error with half of it [any]

@@ -109,7 +109,7 @@ contains
 
    contains
 
-      !> A run begins.
+      !> A run starts.
       subroutine begin(one, of)
          type(auto_t), intent(inout) :: one       !! the integrator
          type(crossing_t), intent(inout) :: of    !! the system

@@ -87,7 +87,7 @@ contains
       end do
    end subroutine test_polynomials
 
-   !> Greatest error of the interpolant of one step of an ellipse.
+   !> Maximum error of the interpolant of one step of an ellipse.
    real(wp) function interpolation_error(method, system, t) result(maximum)
       type(dop853_t), intent(in) :: method    !! the integrator, after a step
       type(kepler_t), intent(in) :: system    !! the system
@@ -132,7 +132,7 @@ contains
       call check_order(error, poor, 4.5_wp, 5.5_wp, "without")
    end subroutine test_interpolant
 
-   !> Places, paces and parameters of each course belong together; a course begins at 0 and ends at 1.
+   !> Places, paces and parameters of each course belong together; a course starts at 0 and ends at 1.
    subroutine test_course(error)
       type(error_t), allocatable, intent(out) :: error  !! what failed
 
@@ -174,13 +174,13 @@ contains
       end do
    end subroutine test_roots
 
-   !> One step from a root, or to one, and its greatest error there and between.
+   !> One step from a root, or to one, and its maximum error there and between.
    subroutine make_step(way, h, course, at_end, between)
       integer, intent(in) :: way        !! course_from_root: the root is at the start; course_to_root: at the end
       real(wp), intent(in) :: h         !! length of the step [s]
       integer, intent(in) :: course     !! how time goes
       real(wp), intent(out) :: at_end   !! error at the end [1]
-      real(wp), intent(out) :: between  !! greatest error of the interpolant [1]
+      real(wp), intent(out) :: between  !! maximum error of the interpolant [1]
 
       type(root_t) :: system
       type(dop853_t) :: method

@@ -161,13 +161,13 @@ contains
 
    end subroutine test_slider_crank
 
-   !> Two states agree, each kind of quantity to a part of its greatest.
+   !> Two states agree, each kind of quantity to a part of its maximum.
    subroutine compare(error, system, actual, expected, part, what)
       type(error_t), allocatable, intent(inout) :: error   !! first failure
       type(mechanism_t), intent(in) :: system          !! the system
       real(wp), intent(in) :: actual(:)                    !! (n) state [any]
       real(wp), intent(in) :: expected(:)                  !! (n) the judge's [any]
-      real(wp), intent(in) :: part                         !! difference allowed, of the greatest of its kind [1]
+      real(wp), intent(in) :: part                         !! difference allowed, of the maximum of its kind [1]
       character(*), intent(in) :: what                     !! when
 
       integer :: nq

@@ -26,7 +26,7 @@ contains
       call suite%test("inner_derivative_is_evaluated_once", test_inner_once)
    end subroutine run_test_interpolation
 
-   !> Room for a step of one position and one quadrature.
+   !> Storage for a step of one position and one quadrature.
    subroutine new_step(t0, h, step)
       real(wp), intent(in) :: t0          !! its start [s]
       real(wp), intent(in) :: h           !! its length [s]
@@ -129,7 +129,7 @@ contains
 
    contains
 
-      !> Greatest deviation within a step from 0.4 to 1.3.
+      !> Maximum deviation within a step from 0.4 to 1.3.
       subroutine deviate(has_inner)
          logical, intent(in) :: has_inner  !! whether the inner derivative is used
 
@@ -151,7 +151,7 @@ contains
 
    end subroutine test_polynomials
 
-   !> Greatest errors within a step of halved lengths, from exact ends.
+   !> Maximum errors within a step of halved lengths, from exact ends.
    subroutine errors_within(has_inner, errors)
       logical, intent(in) :: has_inner         !! whether the inner derivative is used
       real(wp), intent(out) :: errors(:, :)     !! (3, levels) of position, velocity, quadrature [any]

@@ -1,4 +1,4 @@
-!> The multistep methods: how the error answers to the tolerance, norms, stiffness, states between steps, beginning anew.
+!> The multistep methods: how the error answers to the tolerance, norms, stiffness, states between steps, start anew.
 module test_multistep
    use check, only: check_close, check_equal, check_true, suite_t
    use errors, only: error_t

@@ -147,7 +147,7 @@ contains
       call check_equal(error, int(method%count%n_evaluations), 1 + 8*4, "evaluations")
    end subroutine test_evaluations
 
-   !> The deck must give the step; without one the method itself does not go on.
+   !> The deck must give the step; without one the method itself does not continue.
    subroutine test_variable_steps(error)
       type(error_t), allocatable, intent(out) :: error  !! what failed
 

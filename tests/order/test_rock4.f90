@@ -119,7 +119,7 @@ contains
       end do
    end subroutine test_every_degree
 
-   !> Greatest step times spectral radius that a degree is taken for.
+   !> Maximum step times spectral radius that a degree is taken for.
    real(wp) function stretch_of(degree) result(z)
       integer, intent(in) :: degree  !! number of the degree
 

@@ -27,8 +27,8 @@ module deck_fixture
       type(item_t) :: output                      !! section output
       type(item_t), allocatable :: bodies(:)      !! table bodies
       type(item_t), allocatable :: drivers(:)     !! table driver.angle
-      integer :: n_mistake = 0                    !! mistakes found
-      character(:), allocatable :: message        !! mistakes as shown, empty if none
+      integer :: n_mistake = 0                    !! errors found
+      character(:), allocatable :: message        !! errors as shown, empty if none
       character(:), allocatable :: echo           !! the deck written back
    end type reading_t
 

@@ -41,7 +41,7 @@ contains
       type(loaded_t) :: loaded
 
       call load_text(text, loaded, error)
-      if (allocated(error)) error%code = -error%code  ! a mistake of the test
+      if (allocated(error)) error%code = -error%code  ! an error of the test
       if (.not. allocated(error)) call run_to_end(loaded, keeper, summary, error, limits)
    end subroutine run_text
 

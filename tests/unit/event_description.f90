@@ -17,21 +17,21 @@ module event_description
       integer :: n_event = 0                      !! events
       integer :: number(most_steps) = 0           !! (events) number of the function
       real(wp) :: time(most_steps) = 0.0_wp       !! (events) when [s]
-      real(wp) :: residual = 0.0_wp               !! greatest |g| at an event [m]
-      real(wp) :: overlap = 0.0_wp                !! greatest g at the end of a step without event [m]
+      real(wp) :: residual = 0.0_wp               !! maximum |g| at an event [m]
+      real(wp) :: overlap = 0.0_wp                !! maximum g at the end of a step without event [m]
       logical :: is_complete = .false.            !! the end was reached
    end type description_t
 
 contains
 
-   !> Run to the end. At an event the particle goes on through the wall: the function changes its sign.
+   !> Run to the end. At an event the particle continues through the wall: the function changes its sign.
    subroutine run_through(system, y, t_end, method, description, restitution)
       type(particles_t), intent(inout) :: system         !! the system
       real(wp), intent(in) :: y(:)                       !! (n) state at t = 0 [any]
       real(wp), intent(in) :: t_end                      !! end [s]
       class(integrator_t), intent(inout) :: method       !! the integrator, with its controls
       type(description_t), intent(out) :: description                !! what happened
-      real(wp), intent(in), optional :: restitution      !! the particles bounce instead of going on [1]
+      real(wp), intent(in), optional :: restitution      !! the particles bounce instead of continuing [1]
 
       real(wp) :: g(system%n_event), rate(system%n_event)
       integer :: k, n, status
@@ -69,7 +69,7 @@ contains
       type(error_t), allocatable, intent(inout) :: error   !! first failure
       type(description_t), intent(in) :: description                   !! what happened
       integer, intent(in) :: n_event                       !! events expected
-      real(wp), intent(in) :: round_off                    !! greatest |g| at an event [m]
+      real(wp), intent(in) :: round_off                    !! maximum |g| at an event [m]
       character(*), intent(in) :: what                     !! the case
 
       call check_true(error, description%is_complete, what//": comes to its end")

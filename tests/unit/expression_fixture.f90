@@ -40,7 +40,7 @@ contains
       end do
    end subroutine make_symbols
 
-   !> Compile with the parameters above; a mistake fails the test.
+   !> Compile with the parameters above; an error fails the test.
    subroutine compile(error, source, compiled)
       type(error_t), allocatable, intent(inout) :: error  !! first failure
       character(*), intent(in) :: source                  !! the text

@@ -25,7 +25,7 @@ module test_acting_apart
 
    !> A cushion between surfaces.
    type, extends(normal_law_t) :: cushion_t
-      real(wp) :: reach = 0.0_wp   !! h: how far apart surfaces begin to feel it [m]
+      real(wp) :: reach = 0.0_wp   !! h: how far apart surfaces start to feel it [m]
    contains
       procedure, nopass :: info => cushion_info
       procedure :: prepare => cushion_prepare
@@ -44,7 +44,7 @@ contains
       call suite%test("ball_that_never_touches", test_ball_that_never_touches)
    end subroutine run_test_acting_apart
 
-   !> Every geometry, all contacts free, with a cushion twice as thick as the greatest distance: force of each, action and reaction,
+   !> Every geometry, all contacts free, with a cushion twice as thick as the maximum distance: force of each, action and reaction,
    !> power of the loads against the rate of the energy stored.
    subroutine test_free_contacts_act(error)
       type(error_t), allocatable, intent(out) :: error  !! what failed
@@ -130,7 +130,7 @@ contains
 
    !> A cushion.
    function cushion(reach) result(law)
-      real(wp), intent(in) :: reach   !! how far apart surfaces begin to feel it [m]
+      real(wp), intent(in) :: reach   !! how far apart surfaces start to feel it [m]
       type(cushion_t) :: law          !! the law
 
       law%name = "cushion"

@@ -1,4 +1,4 @@
-!> Tapes: what is put comes out, exactly and in order; whoever reads too much gets zeros and is told.
+!> Archives: what is put comes out, exactly and in order; whoever reads too much gets zeros and is reported.
 module test_archive
    use check, only: check_close, check_equal, check_true, suite_t
    use errors, only: error_t
@@ -23,7 +23,7 @@ contains
    subroutine test_round_trip(error)
       type(error_t), allocatable, intent(out) :: error  !! what failed
 
-      integer(i8), parameter :: long = 9007199254740992_i8  ! 2^53: the greatest that is exact
+      integer(i8), parameter :: long = 9007199254740992_i8  ! 2^53: the maximum that is exact
       type(archive_t) :: archive
       character(:), allocatable :: empty, text
       real(wp), allocatable :: list(:), none(:)

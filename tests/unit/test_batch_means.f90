@@ -35,7 +35,7 @@ contains
       end do
    end subroutine test_student
 
-   !> Increments of a straight line that also swings: the mean of a batch is the slope, the swing is left out; without weights it
+   !> Increments of a straight line that also swings: the mean of a batch is the slope, the swing is omitted; without weights it
    !> is not.
    subroutine test_slope(error)
       type(error_t), allocatable, intent(out) :: error  !! what failed

@@ -80,7 +80,7 @@ contains
       call check_equal(error, system%linkage%row_name(2), "loose_4", "name of its rows")
    end subroutine test_sets_share_laws
 
-   !> The twin without clearance has a revolute joint for each, and no events.
+   !> The reference run without clearance has a revolute joint for each, and no events.
    subroutine test_ideal_twin(error)
       type(error_t), allocatable, intent(out) :: error  !! what failed
 

@@ -1,4 +1,4 @@
-!> Every channel of a kind has a number of its own: by that the kind knows it when values are wanted.
+!> Every channel of a kind has a number of its own: by that the kind knows it when values are requested.
 module test_channel_codes
    use check, only: check_true, suite_t
    use errors, only: error_t

@@ -1,4 +1,4 @@
-!> Contacts of the revolute clearance written out by hand; the story that any contact leaves behind.
+!> Contacts of the revolute clearance written out by hand; the description that any contact leaves behind.
 module test_clearance_revolute
    use, intrinsic :: ieee_arithmetic, only: ieee_is_finite
    use check, only: check_close, check_equal, check_true, suite_t

@@ -123,7 +123,7 @@ contains
       end associate
    end subroutine test_mended
 
-   !> A contact begins with less than the limit, with fixed and with variable steps, at no more cost than the halvings.
+   !> A contact starts with less than the limit, with fixed and with variable steps, at no more cost than the halvings.
    subroutine test_rejected(error)
       type(error_t), allocatable, intent(out) :: error  !! what failed
 
@@ -150,7 +150,7 @@ contains
       call check_true(error, 0.5_wp*g*keeper%events(1)%time**2 - fall <= 1.0e-7_wp, "limit by default")
    end subroutine test_rejected
 
-   !> The contact begins at the end of the step that finds it.
+   !> The contact starts at the end of the step that finds it.
    subroutine test_uncontrolled(error)
       type(error_t), allocatable, intent(out) :: error  !! what failed
 
@@ -220,7 +220,7 @@ contains
       end do
    end subroutine test_slider_crank
 
-   !> Saved between two events and loaded into fresh objects, a run goes on to the last bit.
+   !> Saved between two events and loaded into fresh objects, a run continues to the last bit.
    subroutine test_checkpoint(error)
       type(error_t), allocatable, intent(out) :: error  !! what failed
 

@@ -1,4 +1,4 @@
-!> The analysis: what it tells of contacts, in rows of events, and of the energy.
+!> The analysis: what it reports of contacts, in rows of events, and of the energy.
 module test_contact_rows
    use, intrinsic :: ieee_arithmetic, only: ieee_is_nan
    use check, only: check_close, check_equal, check_true, suite_t
@@ -22,7 +22,7 @@ contains
       call suite%test("without_ledger", test_without_ledger)
    end subroutine run_test_contact_rows
 
-   !> Energy m v^2/2 = 2 K d^2.5 / 5 at the greatest penetration d; duration 2.9432 d/v. Source: Hertz (1882).
+   !> Energy m v^2/2 = 2 K d^2.5 / 5 at the maximum penetration d; duration 2.9432 d/v. Source: Hertz (1882).
    subroutine test_elastic_pin(error)
       type(error_t), allocatable, intent(out) :: error  !! what failed
 

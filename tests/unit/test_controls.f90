@@ -1,4 +1,4 @@
-!> The controls of the integrator: fixed, first, least and greatest step, limits of the work, names in a deck.
+!> The controls of the integrator: fixed, first, minimum and maximum step, limits of the work, names in a deck.
 module test_controls
    use check, only: check_close, check_equal, check_true, suite_t
    use deck_scene, only: load_text, loaded_t
@@ -128,7 +128,7 @@ contains
       call check_true(error, method%step%h >= 0.05_wp, "no shorter step was made")
    end subroutine test_minimum_step
 
-   !> As in DVERK: a first or next step below the least is replaced by the least, which is tried.
+   !> As in DVERK: a first or next step below the minimum is replaced by the minimum, which is tried.
    subroutine test_minimum_step_is_tried(error)
       type(error_t), allocatable, intent(out) :: error  !! what failed
 
@@ -322,7 +322,7 @@ contains
       deck = wheel(:place - 1)//turns//wheel(place + 5:)
    end function with_turns
 
-   !> A slow wheel takes the same steps when it begins with a thousand turns done. In the
+   !> A slow wheel takes the same steps when it starts with a thousand turns done. In the
    !> mixed norm of IMSL it does not: there an angle's error counts relative to the angle.
    subroutine test_turns(error)
       type(error_t), allocatable, intent(out) :: error  !! what failed

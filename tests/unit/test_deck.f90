@@ -232,7 +232,7 @@ contains
       call check_equal(error, plain_path("/a/./b/"), "/a/b", "from the root")
    end subroutine test_file_paths
 
-   !> A mistake is shown exactly like this.
+   !> An error is shown exactly like this.
    subroutine test_rendering(error)
       type(error_t), allocatable, intent(out) :: error  !! first failure
 
@@ -296,7 +296,7 @@ contains
       call check_true(error, index(found%message, "error: mistake 1001"//nl) == 1, "those that are kept are sorted")
    end subroutine test_many_mistakes
 
-   !> Several mistakes are found in one go, and none follows from another.
+   !> Several errors are found in one go, and none follows from another.
    subroutine test_several_mistakes(error)
       type(error_t), allocatable, intent(out) :: error  !! first failure
 
@@ -310,7 +310,7 @@ contains
       call check_equal(error, r%bodies(4)%name, "r", "name of a row with a mistake")
    end subroutine test_several_mistakes
 
-   !> A default that is wrong is a mistake too, shown with its own text.
+   !> A default that is wrong is an error too, shown with its own text.
    subroutine test_mistakes_of_defaults(error)
       type(error_t), allocatable, intent(out) :: error  !! first failure
 

@@ -71,7 +71,7 @@ contains
       call check_grid(error, last, 21, 2.8_wp, 0.01_wp)
    end subroutine test_samples_from
 
-   !> The last instant is then before the end; the motion goes on to the end all the same.
+   !> The last instant is then before the end; the motion continues to the end all the same.
    subroutine test_grid_that_does_not_fit(error)
       type(error_t), allocatable, intent(out) :: error  !! what failed
 

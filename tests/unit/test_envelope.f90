@@ -11,7 +11,7 @@ module test_envelope
    private
    public :: run_test_envelope
 
-   real(wp), parameter :: threshold = 1.0e-13_wp  !! least pivot, as a part of its diagonal [1]
+   real(wp), parameter :: threshold = 1.0e-13_wp  !! minimum pivot, as a part of its diagonal [1]
 
 contains
 

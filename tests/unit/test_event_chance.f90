@@ -21,8 +21,8 @@ contains
       call suite%test("ends_that_tell_enough", test_told)
    end subroutine run_test_event_chance
 
-   !> Quartics that bend up to half as much again as the cubic of Hermite through their ends: none is above zero where no room is
-   !> told, and none falls that is told to rise only.
+   !> Quartics that bend up to half as much again as the cubic of Hermite through their ends: none is above zero where no storage is
+   !> reported, and none falls that is reported to rise only.
    subroutine test_room(error)
       type(error_t), allocatable, intent(out) :: error  !! what failed
 
@@ -57,7 +57,7 @@ contains
       call check_true(error, n_none > n_function/10 .and. n_rising > n_function/100, "both are told of many")
    end subroutine test_room
 
-   !> What is told of parabolas.
+   !> What is reported of parabolas.
    subroutine test_told(error)
       type(error_t), allocatable, intent(out) :: error  !! what failed
 

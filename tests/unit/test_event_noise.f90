@@ -26,8 +26,8 @@ module test_event_noise
    type :: description_t
       integer :: n_event = 0                    !! events
       integer :: count(n_wall) = 0              !! (walls) events of each
-      real(wp) :: error = 0.0_wp                !! greatest distance of an event from the nearest crossing [s]
-      real(wp) :: min_rate = huge(1.0_wp)     !! least rate of a function at its event [m/s]
+      real(wp) :: error = 0.0_wp                !! maximum distance of an event from the nearest crossing [s]
+      real(wp) :: min_rate = huge(1.0_wp)     !! minimum rate of a function at its event [m/s]
       integer :: n_meeting = 0                  !! steps that ended at events
       logical :: is_complete = .false.          !! the end was reached
    end type description_t
@@ -60,7 +60,7 @@ contains
       noise = 4.0_wp*eps*(self%far + abs(self%wall) + 1.0_wp)
    end subroutine distant_event_noise
 
-   !> A system with walls at one place, each seen from afar in its own way.
+   !> A system with walls at one place, each observed from afar in its own way.
    subroutine new_distant(pull, stiffness, wall, system)
       real(wp), intent(in) :: pull, stiffness    !! of the particle [m/s^2, 1/s^2]
       real(wp), intent(in) :: wall               !! place of the walls [m]
@@ -73,7 +73,7 @@ contains
       system%far = [(1.0e3_wp*real(k, wp)**1.7_wp/pi, k=1, n_wall)]
    end subroutine new_distant
 
-   !> Run to the end. At an event the particle goes on through the wall: the function changes its sign.
+   !> Run to the end. At an event the particle continues through the wall: the function changes its sign.
    subroutine follow(system, y, t_end, crossings, method, description)
       type(distant_t), intent(inout) :: system       !! the system
       real(wp), intent(in) :: y(:)                   !! (n) state at t = 0 [any]
@@ -160,7 +160,7 @@ contains
       end do
    end subroutine test_parting
 
-   !> One that begins at the walls and approaches is at its events at once.
+   !> One that starts at the walls and approaches is at its events at once.
    subroutine test_approaching(error)
       type(error_t), allocatable, intent(out) :: error  !! what failed
 

@@ -14,7 +14,7 @@ module test_event_search
 
    !> A particle whose event function is a parabola of time, above - (t - apex)^2.
    type, extends(particles_t) :: parabola_t
-      real(wp) :: apex = 0.0_wp    !! where it is greatest [s]
+      real(wp) :: apex = 0.0_wp    !! where it is largest [s]
       real(wp) :: above = 0.0_wp   !! its value there [s^2]
       integer :: n_look = 0        !! times that it was asked for
    contains
@@ -77,7 +77,7 @@ contains
 
    !> A step of one second from the start.
    subroutine one_step(apex, above, system, status, t)
-      real(wp), intent(in) :: apex                !! where the event function is greatest [s]
+      real(wp), intent(in) :: apex                !! where the event function is largest [s]
       real(wp), intent(in) :: above               !! its value there [s^2]
       type(parabola_t), intent(out) :: system     !! the system
       integer, intent(out) :: status              !! how the step ended

@@ -154,7 +154,7 @@ contains
       end do
    end subroutine test_simultaneous
 
-   !> Events within fixed steps; the grid goes on from the event.
+   !> Events within fixed steps; the grid continues from the event.
    subroutine test_fixed_steps(error)
       type(error_t), allocatable, intent(out) :: error  !! what failed
 

@@ -20,7 +20,7 @@ contains
       call suite%test("verdict_of_two_methods", test_verdict_of_two_methods)
    end subroutine run_test_exponent
 
-   !> A stretch of 100 s, exponents by a tangent and a twin, neither of them known yet.
+   !> A stretch of 100 s, exponents by a tangent and a reference run, neither of them known yet.
    subroutine new_horizon(horizon)
       type(horizon_t), intent(out) :: horizon  !! the horizon
 
@@ -32,7 +32,7 @@ contains
       horizon%twin%reason = "not determined"
    end subroutine new_horizon
 
-   !> The method that is known tells.
+   !> The method that is known reports.
    subroutine test_verdict_of_one_method(error)
       type(error_t), allocatable, intent(out) :: error  !! what failed
 
@@ -48,7 +48,7 @@ contains
       call check_equal(error, verdict(horizon), verdict_even, "as a power of time")
    end subroutine test_verdict_of_one_method
 
-   !> Two that differ by more than their intervals tell nothing, whatever each of them says.
+   !> Two that differ by more than their intervals carries no information, whatever each of them says.
    subroutine test_verdict_of_two_methods(error)
       type(error_t), allocatable, intent(out) :: error  !! what failed
 

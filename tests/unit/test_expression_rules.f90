@@ -1,4 +1,4 @@
-!> Rules of expressions: dimensions, radians, mistakes and where they are, how long and deep one may be.
+!> Rules of expressions: dimensions, radians, errors and where they are, how long and deep one may be.
 module test_expression_rules
    use check, only: check_equal, check_true, suite_t
    use errors, only: error_t
@@ -84,7 +84,7 @@ contains
 
    contains
 
-      !> Compile and compare with what is wanted.
+      !> Compile and compare with what is requested.
       subroutine expect(source, wanted, agrees)
          character(*), intent(in) :: source  !! the text
          type(dim_t), intent(in) :: wanted   !! dimension of the place
@@ -98,7 +98,7 @@ contains
 
    end subroutine test_radians
 
-   !> Mistakes are found where they are.
+   !> Errors are found where they are.
    subroutine test_mistakes(error)
       type(error_t), allocatable, intent(out) :: error  !! first failure
 
@@ -135,7 +135,7 @@ contains
 
    contains
 
-      !> Compile and compare the mistake.
+      !> Compile and compare the error.
       subroutine expect(source, first, message)
          character(*), intent(in) :: source   !! the text
          integer, intent(in) :: first         !! first character that is wrong

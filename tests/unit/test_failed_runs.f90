@@ -1,4 +1,4 @@
-!> The analysis: how it ends when it cannot go on, or when the results do not fulfil what they must.
+!> The analysis: how it ends when it cannot continue, or when the results do not fulfil what they must.
 module test_failed_runs
    use check, only: check_close, check_equal, check_true, suite_t
    use deck_scene, only: keeper_t, load_text, loaded_t, run_to_end
@@ -34,7 +34,7 @@ contains
       call suite%test("events_without_end", test_events_without_end)
    end subroutine run_test_failed_runs
 
-   !> A failed run: its exit code, its story, finish is called and the samples so far are kept.
+   !> A failed run: its exit code, its description, finish is called and the samples so far are kept.
    subroutine check_failure(error, mistake, keeper, summary, code, words)
       type(error_t), allocatable, intent(inout) :: error    !! first failure
       type(error_t), allocatable, intent(in) :: mistake     !! what the run says
@@ -144,7 +144,7 @@ contains
       call check_equal(error, keeper%n_sample, 41, "samples before")
    end subroutine test_recorder_fails
 
-   !> A contact that begins and ends and no time passes: said so, not for ever.
+   !> A contact that starts and ends and no time passes: said so, not for ever.
    subroutine test_events_without_end(error)
       type(error_t), allocatable, intent(out) :: error  !! what failed
 

@@ -121,7 +121,7 @@ contains
       call compare(case, 3.0e-3_wp, 12, error)
    end subroutine test_forms
 
-   !> The gap is least where the journal is, and the clearance less the eccentricity; the same of every film.
+   !> The gap is smallest where the journal is, and the clearance less the eccentricity; the same of every film.
    subroutine test_gap(error)
       type(error_t), allocatable, intent(out) :: error  !! what failed
 

@@ -164,7 +164,7 @@ contains
       end do
    end subroutine test_coefficients
 
-   !> Supplies that take all of the bearing are refused in words; the grid is told.
+   !> Supplies that take all of the bearing are refused as text; the grid is reported.
    subroutine test_mistakes(error)
       type(error_t), allocatable, intent(out) :: error  !! what failed
 

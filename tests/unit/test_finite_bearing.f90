@@ -195,7 +195,7 @@ contains
       end do
    end subroutine test_middle
 
-   !> Towards the wall the powers of 1 - eps go on: -3/2 for an approach, -1/2 across, 0 for a journal that parts.
+   !> Towards the wall the powers of 1 - eps continue: -3/2 for an approach, -1/2 across, 0 for a journal that parts.
    subroutine test_wall(error)
       type(error_t), allocatable, intent(out) :: error  !! what failed
 
@@ -215,7 +215,7 @@ contains
       end do
    end subroutine test_wall
 
-   !> A bearing that is too short or too long is refused in words; the film of the deck has its scale.
+   !> A bearing that is too short or too long is refused as text; the film of the deck has its scale.
    subroutine test_range(error)
       type(error_t), allocatable, intent(out) :: error  !! what failed
 

@@ -215,7 +215,7 @@ contains
       call check_close(error, speed, -spin*radius/3.0_wp, 1.0e-4_wp*speed, "a third of the speed of the rim")
    end subroutine test_spinning_disc
 
-   !> A block on two feet under a growing load: neither can be told apart, each takes its part, both let go at one instant.
+   !> A block on two feet under a growing load: neither can be reported apart, each takes its part, both let go at one instant.
    subroutine test_two_corners(error)
       type(error_t), allocatable, intent(out) :: error  !! what failed
 
@@ -264,7 +264,7 @@ contains
 
       call run_deck(on_plane_moving(belt, rate), loaded, keeper, summary, error)
       if (allocated(error)) return
-      ! about the place where the spring balances sliding friction: begins at (excess, V), ends at (-excess, V)
+      ! about the place where the spring balances sliding friction: starts at (excess, V), ends at (-excess, V)
       excess = 0.1_wp*g/rate**2
       arc = pi + 2.0_wp*atan2(belt, excess*rate)
       slipping = arc/rate

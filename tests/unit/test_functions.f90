@@ -81,7 +81,7 @@ contains
       character(*), intent(in) :: tables                         !! tables of functions
       character(*), intent(in) :: source                         !! cell in column fx
       type(expression_t), intent(out) :: expression              !! what it is
-      type(error_t), allocatable, intent(inout) :: error         !! first failure; mistakes in it
+      type(error_t), allocatable, intent(inout) :: error         !! first failure; errors in it
 
       type(scene_t) :: scene
       integer :: k

@@ -103,7 +103,7 @@ contains
       end do
    end subroutine test_grazing_spring
 
-   !> A top exactly on the wall is an event or none, but the run goes on.
+   !> A top exactly on the wall is an event or none, but the run continues.
    subroutine test_touching(error)
       type(error_t), allocatable, intent(out) :: error  !! what failed
 

@@ -1,4 +1,4 @@
-!> The hooks of a system: the step is told, the states given out are held, by every method of the registry.
+!> The hooks of a system: the step is reported, the states given out are held, by every method of the registry.
 module test_hold
    use check, only: check_close, check_equal, check_true, suite_t
    use errors, only: error_t
@@ -22,7 +22,7 @@ module test_hold
       integer :: failure = 0             !! status then
       integer :: n_hold = 0              !! calls of hold
       integer :: n_set = 0               !! calls of set_step
-      real(wp) :: told = 0.0_wp          !! the last step told [s]
+      real(wp) :: told = 0.0_wp          !! the last step reported [s]
    contains
       procedure :: evaluate => circle_evaluate
       procedure :: weights => circle_weights
@@ -202,7 +202,7 @@ contains
             if (modulo(n_event, 2) == 1) then
                call check_close(error, method%step%y1(1), wall, 1.0e-14_wp, name//": on the wall")
                call check_close(error, method%t, pi - acos(wall) + pi*(n_event - 1), 1.0e-3_wp, name//": time of the event")
-               ! go on beyond the wall: the next event is the wall on the other side of the turn
+               ! continue beyond the wall: the next event is the wall on the other side of the turn
                system%wall = 2.0_wp
                call method%restart(system, 0.0_wp, status)
                call pass(method, system, status)
@@ -232,7 +232,7 @@ contains
 
    end subroutine test_events
 
-   !> Every step is told before it is made; of a step that is accepted at once it is the length.
+   !> Every step is reported before it is made; of a step that is accepted at once it is the length.
    subroutine test_steps_are_told(error)
       type(error_t), allocatable, intent(out) :: error  !! what failed
 

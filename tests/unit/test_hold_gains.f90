@@ -1,4 +1,4 @@
-!> Gains of the ways of holding the constraints: what they are when a step begins, what they leave of a violation, which ways are
+!> Gains of the stabilisation methods: what they are when a step starts, what they leave of a violation, which ways are
 !> the same by them, and how they adapt.
 module test_hold_gains
    use augmented_lagrangian, only: augmented_lagrangian_t
@@ -32,7 +32,7 @@ contains
       call suite%test("adaptive_gain", test_adaptive_gain)
    end subroutine run_test_hold_gains
 
-   !> Gains when a step of 1/64 s begins.
+   !> Gains when a step of 1/64 s starts.
    subroutine test_gains(error)
       type(error_t), allocatable, intent(out) :: error  !! what failed
 

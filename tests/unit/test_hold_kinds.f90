@@ -1,5 +1,5 @@
-!> The registered ways of holding the constraints on a free four-bar, whose motion is known from its energy; dependent coordinates
-!> that are chosen anew, and runs that are gone on with.
+!> The registered stabilisation methods on a free four-bar, whose motion is known from its energy; dependent coordinates
+!> that are chosen anew, and runs that are continued with.
 module test_hold_kinds
    use check, only: check_close, check_equal, check_true, suite_t
    use deck_scene, only: keeper_t, load_text, loaded_t, run_to_end
@@ -153,7 +153,7 @@ contains
       end associate
    end subroutine test_partition_follows
 
-   !> Saved in the middle, loaded into fresh objects and gone on with, a run is equal bit for bit.
+   !> Saved in the middle, loaded into fresh objects and continued with, a run is equal bit for bit.
    subroutine test_goes_on(error)
       type(error_t), allocatable, intent(out) :: error  !! what failed
 

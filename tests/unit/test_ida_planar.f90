@@ -64,7 +64,7 @@ contains
       nq = system%n_position
       allocate (ydot(system%n), r_y(system%n), moved(system%n), other(system%n), source=0.0_wp)
       allocate (lambda(m), r_lambda(m), r_mu(m), zero(m), source=0.0_wp)
-      ! rates of the rows if nothing but the known bodies moved
+      ! rates of the rows if nothing but the prescribed bodies moved
       other(1:nq) = y(1:nq)
       call system%dae_residual(0.0_wp, other, ydot, zero, zero, r_y, r_lambda, r_mu, status)
       at_rest = r_lambda
@@ -201,7 +201,7 @@ contains
       call check_true(error, violation(1) < 1.0e-9_wp, "positions on their constraints")
       ! the rates are about 500 rad/s
       call check_true(error, violation(2) < 5.0e-7_wp, "velocities on theirs")
-      ! a whole number of turns at 5000 rpm: back where it began
+      ! a whole number of turns at 5000 rpm: back where it started
       change = method%step%y1(:system%n_position) - y(:system%n_position)
       change(3::3) = change(3::3) - 2.0_wp*pi*nint(change(3::3)/(2.0_wp*pi))
       call check_close(error, change, 0.0_wp*change, 1.0e-7_wp, "positions after five turns")

@@ -260,7 +260,7 @@ contains
       end do
    end subroutine test_after_a_singular_matrix
 
-   !> Matrices come and go; what is left of them does not grow (the checks of addresses would tell a freed one used again).
+   !> Matrices come and go; what is left of them does not grow (the checks of addresses would report a freed one used again).
    subroutine test_many_matrices(error)
       type(error_t), allocatable, intent(out) :: error  !! what failed
 

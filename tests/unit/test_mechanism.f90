@@ -82,7 +82,7 @@ contains
       call check_close(error, ydot_turned(1:6), ydot(1:6), 1.0e-13_wp, "derivative after five turns", relative=.true.)
    end subroutine test_whole_turns
 
-   !> Error scales: the size of the bodies, one radian, these times the greatest rate; turns do not count.
+   !> Error scales: the size of the bodies, one radian, these times the maximum rate; turns do not count.
    subroutine test_error_scales(error)
       type(error_t), allocatable, intent(out) :: error  !! what failed
 
@@ -105,7 +105,7 @@ contains
       y([3, 6, 9]) = y([3, 6, 9]) + 1.0e4_wp*two_pi
       call system%weights(y, scale_turned)
       call check_close(error, scale_turned(1:18), scale(1:18), 0.0_wp, "after many turns")
-      ! at rest: a hundredth of the greatest rate so far, which the crank had
+      ! at rest: a hundredth of the maximum rate so far, which the crank had
       system%linkage%scales%pace = 0.0_wp
       call system%follow_pace(y)
       call check_close(error, system%linkage%scales%pace, 5000.0_wp/60.0_wp*two_pi, 1.0e-9_wp, "pace of the crank")
@@ -120,7 +120,7 @@ contains
 
    contains
 
-      !> Without points: size, and the pace of a stone at rest.
+      !> Without points: size, and the characteristic rate of a stone at rest.
       subroutine check_size(place, expected, falls)
          character(*), intent(in) :: place    !! of the body
          real(wp), intent(in) :: expected     !! size of the bodies [m]

@@ -24,7 +24,7 @@ contains
    subroutine test_round_trip(error)
       type(error_t), allocatable, intent(out) :: error  !! what failed
 
-      integer(i8), parameter :: long = 9007199254740992_i8  ! 2^53: the greatest that is exact
+      integer(i8), parameter :: long = 9007199254740992_i8  ! 2^53: the maximum that is exact
       real(wp) :: row(100), x, list(3)
       integer :: i, place
       integer(i8) :: k
@@ -58,7 +58,7 @@ contains
       call check_equal(error, place, 9, "places read")
    end subroutine test_round_trip
 
-   !> Writing begins after the last place used and touches nothing else.
+   !> Writing starts after the last place used and touches nothing else.
    subroutine test_places(error)
       type(error_t), allocatable, intent(out) :: error  !! what failed
 

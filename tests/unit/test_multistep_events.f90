@@ -141,7 +141,7 @@ contains
       end do
    end subroutine test_start_on_the_wall
 
-   !> First, least and greatest step, and the limits of the work.
+   !> First, minimum and maximum step, and the limits of the work.
    subroutine test_controls(error)
       type(error_t), allocatable, intent(out) :: error  !! what failed
 
@@ -190,7 +190,7 @@ contains
 
    end subroutine test_controls
 
-   !> A checkpoint holds no history: what goes on from it is the same every time, and agrees with the run that was not
+   !> A checkpoint holds no history: what continues from it is the same every time, and agrees with the run that was not
    !> interrupted to the tolerance.
    subroutine test_checkpoint(error)
       type(error_t), allocatable, intent(out) :: error  !! what failed

@@ -53,7 +53,7 @@ contains
 
    contains
 
-      !> Four letters, blanks at the end left out.
+      !> Four letters, blanks at the end omitted.
       function letters_of(from) result(word)
          type(random_t), intent(inout) :: from   !! where numbers come from
          character(:), allocatable :: word       !! the word

@@ -61,7 +61,7 @@ contains
       i = remove_file(path)
    end subroutine test_digits
 
-   !> What is not mere digits: no numbers, no digits before or behind the point, more digits and powers than there is room for.
+   !> What is not mere digits: no numbers, no digits before or behind the point, more digits and powers than there is storage for.
    subroutine test_other_forms(error)
       type(error_t), allocatable, intent(out) :: error  !! what failed
 

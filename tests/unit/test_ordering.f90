@@ -85,11 +85,11 @@ contains
       call check_true(error, all(again == order), "the same order again")
    end subroutine find_order
 
-   !> Greatest distance of neighbours in an order, and the sum over all rows of the distance to the first neighbour.
+   !> Maximum distance of neighbours in an order, and the sum over all rows of the distance to the first neighbour.
    subroutine measure(edge, order, bandwidth, profile)
       integer, intent(in) :: edge(:, :)     !! (2, edges) rows that are neighbours
       integer, intent(in) :: order(:)       !! (n) rows in their order
-      integer, intent(out) :: bandwidth     !! greatest distance
+      integer, intent(out) :: bandwidth     !! maximum distance
       integer, intent(out) :: profile       !! entries of the envelope left of the diagonal
 
       integer :: first(size(order)), k, place(size(order))

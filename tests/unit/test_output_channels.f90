@@ -80,7 +80,7 @@ contains
       character(*), intent(in) :: words                   !! blank-separated words
       integer, intent(in) :: number                       !! of the wrong one
       character(*), intent(in) :: message                 !! what must be said
-      character(*), intent(in) :: hint                    !! how the hint must begin
+      character(*), intent(in) :: hint                    !! how the hint must start
 
       type(catalogue_t) :: scene
       type(selection_t) :: selection
@@ -158,7 +158,7 @@ contains
    subroutine check_figure(error, word, message)
       type(error_t), allocatable, intent(inout) :: error  !! first failure
       character(*), intent(in) :: word                    !! the figure
-      character(*), intent(in) :: message                 !! how the message must begin
+      character(*), intent(in) :: message                 !! how the message must start
 
       type(catalogue_t) :: scene
       type(figure_t), allocatable :: figures(:)

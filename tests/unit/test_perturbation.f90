@@ -11,7 +11,7 @@ module test_perturbation
    private
    public :: run_test_perturbation
 
-   real(wp), parameter :: part = 1.0e-3_wp  !! greatest part of a coordinate by which it is moved [1]
+   real(wp), parameter :: part = 1.0e-3_wp  !! maximum part of a coordinate by which it is moved [1]
 
 contains
 

@@ -1,4 +1,5 @@
-!> Comparing settings: words for settings, distances of runs, contacts one by one, growth of twins, order, front and choice.
+!> Comparing settings: words for settings, distances of runs, contacts one by one, growth of reference runs, order, front and
+!> choice.
 module test_precision
    use check, only: check_close, check_equal, check_true, suite_t
    use errors, only: error_t
@@ -57,7 +58,7 @@ contains
       call check_equal(error, settings(2)%solver, "auto", "the solver chosen for the scene")
    end subroutine test_words
 
-   !> A wrong part is told with the nearest word.
+   !> A wrong part is reported with the nearest word.
    subroutine test_wrong_words(error)
       type(error_t), allocatable, intent(out) :: error  !! what failed
 
@@ -97,7 +98,7 @@ contains
       allocate (run%contacts(0))
    end subroutine make_run
 
-   !> Positions are measured by their range, wherever the origin is, velocities and reactions by the greatest of them.
+   !> Positions are measured by their range, wherever the origin is, velocities and reactions by the maximum of them.
    subroutine test_distances(error)
       type(error_t), allocatable, intent(out) :: error  !! what failed
 
@@ -127,7 +128,7 @@ contains
       call check_close(error, scales_of(a, 3.0_wp, 2.0_wp), [3.0_wp, 1.5_wp, 7.0_wp], 1.0e-15_wp, "scales")
    end subroutine test_scales_at_rest
 
-   !> Contacts are told when they end, so their order in the list says nothing.
+   !> Contacts are reported when they end, so their order in the list says nothing.
    subroutine test_same_contacts(error)
       type(error_t), allocatable, intent(out) :: error  !! what failed
 
@@ -177,7 +178,7 @@ contains
       call check_true(error, .not. is_other, "contacts together have no order")
    end subroutine test_other_contacts
 
-   !> Twins that part as exp(3 t), one after a while: the rate, and the times at which eps exp(3 t) = 10^-k.
+   !> reference runs that part as exp(3 t), one after a while: the rate, and the times at which eps exp(3 t) = 10^-k.
    subroutine test_exponential_growth(error)
       type(error_t), allocatable, intent(out) :: error  !! what failed
 
@@ -202,7 +203,7 @@ contains
       end do
    end subroutine test_exponential_growth
 
-   !> Twins that part as t^2 and less are regular, and keep their digits to the end.
+   !> reference runs that part as t^2 and less are regular, and keep their digits to the end.
    subroutine test_regular_growth(error)
       type(error_t), allocatable, intent(out) :: error  !! what failed
 
@@ -221,7 +222,7 @@ contains
       call check_true(error, all(ieee_is_nan(twins%horizon)), "all digits to the end")
    end subroutine test_regular_growth
 
-   !> A ladder with errors c h^4 above round-off, and one with errors in proportion to the tolerance.
+   !> A tolerance sweep with errors c h^4 above round-off, and one with errors in proportion to the tolerance.
    subroutine test_order(error)
       type(error_t), allocatable, intent(out) :: error  !! what failed
 
@@ -241,7 +242,7 @@ contains
       call check_close(error, study%tol_sweeps(2)%exponent, 1.0_wp, 1.0e-9_wp, "proportionality all the same")
    end subroutine test_order
 
-   !> Two ladders: fixed steps 10^-k/4 of a method of order 4 with a floor of round-off, a cheaper one of tolerances.
+   !> Two tolerance sweeps: fixed steps 10^-k/4 of a method of order 4 with a floor of round-off, a cheaper one of tolerances.
    subroutine make_study(study)
       type(precision_t), intent(out) :: study   !! costs and errors are set
 
@@ -269,7 +270,7 @@ contains
       end do
    end subroutine make_study
 
-   !> The cheapest run that reaches the error wanted, and the front; what failed or is dearer for less is not on it.
+   !> The cheapest run that reaches the error requested, and the front; what failed or is dearer for less is not on it.
    subroutine test_choice(error)
       type(error_t), allocatable, intent(out) :: error  !! what failed
 

@@ -40,7 +40,7 @@ contains
       run%run%values = reshape([0.0_wp, 1.0_wp + error], [1, 2])
    end function run_of
 
-   !> A study of nothing that wants an error of 1e-3.
+   !> A study of nothing that needs an error of 1e-3.
    subroutine new_study(study)
       type(precision_t), intent(out) :: study  !! the study
 

@@ -1,4 +1,4 @@
-!> Bounds of expressions, the places where they are not smooth, and the pace of steps over them.
+!> Bounds of expressions, the places where they are not smooth, and the characteristic rate of steps over them.
 module test_scans
    use check, only: check_close, check_true, suite_t
    use errors, only: error_t

@@ -12,7 +12,7 @@ module test_scene_groups
    private
    public :: run_test_scene_groups
 
-   !> Bodies a and d by a joint, b and e by a spring, c and f by a loose joint; g is free, h is driven.
+   !> Bodies a and d by a joint, b and e by a spring, c and f by a clearance joint; g is free, h is driven.
    character(*), parameter :: deck = &
       "[bodies]"//nl//"name mass[kg] inertia[kg.m^2] x[m] y[m]"//nl//"a 1 1 0 0"//nl//"b 2 1 1 0"//nl//"c 3 1 2 0" &
       //nl//"d 4 1 0 0"//nl//"e 5 1 1 1"//nl//"f 6 1 2 0"//nl//"g 7 1 3 0"//nl//"h 8 1 4 0"//nl//"[points]" &

@@ -81,7 +81,7 @@ contains
    subroutine read_file(path, scene, error)
       character(*), intent(in) :: path                    !! of the deck
       type(scene_t), intent(out) :: scene                 !! what it means
-      type(error_t), allocatable, intent(inout) :: error  !! a mistake
+      type(error_t), allocatable, intent(inout) :: error  !! an error
 
       type(deck_t) :: deck
       type(diagnostics_t) :: mistakes
@@ -184,7 +184,7 @@ contains
              "[analysis.dynamic]"//nl//"end = 1 s"//nl//"[output]"//nl//"every = 1 s"
    end function two_rods
 
-   !> Velocities left out give way to a given one: the rod of 1 m that turns at 3 rad/s moves its middle at 1.5 m/s.
+   !> Velocities omitted give way to a given one: the rod of 1 m that turns at 3 rad/s moves its middle at 1.5 m/s.
    subroutine test_given_velocities(error)
       type(error_t), allocatable, intent(out) :: error  !! what failed
 
@@ -201,7 +201,7 @@ contains
       call assemble(system%linkage, q, v, report, error, is_sparse=.true.)
       if (allocated(error)) return
       call check_close(error, v(1:3), [0.0_wp, 1.5_wp, 3.0_wp], 1.0e-7_wp, "velocities of the first rod")
-      ! of the second only its point at 3 m/s is told: the least rates are those of a free rod that is hit there,
+      ! of the second only its point at 3 m/s is reported: the minimum rates are those of a free rod that is hit there,
       ! in sizes of half a metre: v = 3/(1 + 1) = 1.5 and omega = -(3 - 1.5)/0.5 = -3
       call check_close(error, v(4:6), [0.0_wp, 1.5_wp, -3.0_wp], 1.0e-6_wp, "velocities of the second rod")
    end subroutine test_given_velocities

@@ -1,4 +1,4 @@
-!> The start of a motion: assembly, least corrections, and what cannot be assembled.
+!> The start of a motion: assembly, minimum corrections, and what cannot be assembled.
 module test_start
    use assembly_report, only: assembly_t
    use check, only: check_close, check_equal, check_true, suite_t
@@ -83,7 +83,7 @@ contains
                              "speed of the slider")
          end do
          if (k > 1) cycle
-         ! the loose pin begins in the middle
+         ! the loose pin starts in the middle
          call system%events(0.0_wp, y, delta, rate)
          call check_close(error, delta(1), -0.5e-3_wp, 1.0e-14_wp, "the pin is centred")
       end do
@@ -108,7 +108,7 @@ contains
       call check_close(error, maxval(abs(system%linkage%solution%phi_dot)), 0.0_wp, 1.0e-11_wp, "rate of the violation")
    end subroutine test_far_away
 
-   !> A pendulum with velocities that do not fit: the change is least in m/s over the body's size and rad/s.
+   !> A pendulum with velocities that do not fit: the change is smallest in m/s over the body's size and rad/s.
    subroutine test_min_velocities(error)
       type(error_t), allocatable, intent(out) :: error  !! what failed
 
@@ -363,7 +363,7 @@ contains
 
    end subroutine test_redundant_rows
 
-   !> The surfaces of a loose joint overlap at a given start: the joint and the depth.
+   !> The surfaces of a clearance joint overlap at a given start: the joint and the depth.
    subroutine test_overlap(error)
       type(error_t), allocatable, intent(out) :: error  !! what failed
 

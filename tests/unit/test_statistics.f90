@@ -20,7 +20,7 @@ contains
       call suite%test("histogram_counts_all", histogram_counts_all)
    end subroutine run_test_statistics
 
-   !> Tell a contact.
+   !> Report a contact.
    subroutine tell(events, item, label, onset, duration, speed)
       type(event_list_t), intent(inout) :: events  !! the list
       character(*), intent(in) :: item             !! joint
@@ -53,7 +53,7 @@ contains
       type(event_t) :: slip
       type(joint_statistics_t) :: joint
 
-      ! told when they end, so not in the order of their onsets
+      ! reported when they end, so not in the order of their onsets
       call tell(events, "guide", "B", 2.0_wp, 1.0_wp, 2.0_wp)
       call tell(events, "guide", "A", 1.0_wp, 4.0_wp, 1.0_wp)
       call tell(events, "other", "", 0.0_wp, 10.0_wp, 9.0_wp)
@@ -72,7 +72,7 @@ contains
       call check_close(error, joint%forces, 10.0_wp*joint%speeds, 0.0_wp, "forces beside speeds")
    end subroutine contacts_of_a_joint_are_joined
 
-   !> A contact that began before the window is closed in it, but no impact of it; one that ends behind it is cut.
+   !> A contact that started before the window is closed in it, but no impact of it; one that ends behind it is cut.
    subroutine what_lies_outside_does_not_count(error)
       type(error_t), allocatable, intent(out) :: error  !! what failed
 
@@ -87,7 +87,7 @@ contains
       call check_true(error, size(joint%speeds) == 1, "one impact")
    end subroutine what_lies_outside_does_not_count
 
-   !> Every value is in one bin; the greatest in the last, an edge in the upper one.
+   !> Every value is in one bin; the maximum in the last, an edge in the upper one.
    subroutine histogram_counts_all(error)
       type(error_t), allocatable, intent(out) :: error  !! what failed
 

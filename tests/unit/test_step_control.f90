@@ -54,7 +54,7 @@ contains
       call check_close(error, pace%h_next, 0.1_wp, 1.0e-15_wp, "a tenth at least")
    end subroutine test_smooth
 
-   !> E = (h/h_1)^2.5 where a force begins.
+   !> E = (h/h_1)^2.5 where a force starts.
    subroutine test_rough_start(error)
       type(error_t), allocatable, intent(out) :: error  !! what failed
 
@@ -283,7 +283,7 @@ contains
       allocate (events%is_hidden(size(g1)), source=.false.)
    end subroutine fill
 
-   !> Time to the event that is foretold.
+   !> Time to the event that is predicted.
    real(wp) function ahead(events, h) result(time)
       type(event_values_t), intent(in) :: events   !! the functions
       real(wp), intent(in) :: h                    !! length of the step [s]

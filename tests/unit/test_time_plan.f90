@@ -45,11 +45,11 @@ contains
              "[analysis.dynamic]"//nl//settings//nl//"[output]"//nl//output
    end function rotors
 
-   !> The times of a deck; mistakes are an error.
+   !> The times of a deck; errors are an error.
    subroutine plan_of(deck, plan, error)
       character(*), intent(in) :: deck                    !! the deck
       type(time_plan_t), intent(out) :: plan              !! its times
-      type(error_t), allocatable, intent(inout) :: error  !! first failure; mistakes
+      type(error_t), allocatable, intent(inout) :: error  !! first failure; errors
 
       type(diagnostics_t) :: mistakes
       type(mechanism_t) :: system
@@ -196,7 +196,7 @@ contains
                          "'every' is longer than what is written")
    end subroutine test_mistakes
 
-   !> Fail unless a deck has a mistake in its times.
+   !> Fail unless a deck has an error in its times.
    subroutine check_mistake(error, deck, words)
       type(error_t), allocatable, intent(inout) :: error  !! first failure
       character(*), intent(in) :: deck                  !! the deck

@@ -1,4 +1,4 @@
-!> The queue by time against a search for the least.
+!> The queue by time against a search for the minimum.
 module test_time_queue
    use check, only: check_equal, check_true, suite_t
    use errors, only: error_t

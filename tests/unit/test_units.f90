@@ -1,4 +1,4 @@
-!> Units: factors, dimensions, mistakes, and SI text that reads back.
+!> Units: factors, dimensions, errors, and SI text that reads back.
 module test_units
    use check, only: check_close, check_equal, check_true, suite_t
    use dimension_text, only: base_text, dimension_name, unit_text
@@ -148,7 +148,7 @@ contains
       call check_equal(error, message, "degC stands alone only; use K in a compound unit", "degC/s")
    end subroutine test_temperature
 
-   !> Mistakes and where they are.
+   !> Errors and where they are.
    subroutine test_mistakes(error)
       type(error_t), allocatable, intent(out) :: error  !! first failure
 

@@ -1,4 +1,4 @@
-!> Velocities at the start: what the deck gives stays, what it leaves out follows, what contradicts is reported.
+!> Velocities at the start: what the deck gives stays, what it omits follows, what contradicts is reported.
 module test_velocities
    use assembly_report, only: assembly_t
    use check, only: check_close, check_equal, check_true, suite_t
@@ -137,7 +137,7 @@ contains
       call check_equal(error, report%changed_body, 2, "body that was changed")
    end subroutine test_contradiction
 
-   !> A driver is stronger than a given angular velocity; the change is told in m/s, times the size of the bodies.
+   !> A driver is stronger than a given angular velocity; the change is reported in m/s, times the size of the bodies.
    subroutine test_driver(error)
       type(error_t), allocatable, intent(out) :: error  !! what failed
 

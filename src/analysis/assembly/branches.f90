@@ -44,7 +44,7 @@ contains
 
    end subroutine check_branches
 
-   !> What of joints does not fit where they are closed: warnings.
+   !> What of joints does not match where they are closed: warnings.
    subroutine find_doubts(linkage, warnings)
       type(linkage_t), intent(in) :: linkage                   !! the system, assembled
       type(text_t), allocatable, intent(inout) :: warnings(:)  !! (n) grown

@@ -2,7 +2,7 @@
 !> aside.
 !>
 !> Rounding by e makes rows that should depend on one another independent, with singular values of the order of e: the loop does
-!> not close, or cannot move. Gauss-Newton's iteration without singular values below delta finds positions of the least misfit
+!> not close, or cannot move. Gauss-Newton's iteration without singular values below delta finds positions of the minimum misfit
 !> nearby; delta is raised until it is well above the misfit found. Then rows are taken one by one, each time that of which most
 !> is independent of those taken, those of drivers last; what depends on the others, to delta, is set aside. This counts as
 !> rounding if the misfit is within `closing_tolerance`, all drivers are independent, and no row set aside would bend by more
@@ -24,7 +24,7 @@ module closing_fit
    private
    public :: fit_loops, misfit_words
 
-   real(wp), parameter :: minimum = 1.0e-7_wp          !! delta to begin with [1]
+   real(wp), parameter :: minimum = 1.0e-7_wp          !! delta to start with [1]
    real(wp), parameter :: most = 0.1_wp              !! delta that is too much [1]
    real(wp), parameter :: above = 30.0_wp            !! delta over the misfit, at least [1]
    real(wp), parameter :: higher = 10.0_wp           !! the next delta over one that does not do [1]
@@ -33,17 +33,17 @@ module closing_fit
    real(wp), parameter :: bent = 0.1_wp              !! second-order form of rows that hold something, of its terms [1]
    real(wp), parameter :: rank_tolerance = 1.0e-9_wp !! of the least squares for combinations [1]
    integer, parameter :: n_newton = 60               !! corrections allowed
-   integer, parameter :: most_named = 3              !! joints whose misfit is told
+   integer, parameter :: most_named = 3              !! joints whose misfit is reported
 
 contains
 
    !> Fit the loops of a linkage that does not close, or whose drivers cannot move it. If it counts as rounding, rows are set aside;
-   !> positions are those of the least misfit found either way.
+   !> positions are those of the minimum misfit found either way.
    subroutine fit_loops(linkage, q_given, is_closed, q, report, is_fitted)
       type(linkage_t), intent(inout) :: linkage   !! the bodies and their rows
-      real(wp), intent(in) :: q_given(:)          !! (n_q bodies) positions to begin with [any]
+      real(wp), intent(in) :: q_given(:)          !! (n_q bodies) positions to start with [any]
       logical, intent(in) :: is_closed            !! these are closed: it is the motion that rows do not agree on
-      real(wp), intent(inout) :: q(:)             !! (n_q bodies) positions of the least misfit; else left alone [any]
+      real(wp), intent(inout) :: q(:)             !! (n_q bodies) positions of the minimum misfit; else left alone [any]
       type(assembly_t), intent(inout) :: report   !! rows set aside and why
       logical, intent(out) :: is_fitted           !! it is fitted
 
@@ -74,7 +74,7 @@ contains
       call evaluate_rows(linkage, 0.0_wp, q, rest)
    end subroutine fit_loops
 
-   !> Positions of the least misfit near some, singular values below a part of the greatest left out.
+   !> Positions of the minimum misfit near some, singular values below a part of the maximum omitted.
    subroutine close_in_least_squares(linkage, delta, q, is_settled)
       type(linkage_t), intent(inout) :: linkage   !! the bodies and their rows; evaluated at rest there
       real(wp), intent(in) :: delta               !! the part [1]
@@ -107,7 +107,7 @@ contains
    subroutine set_rows_aside(linkage, q, delta, is_closed, report, is_fitted)
       type(linkage_t), intent(inout) :: linkage   !! the bodies and their rows, evaluated at the positions; rows are set aside
       real(wp), intent(in) :: q(:)                !! (n_q bodies) positions [any]
-      real(wp), intent(in) :: delta               !! least part of a row that is independent [1]
+      real(wp), intent(in) :: delta               !! minimum part of a row that is independent [1]
       logical, intent(in) :: is_closed            !! nothing is open there
       type(assembly_t), intent(inout) :: report   !! rows set aside and why
       logical, intent(out) :: is_fitted           !! it is rounding
@@ -171,7 +171,7 @@ contains
       real(wp), intent(in) :: jac(:, :)        !! (rows, n) scaled Jacobian [1]
       logical, intent(in) :: is_driver(:)      !! (rows) rows of drivers
       integer, intent(in) :: n_solve           !! rows that are solved for, the first ones
-      real(wp), intent(in) :: threshold        !! least part of a row that is left [1]
+      real(wp), intent(in) :: threshold        !! minimum part of a row that is left [1]
       logical, intent(out) :: is_kept(:)       !! (rows) rows that are independent
 
       real(wp) :: left(size(jac, 1), size(jac, 2)), part(size(jac, 1)), x(size(jac, 2))
@@ -223,7 +223,7 @@ contains
       end do
    end subroutine combine
 
-   !> How far joints are open, those with the greatest misfit first.
+   !> How far joints are open, those with the maximum misfit first.
    function misfit_words(linkage) result(words)
       type(linkage_t), intent(in) :: linkage    !! the bodies and their rows, evaluated
       character(:), allocatable :: words        !! as "'b2' is off by 0.0022 mm and 0.0001 deg"

@@ -1,9 +1,9 @@
 !> A start that fulfils the constraints: positions by Newton's iteration, velocities in one step.
 !>
-!> Each correction is the least one (`row_corrections`), with lengths measured in sizes of the bodies and angles in
+!> Each correction is the minimum one (`row_corrections`), with lengths measured in sizes of the bodies and angles in
 !> radians: the bodies stay as near to where the deck puts them as the joints let them.
 !> Phi_q dq = -Phi until Phi is at round-off;  Phi_q dv = -(Phi_q v + Phi_t).
-!> Velocities that the deck leaves out give way before those that it gives. Where there are many rows the corrections are those of
+!> Velocities that the deck omits give way before those that it gives. Where there are many rows the corrections are those of
 !> `sparse_start`.
 !> Source: Flores et al. (2008), section 2.2, eqs. (2.10), (2.13). Limits: a position near the start
 !> that the deck gives.
@@ -22,8 +22,8 @@ module consistent_start
    private
    public :: assemble
 
-   real(wp), parameter :: agreed = 1.0e-8_wp            !! greatest rate left over of consistent velocities, of the rates [1]
-   real(wp), parameter :: closed = 1.0e-10_wp           !! greatest scaled violation of an assembled mechanism [1]
+   real(wp), parameter :: agreed = 1.0e-8_wp            !! maximum rate left over of consistent velocities, of the rates [1]
+   real(wp), parameter :: closed = 1.0e-10_wp           !! maximum scaled violation of an assembled mechanism [1]
    real(wp), parameter :: round_off = 1.0e-15_wp        !! scaled violation at which Newton stops early [1]
    real(wp), parameter :: give_way = 1.0e4_wp           !! how much easier a velocity changes that is not given [1]
    integer, parameter :: n_newton = 50                  !! corrections of positions allowed
@@ -84,7 +84,7 @@ contains
 
    contains
 
-      !> Positions of a loop that closes but for the digits of the deck; else the misfit is told.
+      !> Positions of a loop that closes but for the digits of the deck; else the misfit is reported.
       subroutine fit_positions()
          q_fit = q
          call fit_loops(linkage, q_given, .false., q_fit, report, is_fitted)
@@ -108,7 +108,7 @@ contains
          call find_velocities()
       end subroutine fit_velocities
 
-      !> The least change of the velocities that makes them consistent.
+      !> The minimum change of the velocities that makes them consistent.
       subroutine find_velocities()
          integer :: k
 
@@ -148,7 +148,7 @@ contains
          end do
       end subroutine close_positions
 
-      !> The least change of positions or velocities.
+      !> The minimum change of positions or velocities.
       subroutine correct(change)
          real(wp), intent(in) :: change(:)  !! (rows) what the rows should change by [m or rad, or rates]
 

@@ -1,6 +1,6 @@
 !> Drivers that contradict each other at the start, found when a mechanism cannot be assembled.
 !>
-!> What a least correction leaves open is spread over all joints of a loop, so the joint that is most open says little. A
+!> What a minimum correction leaves open is spread over all joints of a loop, so the joint that is most open says little. A
 !> driver, or a speed at the start, takes part in a contradiction if the mechanism can be assembled without it; two of them
 !> contradict each other.
 module driver_conflict

@@ -17,8 +17,8 @@ module mobility
    private
    public :: drives, find_mobility, joint_names, mobility_t, moving_bodies, split_space, stiffest_driver
 
-   real(wp), parameter :: takes_part = 1.0e-6_wp   !! least entry of a unit vector that counts [1]
-   integer, parameter :: most_names = 8            !! names told in a message
+   real(wp), parameter :: takes_part = 1.0e-6_wp   !! minimum entry of a unit vector that counts [1]
+   integer, parameter :: most_names = 8            !! names reported in a message
 
    !> What is free, and which drivers are in excess.
    type :: mobility_t
@@ -29,7 +29,7 @@ module mobility
       logical, allocatable :: is_driver(:)         !! (rows) rows of drivers
       logical, allocatable :: is_excess(:)         !! (rows) rows of drivers that others prescribe already
       real(wp), allocatable :: freedom(:)          !! (bodies) how much each body can still move, 0 to 1 [1]
-      real(wp), allocatable :: weakest(:)          !! (rows) left singular vector of the least singular value [1]
+      real(wp), allocatable :: weakest(:)          !! (rows) left singular vector of the minimum singular value [1]
    end type mobility_t
 
 contains
@@ -86,7 +86,7 @@ contains
       integer, intent(out) :: rank                        !! independent rows
       real(wp), allocatable, intent(out) :: left(:, :)    !! (rows, rows) left singular vectors [1]
       real(wp), allocatable, intent(out) :: free(:, :)    !! (n, n - rank) free motions [1]
-      real(wp), intent(in), optional :: tolerance         !! least ratio of singular values, if another than usual [1]
+      real(wp), intent(in), optional :: tolerance         !! minimum ratio of singular values, if another than usual [1]
 
       real(wp), allocatable :: a(:, :), s(:), vt(:, :), work(:)
       real(wp) :: minimum
@@ -136,7 +136,7 @@ contains
       is_excess(drivers(order(1:rank))) = .false.
    end subroutine find_excess
 
-   !> The driver that takes the greatest part in the least singular value: the one that meets a dead centre.
+   !> The driver that takes the maximum part in the minimum singular value: the one that meets a dead centre.
    integer function stiffest_driver(mobility) result(row)
       type(mobility_t), intent(in) :: mobility  !! at a position near the dead centre
 

@@ -26,12 +26,12 @@ module prescribed_motion
 
    real(wp), parameter :: round_off = 1.0e-15_wp     !! scaled violation at which Newton stops early [1]
    real(wp), parameter :: near_singular = 1.0e-6_wp  !! ratio of singular values below which positions, known to round-off, do
-                                                     !! not tell rates any more, because they sit where the ratio is zero [1]
+                                                     !! not report rates any more, because they sit where the ratio is zero [1]
    real(wp), parameter :: contradiction = 1.0e-8_wp  !! scaled rate left, of the largest, that cannot be round-off [1]
 
    !> Controls and cost of Newton's iteration.
    type :: newton_t
-      real(wp) :: tolerance = 1.0e-10_wp       !! greatest scaled violation that counts as closed [1]
+      real(wp) :: tolerance = 1.0e-10_wp       !! maximum scaled violation that counts as closed [1]
       integer :: most = 25                     !! corrections allowed
       integer(i8) :: n_solved = 0              !! linear equations solved so far
    end type newton_t

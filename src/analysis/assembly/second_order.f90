@@ -1,11 +1,11 @@
 !> What rows do to motions that they allow to first order: the second-order test of rigidity.
 !>
-!> With free motions v, Phi_q v = 0, and self-stresses w, w^T Phi_q = 0, a motion v goes on to second order if
+!> With free motions v, Phi_q v = 0, and self-stresses w, w^T Phi_q = 0, a motion v continues to second order if
 !>
 !> $$ w^T (\Phi_q v)_q v = 0 $$
 !>
 !> for all w. Where a combination of self-stresses makes this form semidefinite and not zero, motions outside its kernel end as they
-!> begin: the assembly is infinitesimally mobile (shaky). In linkages that move, as Bennett's, the form vanishes; where branches of
+!> start: the assembly is infinitesimally mobile (shaky). In linkages that move, as Bennett's, the form vanishes; where branches of
 !> the motion meet, as in a flat parallelogram, it is indefinite.
 !>
 !> Source: R. Connelly and W. Whiteley, Second-order rigidity and prestress stability for tensegrity frameworks, SIAM J. Discrete

@@ -1,4 +1,4 @@
-!> Assemblies at a position where rows lose rank and a motion that begins there cannot go on: shaky ones, and dead centres.
+!> Assemblies at a position where rows lose rank and a motion that starts there cannot continue: shaky ones, and dead centres.
 !>
 !> See `second_order` for the test. A self-stress in which a driver takes part is a dead centre: the driver holds, or asks for, what
 !> the mechanism cannot give there to first order.
@@ -16,11 +16,11 @@ module shaky
    public :: find_shaky, name_dead_centre
 
    real(wp), parameter :: dependent = 1.0e-6_wp   !! singular value that counts as none: positions are known to its square [1]
-   real(wp), parameter :: takes_part = 1.0e-3_wp  !! least part of a row in a self-stress [1]
+   real(wp), parameter :: takes_part = 1.0e-3_wp  !! minimum part of a row in a self-stress [1]
 
 contains
 
-   !> Refuse an assembly whose joints make it infinitesimally mobile. Drivers are left out: with them it is a dead centre.
+   !> Refuse an assembly whose joints make it infinitesimally mobile. Drivers are omitted: with them it is a dead centre.
    subroutine find_shaky(linkage, q, error)
       type(linkage_t), intent(inout) :: linkage          !! the bodies and their rows; evaluated at rest
       real(wp), intent(in) :: q(:)                       !! (n_q bodies) assembled positions [any]
@@ -103,7 +103,7 @@ contains
    pure function moved_by(linkage, motions) result(part)
       type(linkage_t), intent(in) :: linkage   !! the bodies
       real(wp), intent(in) :: motions(:, :)    !! (n_v bodies, any) scaled motions [1]
-      real(wp) :: part(linkage%bodies%n)       !! (bodies) greatest part of each, of that of the body that moves most [1]
+      real(wp) :: part(linkage%bodies%n)       !! (bodies) maximum part of each, of that of the body that moves most [1]
 
       integer :: k
 

@@ -20,7 +20,7 @@ module shared_friction
    private
    public :: find_shared_friction
 
-   real(wp), parameter :: share = 1.0e-6_wp  !! normal force times the size of the bodies, of the greatest scaled multiplier [1]
+   real(wp), parameter :: share = 1.0e-6_wp  !! normal force times the size of the bodies, of the maximum scaled multiplier [1]
 
 contains
 
@@ -57,10 +57,10 @@ contains
       end associate
    end subroutine find_shared_friction
 
-   !> Whether any combination changes the normal force of an item that rubs.
+   !> Whether any combination changes the normal force of an item that has friction.
    logical function presses(set, m, x, length)
       class(joint_set_t), intent(in) :: set   !! the set
-      integer, intent(in) :: m                !! place among the items that rub
+      integer, intent(in) :: m                !! place among the items with friction
       real(wp), intent(in) :: x(:, :)         !! (rows, combinations) multipliers [N or N.m]
       real(wp), intent(in) :: length          !! size of the bodies [m]
 

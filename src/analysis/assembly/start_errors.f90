@@ -48,7 +48,7 @@ contains
                      trim(merge(" rad", " m  ", linkage%rows%is_angle(row)))//new_line("a")//"  = "//hint)
    end subroutine position_error
 
-   !> Say by how much joints are off at positions of the least misfit.
+   !> Say by how much joints are off at positions of the minimum misfit.
    subroutine name_misfit(linkage, q, report)
       type(linkage_t), intent(inout) :: linkage          !! the system; rows are evaluated there
       real(wp), intent(in) :: q(:)                       !! (n_q bodies) these positions [any]
@@ -60,13 +60,13 @@ contains
                       *linkage%scales%length, 3)//" mm and "//real_text(linkage%scales%misfit*180.0_wp/pi, 3)//" deg"
    end subroutine name_misfit
 
-   !> The row between axes, far from zero, that small turns help least; 0: they help all. Of axes with an angle theta between them
+   !> The row between axes, far from zero, that small turns help minimum; 0: they help all. Of axes with an angle theta between them
    !> it is cos(theta), which changes by sin(theta) with it.
    pure integer function dead_row(linkage) result(row)
       type(linkage_t), intent(in) :: linkage     !! the system, rows evaluated
 
-      real(wp), parameter :: far = 0.5_wp        ! least violation of such a row [1]
-      real(wp), parameter :: dead = 0.05_wp      ! greatest entry, of the violation, of a row that small turns hardly help [1]
+      real(wp), parameter :: far = 0.5_wp        ! minimum violation of such a row [1]
+      real(wp), parameter :: dead = 0.05_wp      ! maximum entry, of the violation, of a row that small turns hardly help [1]
       real(wp) :: help, minimum
       integer :: k
 
@@ -102,7 +102,7 @@ contains
       real(wp), intent(in) :: right(:)                   !! (rows) rates of the violations left [m/s or rad/s]
       type(error_t), allocatable, intent(out) :: error   !! the message
 
-      real(wp), parameter :: guilty = 0.1_wp  ! least share of the greatest residual of a row that is named too [1]
+      real(wp), parameter :: guilty = 0.1_wp  ! minimum share of the maximum residual of a row that is named too [1]
       character(:), allocatable :: others
       real(wp) :: scaled(linkage%rows%n)
       integer :: k, row

@@ -1,8 +1,8 @@
 !> Motion in time: drives the parts of a mechanism from event to event and hands everything to a recorder.
 !>
-!> A run is saved where its recorder wishes, after any step, and goes on from there as if nothing had been. A method with a history
-!> that it does not save, and several parts with steps of their own, can be saved at instants only that the plan sets: there all
-!> steps end, and what was saved is taken back at once, so that a run that is ended there and resumed does the same.
+!> A run is saved where its recorder requested actions, after any step, and continues from there as if nothing had been. A method
+!> with a history that it does not save, and several parts with steps of their own, can be saved at instants only that the plan
+!> sets: there all steps end, and what was saved is taken back at once, so that a run that is ended there and resumed does the same.
 module dynamic
    use catalogue, only: catalogue_t
    use contact_monitor, only: close_open
@@ -43,14 +43,14 @@ module dynamic
       logical :: is_stopped = .false.            !! it was ended from outside
       real(wp) :: saved_at = -1.0_wp             !! time of the motion at which it was saved last; negative: it was not [s]
       real(wp) :: cpu_before = 0.0_wp            !! processor time used before it was resumed [s]
-      real(wp) :: cpu_begin = 0.0_wp             !! processor time of the program at its begin [s]
+      real(wp) :: cpu_begin = 0.0_wp             !! processor time of the program at its start [s]
    end type run_t
 
    interface
-      !> Go on from what was saved, instead of from the start.
+      !> Continue from what was saved, instead of from the start.
       module subroutine go_on(run, saved, recorder, error)
          implicit none (type, external)
-         type(run_t), intent(inout) :: run                   !! state of the run, begun
+         type(run_t), intent(inout) :: run                   !! state of the run, started
          type(saved_run_t), intent(inout) :: saved           !! what was remembered
          class(recorder_t), intent(inout) :: recorder        !! keeps the results
          type(error_t), allocatable, intent(out) :: error    !! it is another run's
@@ -86,7 +86,8 @@ contains
       class(recorder_t), intent(inout) :: recorder                !! keeps the results
       type(summary_t), intent(out) :: summary                     !! cost and errors
       type(error_t), allocatable, intent(out) :: error            !! the integration failed, or a file could not be written
-      type(saved_run_t), allocatable, intent(inout), optional :: saved  !! what the run goes on from; absent, unallocated: it begins
+      type(saved_run_t), allocatable, intent(inout), optional :: saved  !! what the run continues from; absent, unallocated: it
+                                                                        !! starts
       type(catalogue_t), allocatable, intent(inout), optional :: catalogue  !! what the system can report, taken over
 
       type(error_t), allocatable :: late_error
@@ -109,7 +110,7 @@ contains
       call cpu_time(cpu_1)
       aside = run%tally%aside%seconds() + run%sampler%aside%seconds()
       call run%sampler%finish(run%whole, plan, run%tally%residual, recorder, late_error)
-      if (allocated(error) .and. allocated(late_error)) deallocate (late_error)  ! told already
+      if (allocated(error) .and. allocated(late_error)) deallocate (late_error)  ! reported already
       if (.not. allocated(late_error)) call close_contacts(run, recorder, late_error)
       if (allocated(late_error) .and. .not. allocated(error)) call move_alloc(late_error, error)
       call system_clock(clock_1)
@@ -133,7 +134,7 @@ contains
       type(time_plan_t), intent(in) :: plan               !! times
       type(limits_t), intent(in) :: limits                !! the time that it may take
       class(recorder_t), intent(inout) :: recorder        !! keeps the results
-      type(saved_run_t), allocatable, intent(inout), optional :: saved  !! what the run goes on from; none: it begins
+      type(saved_run_t), allocatable, intent(inout), optional :: saved  !! what the run continues from; none: it starts
       type(error_t), allocatable, intent(out) :: error    !! the integration failed, or a file could not be written
 
       integer :: n_since_progress
@@ -204,13 +205,13 @@ contains
       if (is_due .or. (requested_action /= action_none .and. can_save)) call save_now(run, plan, recorder, error)
    end subroutine heed
 
-   !> All parts begin.
+   !> All parts start.
    subroutine begin(run, y, plan, recorder, error)
       type(run_t), intent(inout) :: run                   !! state of the run
       real(wp), intent(in) :: y(:)                        !! (n) state at t = 0 [any]
       type(time_plan_t), intent(in) :: plan               !! times
       class(recorder_t), intent(inout) :: recorder        !! keeps the results
-      type(error_t), allocatable, intent(out) :: error    !! it cannot begin
+      type(error_t), allocatable, intent(out) :: error    !! it cannot start
 
       real(wp), allocatable :: own(:)
       integer :: p
@@ -225,7 +226,7 @@ contains
       end associate
    end subroutine begin
 
-   !> Films of all parts as they begin.
+   !> Films of all parts as they start.
    subroutine look_at_films(run)
       type(run_t), intent(inout) :: run  !! state of the run
 
@@ -302,12 +303,12 @@ contains
       call run%tally%aside%come_back()
    end subroutine look_for_stop
 
-   !> Handle the events at the ends of the last steps of the parts at the front, and go on from there.
+   !> Handle the events at the ends of the last steps of the parts at the front, and continue from there.
    subroutine handle_events(run, plan, recorder, error)
       type(run_t), intent(inout) :: run                   !! state of the run
       type(time_plan_t), intent(in) :: plan               !! times
       class(recorder_t), intent(inout) :: recorder        !! keeps the results
-      type(error_t), allocatable, intent(out) :: error    !! a file could not be written, or no way to go on
+      type(error_t), allocatable, intent(out) :: error    !! a file could not be written, or no way to continue
 
       integer :: k, n
 
@@ -326,7 +327,7 @@ contains
       integer, intent(in) :: parts(:)                     !! (any) parts at the front that have events
       type(time_plan_t), intent(in) :: plan               !! times
       class(recorder_t), intent(inout) :: recorder        !! keeps the results
-      type(error_t), allocatable, intent(out) :: error    !! a file could not be written, or no way to go on
+      type(error_t), allocatable, intent(out) :: error    !! a file could not be written, or no way to continue
 
       integer :: k
 
@@ -344,7 +345,7 @@ contains
       type(run_t), intent(inout) :: run                   !! state of the run
       type(time_plan_t), intent(in) :: plan               !! times
       class(recorder_t), intent(inout) :: recorder        !! keeps the results
-      type(error_t), allocatable, intent(out) :: error    !! a file could not be written, or no way to go on
+      type(error_t), allocatable, intent(out) :: error    !! a file could not be written, or no way to continue
 
       integer :: k, n
 

@@ -1,11 +1,11 @@
-!> A run is saved, and goes on from what was saved.
+!> A run is saved, and continues from what was saved.
 submodule(dynamic) dynamic_memory
    use run_memory, only: load_run, save_run
    implicit none (type, external)
 
 contains
 
-   !> Go on from what was saved, instead of from the start.
+   !> Continue from what was saved, instead of from the start.
    module procedure go_on
       call load_run(saved, run%whole, run%sampler, run%tally, run%stop, run%cpu_before, error)
       if (.not. allocated(error)) call recorder%go_on(saved, error)

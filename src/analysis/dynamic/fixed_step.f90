@@ -1,7 +1,7 @@
-!> Whether the fixed step of a method is too long for the motion. Such a method has no error estimate: what comes of it is told by
-!> whatever looks at states, as joints torn apart or energy made of nothing, which is not the cause.
+!> Whether the fixed step of a method is too long for the motion. Such a method has no error estimate: what comes of it is reported
+!> by whatever looks at states, as joints torn apart or energy made of nothing, which is not the cause.
 !>
-!> From where the last step began one step of the set length is made, and the same time is gone through by 4, 16, ... steps.
+!> From where the last step started one step of the set length is made, and the same time is gone through by 4, 16, ... steps.
 !> It is too long if they get there and it does not, or if it leads elsewhere, by more than `apart` of the error scales. Where they
 !> do not get there either, the cause is another one. Contacts stay as they are meanwhile: no event is met.
 module fixed_step

@@ -40,7 +40,7 @@ module moving_part
       real(wp) :: lost = 0.0_wp           !! what its contacts have lost by then [J]
    end type part_ledger_t
 
-   !> The greatest violation of the constraints of a part.
+   !> The maximum violation of the constraints of a part.
    type :: violation_t
       real(wp) :: worst = 0.0_wp          !! so far, over the size of the bodies or a radian [1]
       integer :: row = 0                  !! the row it belongs to
@@ -55,7 +55,7 @@ module moving_part
       type(guards_t) :: guards                             !! what no mechanism does
       type(output_times_t) :: output_times                         !! when its functions of time are not smooth
       type(velocity_jumps_t) :: jumps                      !! drivers whose velocity jumps there
-      logical :: must_follow = .false.                     !! something goes on from step to step, see `step_follower`
+      logical :: must_follow = .false.                     !! something continues from step to step, see `step_follower`
       logical :: has_branches = .false.                    !! joints may reach an unintended branch, see there
       integer :: status = 0                                !! how its last step ended; an event, until it is handled
       integer :: n_idle = 0                                !! events since the last time that time passed
@@ -67,7 +67,7 @@ module moving_part
 
 contains
 
-   !> A part that has not begun.
+   !> A part that has not started.
    subroutine new_part(system, method, output_times, guards, part)
       type(mechanism_t), intent(inout), target :: system      !! its equations
       class(integrator_t), intent(inout), target :: method    !! its integrator
@@ -84,14 +84,14 @@ contains
       call new_contact_monitor(system, part%monitor)
    end subroutine new_part
 
-   !> Begin at a state at t = 0.
+   !> Start at a state at t = 0.
    subroutine begin_part(part, y, end, tally, recorder, error)
       type(moving_part_t), intent(inout) :: part          !! the part, new
       real(wp), intent(in) :: y(:)                        !! (n) state at t = 0 [any]
       real(wp), intent(in) :: end                         !! end of the motion [s]
       type(run_tally_t), intent(inout) :: tally           !! of the run
       class(recorder_t), intent(inout) :: recorder        !! keeps the results
-      type(error_t), allocatable, intent(out) :: error    !! it cannot begin
+      type(error_t), allocatable, intent(out) :: error    !! it cannot start
 
       type(energy_t) :: energy
       integer :: status
@@ -180,12 +180,12 @@ contains
       end associate
    end subroutine see_step
 
-   !> Handle the events at the end of the last step, and go on from there.
+   !> Handle the events at the end of the last step, and continue from there.
    subroutine handle_part_events(part, tally, recorder, error)
       type(moving_part_t), intent(inout) :: part          !! the part
       type(run_tally_t), intent(inout) :: tally           !! of the run
       class(recorder_t), intent(inout) :: recorder        !! keeps the results
-      type(error_t), allocatable, intent(out) :: error    !! a file could not be written, or no way to go on
+      type(error_t), allocatable, intent(out) :: error    !! a file could not be written, or no way to continue
 
       type(event_t) :: row
       character(:), allocatable :: ended
@@ -247,7 +247,7 @@ contains
       type(moving_part_t), intent(inout) :: part          !! the part, at the instant
       type(run_tally_t), intent(inout) :: tally           !! of the run
       class(recorder_t), intent(inout) :: recorder        !! keeps the results
-      type(error_t), allocatable, intent(out) :: error    !! a file could not be written, or no way to go on
+      type(error_t), allocatable, intent(out) :: error    !! a file could not be written, or no way to continue
 
       real(wp), allocatable :: before(:)
       integer :: status
@@ -276,7 +276,7 @@ contains
             call describe_failure(system, method, constraints_lost, error)
             return
          end if
-         part%monitor%shift = 0.0_wp  ! no contact began here
+         part%monitor%shift = 0.0_wp  ! no contact started here
          call part%monitor%after_restart(system, method)
          call note_jumps(system, method)
       end associate
@@ -353,12 +353,12 @@ contains
 
    end subroutine look_at_energy
 
-   !> Decide which contacts slip or stick, and tell of those that begin to.
+   !> Decide which contacts slip or stick, and report of those that start to.
    subroutine decide_slips(part, t, y, only_new, recorder, error)
       type(moving_part_t), intent(inout) :: part          !! the part, its motion that of the state
       real(wp), intent(in) :: t                           !! time [s]
       real(wp), intent(in) :: y(:)                        !! (n) state [any]
-      logical, intent(in) :: only_new                     !! only where a contact has begun
+      logical, intent(in) :: only_new                     !! only where a contact has started
       class(recorder_t), intent(inout) :: recorder        !! keeps the results
       type(error_t), allocatable, intent(out) :: error    !! a file could not be written
 
@@ -377,7 +377,7 @@ contains
       end do
    end subroutine decide_slips
 
-   !> Tell of contacts that slide the other way behind the events of the last step.
+   !> Report of contacts that slide the other way behind the events of the last step.
    subroutine tell_reversals(part, ways, recorder, error)
       type(moving_part_t), intent(in) :: part             !! the part, all its contacts decided
       real(wp), intent(in) :: ways(:, :)                  !! (3, events) where they slid to before [1]

@@ -2,7 +2,7 @@
 !>
 !> Every coordinate of every body is moved, and its velocity changed, by a random number, equally likely between minus and
 !> plus the amplitude of [ensemble]; the angle by that over the radius of gyration, so that all coordinates move alike.
-!> `find_start` then assembles the mechanism anew, its loose joints loose: what drivers and joints hold goes back, what is
+!> `find_start` then assembles the mechanism anew, its clearance joints loose: what drivers and joints hold goes back, what is
 !> free stays moved. The numbers follow from the seed and the number of the run alone: a run is the same whatever runs
 !> beside it and whatever parameters are swept.
 !>
@@ -50,8 +50,8 @@ contains
       class(coordinates_t), intent(in) :: coordinates  !! of these
       integer, intent(in) :: seed           !! of the random numbers
       integer, intent(in) :: member         !! number of the run, from 1
-      real(wp), intent(in) :: length        !! greatest displacement [m]
-      real(wp), intent(in) :: speed         !! greatest change of a velocity [m/s]
+      real(wp), intent(in) :: length        !! maximum displacement [m]
+      real(wp), intent(in) :: speed         !! maximum change of a velocity [m/s]
       type(shift_t) :: shift                !! the perturbation
 
       integer :: first, k, last
@@ -70,7 +70,7 @@ contains
       end do
    end function random_shift
 
-   !> Begin the random numbers of a run.
+   !> Start the random numbers of a run.
    subroutine begin_numbers(seed, member)
       integer, intent(in) :: seed     !! of all runs
       integer, intent(in) :: member   !! number of the run
@@ -91,7 +91,7 @@ contains
       class(shift_t), intent(inout) :: self              !! the perturbation
       class(coordinates_t), intent(in) :: coordinates    !! of the bodies
       integer, intent(in) :: n                           !! how many bodies
-      real(wp), intent(in) :: part                       !! greatest part [1]
+      real(wp), intent(in) :: part                       !! maximum part [1]
 
       call begin_numbers(1, 1)
       allocate (self%part_of_q(coordinates%n_q*n), self%part_of_v(coordinates%n_v*n))

@@ -1,4 +1,4 @@
-!> Why a motion in time cannot be followed to its end, in words.
+!> Why a motion in time cannot be followed to its end, as text.
 module run_failure
    use, intrinsic :: ieee_arithmetic, only: ieee_is_finite
    use errors, only: error_t, exit_file, exit_integration, set_error
@@ -25,7 +25,7 @@ module run_failure
 
 contains
 
-   !> Say when, where and why the integration cannot go on, and what to try.
+   !> Say when, where and why the integration cannot continue, and what to try.
    subroutine describe_failure(system, method, status, error, reason)
       type(mechanism_t), intent(inout) :: system      !! the system
       class(integrator_t), intent(inout) :: method        !! the integrator; fixed steps: its last step is lost
@@ -180,7 +180,7 @@ contains
       end associate
    end function wedged_joint
 
-   !> The touching contact with the greatest penetration.
+   !> The touching contact with the maximum penetration.
    function deepest_contact(system, method) result(words)
       type(mechanism_t), intent(inout) :: system   !! the system
       class(integrator_t), intent(in) :: method        !! the integrator
@@ -246,7 +246,7 @@ contains
       end select
    end function advice
 
-   !> That a run was ended from outside, and whether it can go on.
+   !> That a run was ended from outside, and whether it can continue.
    function stopped_words(t, saved_at, n_part) result(words)
       real(wp), intent(in) :: t              !! where it was stopped [s]
       real(wp), intent(in) :: saved_at       !! time of its last checkpoint, negative: none [s]

@@ -1,5 +1,5 @@
-!> All that a motion must remember to go on: of each part the integrator's memory, the system's, what is watched of the contacts,
-!> where ledger and events stand; of the whole what is reported, sums and what guards and drivers' jumps have noted.
+!> All that a motion must remember to continue: of each part the integrator's memory, the system's, what is monitored of the
+!> contacts, where ledger and events stand; of the whole what is reported, sums and what guards and drivers' jumps have noted.
 !>
 !> A part that takes it back is, with a one-step method, equal bit for bit to the one that was not interrupted. What was saved by
 !> another method, another mechanism or another form is refused by name, and nothing is changed.
@@ -60,10 +60,10 @@ contains
       end associate
    end subroutine save_run
 
-   !> Take it back into a run of the same deck that has begun.
+   !> Take it back into a run of the same deck that has started.
    subroutine load_run(saved, whole, sampler, tally, stop, cpu, error)
       type(saved_run_t), intent(inout) :: saved            !! what was remembered
-      type(whole_motion_t), intent(inout) :: whole         !! the motion, begun
+      type(whole_motion_t), intent(inout) :: whole         !! the motion, started
       type(sampler_t), intent(inout) :: sampler            !! what is reported
       type(run_tally_t), intent(inout) :: tally            !! sums and maxima
       type(stop_t), intent(inout) :: stop                  !! conditions that end the run, looked at at the start
@@ -136,10 +136,11 @@ contains
       end associate
    end subroutine save_part_memory
 
-   !> Take it back into a part of a run of the same deck that has begun; the search for instants is brought to where the motion is.
+   !> Take it back into a part of a run of the same deck that has started; the search for instants is brought to where the motion
+   !> is.
    subroutine load_part_memory(checkpoint, part, error)
       type(checkpoint_t), intent(in) :: checkpoint         !! what was remembered
-      type(moving_part_t), intent(inout) :: part           !! the part, begun
+      type(moving_part_t), intent(inout) :: part           !! the part, started
       type(error_t), allocatable, intent(out) :: error     !! it is another run's; nothing is changed
 
       type(smooth_segment_t) :: segment

@@ -19,7 +19,7 @@ module run_summary
    private
    public :: sum_up
 
-   integer, parameter :: many_steps = 100000       !! from which on a run is told what makes its steps short
+   integer, parameter :: many_steps = 100000       !! from which on a run is reported what makes its steps short
 
 contains
 

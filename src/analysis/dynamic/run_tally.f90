@@ -1,4 +1,4 @@
-!> What a run adds up and holds the greatest of, over all parts of the mechanism.
+!> What a run adds up and holds the maximum of, over all parts of the mechanism.
 module run_tally
    use kinds, only: wp
    use archive, only: archive_t
@@ -10,17 +10,17 @@ module run_tally
    !> Sums and maxima.
    type :: run_tally_t
       integer :: events = 0                       !! located events
-      integer :: contacts = 0                     !! contacts that began
+      integer :: contacts = 0                     !! contacts that started
       type(output_time_t) :: aside                 !! CPU time spent on writing events
       real(wp) :: residual = 0.0_wp               !! of the ledger at the last steps [J]
       real(wp) :: level = 0.0_wp                  !! kinetic + elastic energy + |change of potential| there [J]
       real(wp) :: magnitude = 0.0_wp              !! of what the ledger adds up there [J]
       real(wp) :: lost = 0.0_wp                   !! what contacts have lost by then [J]
-      real(wp) :: min_lost = 0.0_wp             !! least of it so far: negative, they made energy [J]
-      real(wp) :: residual_max = 0.0_wp           !! greatest |residual| [J]
-      real(wp) :: energy_max = 0.0_wp             !! greatest level [J]
-      real(wp) :: violation_max = 0.0_wp          !! greatest |Phi|; rotations times 1 m [m]
-      real(wp) :: violation_rate_max = 0.0_wp     !! greatest |dPhi/dt| [m/s]
+      real(wp) :: min_lost = 0.0_wp             !! minimum of it so far: negative, they made energy [J]
+      real(wp) :: residual_max = 0.0_wp           !! maximum |residual| [J]
+      real(wp) :: energy_max = 0.0_wp             !! maximum level [J]
+      real(wp) :: violation_max = 0.0_wp          !! maximum |Phi|; rotations times 1 m [m]
+      real(wp) :: violation_rate_max = 0.0_wp     !! maximum |dPhi/dt| [m/s]
    contains
       procedure :: save => save_tally
       procedure :: load => load_tally

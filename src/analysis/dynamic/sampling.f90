@@ -1,7 +1,7 @@
 !> When a motion is reported: output instants, instants once per period of the drive, those of contacts, and that at which a
 !> condition ends the run.
 !>
-!> Of a contact: its onset, the moment after it began; its peaks, the greatest normal force so far; its end, the moment before it
+!> Of a contact: its onset, the moment after it started; its peaks, the maximum normal force so far; its end, the moment before it
 !> ended. Where a normal force jumps there are two rows of the same time, the limits from before and from after.
 module sampling
    use catalogue, only: catalogue_t
@@ -41,7 +41,7 @@ module sampling
       integer(i8), private :: n_last_sample = 0  !! number of the last output instant, from 0
       real(wp) :: due = -huge(1.0_wp)            !! only peaks are to be taken before that; early if it is not known [s]
       real(wp), private :: t_row = -1.0_wp       !! time of the last row [s]
-      logical, private :: has_onset = .false.    !! of the events in hand: a contact begins
+      logical, private :: has_onset = .false.    !! of the events in hand: a contact starts
       logical, private :: has_jump = .false.     !! of the events in hand: a normal force may jump
       real(wp), allocatable, private :: y(:)     !! (n) state that is reported [any]
       real(wp), allocatable, private :: ydot(:)  !! (n) its derivative [any]
@@ -127,11 +127,11 @@ module sampling
          type(error_t), allocatable, intent(out) :: error    !! a file could not be written
       end subroutine before_instant
 
-      !> The row after the events, where a contact began or a force may have jumped.
+      !> The row after the events, where a contact started or a force may have jumped.
       module subroutine after_events(self, whole, parts, plan, residual, recorder, error)
          implicit none (type, external)
          class(sampler_t), intent(inout) :: self             !! what is reported
-         type(whole_motion_t), intent(inout) :: whole        !! the motion, its parts begun again
+         type(whole_motion_t), intent(inout) :: whole        !! the motion, its parts started again
          integer, intent(in) :: parts(:)                     !! (any) parts that had events
          type(time_plan_t), intent(in) :: plan               !! times
          real(wp), intent(in) :: residual                    !! of the ledger at the last step [J]
@@ -158,7 +158,7 @@ module sampling
 
 contains
 
-   !> Room for the reports of a system.
+   !> Storage for the reports of a system.
    subroutine new_sampler(system, plan, sampler, catalogue)
       type(mechanism_t), intent(in) :: system       !! the system
       type(time_plan_t), intent(in) :: plan         !! times
@@ -291,7 +291,7 @@ contains
       call self%stride%forget()
    end subroutine forget
 
-   !> The end of the run: the row of a contact whose greatest force is that of the last instant, and films.
+   !> The end of the run: the row of a contact whose maximum force is that of the last instant, and films.
    subroutine finish_samples(self, whole, plan, residual, recorder, error)
       class(sampler_t), intent(inout) :: self             !! what is reported
       type(whole_motion_t), intent(inout) :: whole        !! the motion, at the end
@@ -311,7 +311,7 @@ contains
       if (.not. allocated(error)) call self%films%tell_rest(whole%system, min(whole%t, self%until), recorder)
    end subroutine finish_samples
 
-   !> A row at the time that all have reached, if it is wanted; what it costs is set aside.
+   !> A row at the time that all have reached, if it is requested; what it costs is set aside.
    subroutine put_row_here(self, whole, plan, kind, shift, residual, recorder, error)
       class(sampler_t), intent(inout) :: self             !! what is reported
       type(whole_motion_t), intent(inout) :: whole        !! the motion
@@ -328,7 +328,7 @@ contains
       call self%aside%come_back()
    end subroutine put_row_here
 
-   !> A row beside those of output instants, if it is wanted and within what is written.
+   !> A row beside those of output instants, if it is requested and within what is written.
    subroutine put_row(self, whole, plan, t, kind, residual, recorder, error, at_peak, shift)
       class(sampler_t), intent(inout) :: self             !! what is reported
       type(whole_motion_t), intent(inout) :: whole        !! the motion
@@ -358,7 +358,7 @@ contains
       self%n_row(kind) = self%n_row(kind) + 1
    end subroutine put_row
 
-   !> Whether a row beside those of output instants is wanted.
+   !> Whether a row beside those of output instants is requested.
    pure logical function wants_row(recorder, plan, kind, t)
       class(recorder_t), intent(in) :: recorder   !! keeps the results
       type(time_plan_t), intent(in) :: plan       !! times

@@ -1,4 +1,4 @@
-!> What is told of a motion between its rows: extremes, stroboscopic instants, films.
+!> What is reported of a motion between its rows: extremes, stroboscopic instants, films.
 submodule(sampling) sampling_between
    use interpolation, only: fit_inner, inner_places, interpolate
    implicit none (type, external)
@@ -72,7 +72,7 @@ contains
       call report_state(system, t, self%y, self%ydot, residual, self%catalogue, status)
    end subroutine report_between
 
-   !> Entries of a state that are wanted.
+   !> Entries of a state that are requested.
    pure integer function n_of(system)
       type(mechanism_t), intent(in) :: system         !! the system
 

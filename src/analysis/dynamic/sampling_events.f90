@@ -41,7 +41,7 @@ contains
       call forget(self)
    end procedure before_instant
 
-   !> The row after the events, where a contact began or a force may have jumped.
+   !> The row after the events, where a contact started or a force may have jumped.
    module procedure after_events
       if (.not. (self%has_onset .or. self%has_jump)) return
       call put_row_here(self, whole, plan, merge(row_onset, row_jump, self%has_onset), maxval(whole%parts(parts)%monitor%shift), &

@@ -1,4 +1,4 @@
-!> Where a motion begins: assembled positions, consistent velocities, no overlap; redundant rows are found and named.
+!> Where a motion starts: assembled positions, consistent velocities, no overlap; redundant rows are found and named.
 module start_state
    use assembly_report, only: assembly_t
    use build_system, only: levels_ideal, new_system
@@ -22,7 +22,7 @@ module start_state
 
    real(wp), parameter :: touching = 1.0e-9_wp  !! overlap that counts as none, of the clearance [1]
 
-   !> Where the mechanism with ideal joints begins; nothing is allocated until it was assembled.
+   !> Where the mechanism with ideal joints starts; nothing is allocated until it was assembled.
    type :: ideal_start_t
       real(wp), allocatable :: q(:)   !! (n_q bodies) positions [any]
       real(wp), allocatable :: v(:)   !! (n_v bodies) velocities [m/s or rad/s]
@@ -33,10 +33,10 @@ contains
 
    !> State at t = 0 of a system of the scene.
    !>
-   !> `start = ideal` assembles the mechanism with its loose joints taken as ideal, `start = given`
+   !> `start = ideal` assembles the mechanism with its clearance joints taken as ideal, `start = given`
    !> only the ideal joints; both move the bodies as little as possible, with what holds only at the start there while
    !> assembling, then no more. `start = static` searches the equilibrium at t = 0. Rows of the system that runs may depend
-   !> on one another: it is told. A mechanism that was assembled with ideal joints before, for a system with other ones, is not
+   !> on one another: it is reported. A mechanism that was assembled with ideal joints before, for a system with other ones, is not
    !> assembled again.
    subroutine find_start(scene, levels, system, y, report, error, shift, ideal)
       type(scene_t), intent(in) :: scene                    !! the scene
@@ -129,7 +129,7 @@ contains
                      //"  = use another method, or joints without redundancy")
    end subroutine check_method
 
-   !> The static equilibrium at t = 0, its contacts begun.
+   !> The static equilibrium at t = 0, its contacts started.
    subroutine start_at_rest(scene, system, q, v, report, error)
       type(scene_t), intent(in) :: scene                    !! the scene
       type(mechanism_t), intent(inout) :: system        !! the system that will run
@@ -201,12 +201,12 @@ contains
 
    end function redundancy_text
 
-   !> No loose joint may begin with its surfaces overlapping, unless the deck says that it is preloaded: then its contact
-   !> has begun, with the rate of the penetration as impact speed; a law's floor takes the place of one that is less.
+   !> No clearance joint may start with its surfaces overlapping, unless the deck says that it is preloaded: then its contact
+   !> has started, with the rate of the penetration as impact speed; a law's floor takes the place of one that is less.
    subroutine look_at_overlap(system, y, is_preload, error)
       type(mechanism_t), intent(inout) :: system       !! the system
       real(wp), intent(in) :: y(:)                         !! (n) state [any]
-      logical, intent(in) :: is_preload                    !! overlap is wanted
+      logical, intent(in) :: is_preload                    !! overlap is requested
       type(error_t), allocatable, intent(out) :: error     !! names the joint and the depth
 
       real(wp) :: delta(system%clearance_joints%n_contact), rate(system%clearance_joints%n_contact)

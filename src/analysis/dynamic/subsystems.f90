@@ -26,7 +26,7 @@ module subsystems
       integer, allocatable :: body(:)                   !! (bodies) numbers in the whole
       integer, allocatable :: slot(:)                   !! (contacts) sets of the whole
       integer, allocatable :: contact(:)                !! (contacts) contacts of these sets
-      integer, allocatable :: rubbing(:)                !! (joints that rub) their numbers among those of the whole
+      integer, allocatable :: rubbing(:)                !! (joints with friction) their numbers among those of the whole
    end type subsystem_t
 
 contains
@@ -74,7 +74,7 @@ contains
    !> Why a scene is integrated as one whatever its groups are; blank if it need not.
    function reason_to_stay(scene) result(reason)
       type(scene_t), intent(in) :: scene      !! the scene
-      character(:), allocatable :: reason     !! in words
+      character(:), allocatable :: reason     !! as text
 
       integer :: k
 
@@ -111,12 +111,12 @@ contains
       if (reason /= "") words = to_text(groups%n)//" independent groups of bodies, integrated together ("//reason//")"
    end function grouping_words
 
-   !> The loose joints of the whole, by name.
+   !> The clearance joints of the whole, by name.
    subroutine list_clearance_joints(system, table, slot, item)
       type(mechanism_t), intent(in) :: system            !! the whole
       type(name_table_t), intent(out) :: table           !! their names
-      integer, allocatable, intent(out) :: slot(:)       !! (loose joints) set of each
-      integer, allocatable, intent(out) :: item(:)       !! (loose joints) its number there
+      integer, allocatable, intent(out) :: slot(:)       !! (clearance joints) set of each
+      integer, allocatable, intent(out) :: item(:)       !! (clearance joints) its number there
 
       type(text_t), allocatable :: names(:)
       integer :: i, k, n
@@ -134,10 +134,10 @@ contains
       call table%list(names)
    end subroutine list_clearance_joints
 
-   !> The ideal joints that rub, by name.
+   !> The ideal joints with friction, by name.
    function rubbing_names(system) result(names)
       type(mechanism_t), intent(in) :: system    !! a system
-      type(text_t), allocatable :: names(:)      !! (joints that rub) in the order of its list
+      type(text_t), allocatable :: names(:)      !! (joints with friction) in the order of its list
 
       integer :: k
 
@@ -166,9 +166,9 @@ contains
    !> Where the contacts of a subsystem are in the whole; what they remember is taken over.
    subroutine find_contacts(system, table, slot, item, subsystem)
       type(mechanism_t), intent(in) :: system            !! the whole
-      type(name_table_t), intent(in) :: table            !! names of its loose joints
-      integer, intent(in) :: slot(:)                     !! (loose joints) set of each
-      integer, intent(in) :: item(:)                     !! (loose joints) its number there
+      type(name_table_t), intent(in) :: table            !! names of its clearance joints
+      integer, intent(in) :: slot(:)                     !! (clearance joints) set of each
+      integer, intent(in) :: item(:)                     !! (clearance joints) its number there
       type(subsystem_t), intent(inout) :: subsystem      !! its places are set
 
       integer :: i, joint, k, m

@@ -26,7 +26,7 @@ module velocity_jumps
    !> What is remembered of them.
    type :: velocity_jumps_t
       integer :: n = 0                                 !! jumps so far that are of note
-      integer :: row = 0                               !! row of the greatest of them
+      integer :: row = 0                               !! row of the maximum of them
       real(wp) :: t = 0.0_wp                           !! when it was [s]
       real(wp) :: jump = 0.0_wp                        !! how far its Phi_t jumped [m/s or rad/s]
       real(wp) :: work = 0.0_wp                        !! work of the drivers in all of them [J]
@@ -99,7 +99,7 @@ contains
       end associate
    end subroutine after_instant
 
-   !> Tell of them at the end of a run.
+   !> Report of them at the end of a run.
    subroutine warn(self, system, warnings)
       class(velocity_jumps_t), intent(in) :: self             !! what is remembered
       type(mechanism_t), intent(in) :: system             !! the system

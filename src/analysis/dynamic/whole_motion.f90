@@ -26,13 +26,13 @@ module whole_motion
       real(wp) :: t = 0.0_wp                                 !! time that all have reached [s]
       integer, allocatable :: front(:)                       !! (parts) those that are there, the first n_front
       integer :: n_front = 0                                 !! how many
-      logical :: is_smooth = .true.                          !! the motion goes on as it is: no part there has an event or an
+      logical :: is_smooth = .true.                          !! the motion continues as it is: no part there has an event or an
                                                              !! instant, or a guard that ends the run
-      integer :: n_peak = 0                                  !! parts with peaks to be told
+      integer :: n_peak = 0                                  !! parts with peaks to be reported
       type(output_times_t) :: output_times  !! of several parts: when functions of time of any are not smooth
       type(subsystem_t), pointer, private :: places(:) => null()  !! (parts) where they are in the whole; a single part: none
       type(time_queue_t), private :: queue                   !! parts that are ahead, by their time
-      integer, allocatable, private :: with_peak(:)          !! (parts) those with peaks to be told, the first n_peak
+      integer, allocatable, private :: with_peak(:)          !! (parts) those with peaks to be reported, the first n_peak
       real(wp), allocatable, private :: q(:), v(:)           !! (n_q bodies), (n_v bodies) scratch: coordinates and rates [any]
       real(wp), allocatable, private :: y(:)                 !! (most of a part) scratch: state of a part [any]
    contains
@@ -147,7 +147,7 @@ contains
       end do
    end subroutine whole_move_front
 
-   !> Note that a part has peaks to be told.
+   !> Note that a part has peaks to be reported.
    pure subroutine note_peak(self, part)
       type(whole_motion_t), intent(inout) :: self   !! the motion
       integer, intent(in) :: part                   !! number of the part
@@ -156,7 +156,7 @@ contains
       self%with_peak(self%n_peak) = part
    end subroutine note_peak
 
-   !> Whether a part goes on as it is: without an event or an instant where it is, or a guard that ends the run.
+   !> Whether a part continues as it is: without an event or an instant where it is, or a guard that ends the run.
    pure logical function goes_on(part)
       type(moving_part_t), intent(in) :: part   !! the part
 
@@ -164,7 +164,7 @@ contains
                        .or. allocated(part%guards%reason))
    end function goes_on
 
-   !> Time of the first peak that is not told; far away if there is none.
+   !> Time of the first peak that is not reported; far away if there is none.
    pure real(wp) function whole_next_peak(self) result(t)
       class(whole_motion_t), intent(in) :: self   !! the motion
 
@@ -176,7 +176,7 @@ contains
       end do
    end function whole_next_peak
 
-   !> The peaks up to a time are told, or need not be.
+   !> The peaks up to a time are reported, or need not be.
    subroutine whole_drop_peaks(self, t)
       class(whole_motion_t), intent(inout) :: self   !! the motion
       real(wp), intent(in) :: t                      !! the time [s]
@@ -206,7 +206,7 @@ contains
       end do
    end subroutine whole_note_row
 
-   !> Whether the present force of a contact of a part at the front is its greatest so far, and no row tells it.
+   !> Whether the present force of a contact of a part at the front is its maximum so far, and no row reports it.
    pure logical function whole_owes_row(self) result(owes)
       class(whole_motion_t), intent(in) :: self   !! the motion
 
@@ -310,8 +310,8 @@ contains
       if (shift > 0.0_wp .and. t >= part%method%t) y = y + shift*part%method%step%f1
    end subroutine part_state_at
 
-   !> Contacts and joints that rub of a part in the whole: what they remember, and their places in the state; works and losses of
-   !> the ledger.
+   !> Contacts and joints with friction of a part in the whole: what they remember, and their places in the state; works and losses
+   !> of the ledger.
    subroutine add_contacts(whole, place, system, own, y)
       type(mechanism_t), intent(inout) :: whole        !! the whole
       type(subsystem_t), intent(in) :: place           !! the part

@@ -159,7 +159,7 @@ contains
       type(time_plan_t), intent(in) :: plan               !! times
       type(newton_t), intent(inout) :: newton             !! controls and cost
       type(output_times_t), intent(inout) :: output_times         !! the next one is passed
-      type(channel_peaks_t), intent(inout) :: peaks       !! begin anew
+      type(channel_peaks_t), intent(inout) :: peaks       !! start anew
       class(recorder_t), intent(inout) :: recorder        !! keeps the results
       type(catalogue_t), intent(inout) :: catalogue       !! what is reported
       type(summary_t), intent(inout) :: summary           !! cost and errors so far
@@ -329,7 +329,7 @@ contains
 
       type(energy_t) :: energy
       integer, parameter :: most_turns = 100         ! of friction in joints and reactions, at most
-      real(wp), parameter :: same = 1.0e-12_wp       ! change of friction forces that ends them, of the greatest [1]
+      real(wp), parameter :: same = 1.0e-12_wp       ! change of friction forces that ends them, of the maximum [1]
       real(wp) :: change, unbalanced, y(size(state%q) + size(state%v))
       integer :: turn
 
@@ -349,7 +349,7 @@ contains
       summary%quality%violation_rate_max = max(summary%quality%violation_rate_max, maxval(abs(system%linkage%solution%phi_dot)))
    end subroutine report
 
-   !> Say when, where and why the motion cannot go on, and what to try.
+   !> Say when, where and why the motion cannot continue, and what to try.
    subroutine describe_failure(system, state, t, outcome, newton, error)
       type(mechanism_t), intent(inout) :: system      !! the system, rows evaluated at the instant that failed
       type(state_t), intent(in) :: state                  !! the last motion found

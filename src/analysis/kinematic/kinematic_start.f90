@@ -1,4 +1,4 @@
-!> Where a kinematic analysis begins: assembled positions, and a driver for every degree of freedom.
+!> Where a kinematic analysis starts: assembled positions, and a driver for every degree of freedom.
 module kinematic_start
    use assembly_report, only: assembly_t
    use consistent_start, only: assemble
@@ -21,7 +21,7 @@ contains
 
    !> Assemble at t = 0 and count freedoms against drivers.
    !>
-   !> Drivers that contradict each other keep the mechanism from being assembled; then it is told which
+   !> Drivers that contradict each other keep the mechanism from being assembled; then it is reported which
    !> of them is in excess, not which joint stays open.
    subroutine find_kinematic_start(scene, system, q, report, mobility, error)
       type(scene_t), intent(in) :: scene                    !! the scene
@@ -104,7 +104,7 @@ contains
                      "  = add one driver per degree of freedom, or use [analysis.dynamic]")
    end subroutine refuse_missing
 
-   !> A number of freedoms in words.
+   !> A number of freedoms as text.
    function freedoms(n) result(words)
       integer, intent(in) :: n               !! the number
       character(:), allocatable :: words     !! as `2 degrees of freedom`
@@ -113,7 +113,7 @@ contains
       if (n == 1) words = "1 degree of freedom"
    end function freedoms
 
-   !> A number of drivers in words.
+   !> A number of drivers as text.
    function drivers(n) result(words)
       integer, intent(in) :: n               !! the number
       character(:), allocatable :: words     !! as `2 drivers`

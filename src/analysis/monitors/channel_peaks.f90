@@ -37,7 +37,7 @@ module channel_peaks
    type :: channel_peaks_t
       integer, allocatable :: place(:)                !! (n) of the numbers in the values of the catalogue; unallocated: none
       integer, private :: n_row = 0                   !! rows since the last event, at most 3
-      real(wp), private :: from = -huge(1.0_wp)       !! extremes begin anew there [s]
+      real(wp), private :: from = -huge(1.0_wp)       !! extremes start anew there [s]
       real(wp), private :: t(3) = 0.0_wp              !! (3) times of the last rows, the latest is the last [s]
       real(wp), allocatable, private :: y(:, :)       !! (m, 3) states there [any]
       real(wp), allocatable, private :: ydot(:, :)    !! (m, 3) their derivatives [any]
@@ -47,9 +47,9 @@ module channel_peaks
       type(text_t), allocatable, private :: units(:)  !! (n) SI
       real(wp), allocatable, private :: noise(:)      !! (n) what of them is round-off, by the rows so far [any]
       integer(i8), private :: n_written = 0           !! written rows so far
-      real(wp), allocatable, private :: minimum(:)      !! (n) the least so far [any]
-      real(wp), allocatable, private :: most(:)       !! (n) the greatest so far [any]
-      type(bracket_t), private :: search              !! what is looked for
+      real(wp), allocatable, private :: minimum(:)      !! (n) the minimum so far [any]
+      real(wp), allocatable, private :: most(:)       !! (n) the maximum so far [any]
+      type(bracket_t), private :: search              !! what is searched
       type(step_t) :: pair                            !! the two rows around the instant that is asked for
       integer, private :: first = 0                   !! number of the first of these two; 0: none
    contains
@@ -68,13 +68,13 @@ module channel_peaks
 
 contains
 
-   !> Begin with numbers of the catalogue. Forces and penetrations of contacts have rows at their peaks, and the residual of the
+   !> Start with numbers of the catalogue. Forces and penetrations of contacts have rows at their peaks, and the residual of the
    !> ledger is known at the ends of steps only.
    subroutine begin_peaks(self, catalogue, place, from, m)
       class(channel_peaks_t), intent(inout) :: self  !! the peaks
       type(catalogue_t), intent(in) :: catalogue     !! what is reported
       integer, intent(in) :: place(:)                !! (n) places in its values
-      real(wp), intent(in) :: from                   !! extremes begin anew there [s]
+      real(wp), intent(in) :: from                   !! extremes start anew there [s]
       integer, intent(in) :: m                       !! numbers of a state; 0: states are found otherwise
 
       integer :: g, group_of(size(catalogue%values)), k, n
@@ -167,7 +167,7 @@ contains
                                      max(self%t(3), 0.0_wp))
    end subroutine count_row
 
-   !> The next instant at which a number is wanted.
+   !> The next instant at which a number is requested.
    pure subroutine ask_instant(self, t, is_there)
       class(channel_peaks_t), intent(inout) :: self  !! the peaks
       real(wp), intent(out) :: t                     !! between the last rows [s]
@@ -278,7 +278,7 @@ contains
       is_first = self%search%n == 0
    end function is_first
 
-   !> Tell a recorder of an extreme: no other number of the catalogue is one there.
+   !> Report a recorder of an extreme: no other number of the catalogue is one there.
    subroutine tell_between(t, place, catalogue, recorder)
       real(wp), intent(in) :: t                           !! time [s]
       integer, intent(in) :: place                        !! of the number in the values of the catalogue
@@ -294,7 +294,7 @@ contains
       catalogue%values = values
    end subroutine tell_between
 
-   !> Tell a recorder of the end of a step, but for numbers that are not known.
+   !> Report a recorder of the end of a step, but for numbers that are not known.
    subroutine tell_sample(t, peaks, catalogue, recorder)
       real(wp), intent(in) :: t                           !! time [s]
       type(channel_peaks_t), intent(inout) :: peaks       !! what is known; its extremes so far are raised
@@ -337,7 +337,7 @@ contains
 
    !> Take it back.
    subroutine load_peaks(self, archive)
-      class(channel_peaks_t), intent(inout) :: self  !! the peaks, begun
+      class(channel_peaks_t), intent(inout) :: self  !! the peaks, started
       type(archive_t), intent(inout) :: archive            !! holds it
 
       integer :: known(size(self%place)), k

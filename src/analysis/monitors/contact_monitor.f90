@@ -1,9 +1,10 @@
 !> Follows the contacts of a motion: their onset, their maxima, their end, one row for each.
 !>
-!> The greatest force of a contact is one that the motion had at an instant that can be reported: a maximum within a step, which is
-!> told at once (`peaks`), or the force at the end of a step, of which a row is owed (`owes_row`) until one is written there or a
-!> greater force is found. What is greater by no more than the noise of an integration is not told anew. Where rows at contacts are
-!> wanted (`tells_all`), every maximum of force and penetration is told that rises by more than `ripple` above the minimum before.
+!> The maximum force of a contact is one that the motion had at an instant that can be reported: a maximum within a step, which is
+!> reported at once (`peaks`), or the force at the end of a step, of which a row is owed (`owes_row`) until one is written there or
+!> a greater force is found. What is greater by no more than the noise of an integration is not reported anew. Where rows at
+!> contacts are requested (`tells_all`), every maximum of force and penetration is reported that rises by more than `ripple` above
+!> the minimum before.
 module contact_monitor
    use clearance_set, only: clearance_set_t, loss_contact, loss_friction
    use contact_peaks, only: drop_peaks, look, peak_t, trend_t
@@ -23,19 +24,19 @@ module contact_monitor
    public :: close_open, contact_monitor_t, new_contact_monitor
 
    real(wp), parameter :: first_step = 0.01_wp   !! first step of a contact, of the duration of an elastic impact [1]
-   real(wp), parameter :: noise = 1.0e-7_wp      !! of a force that a row has told: more than that is worth another row [1]
-   real(wp), parameter :: ripple = 1.0e-4_wp     !! rise to a maximum that is none, of the greatest value of the contact [1]
+   real(wp), parameter :: noise = 1.0e-7_wp      !! of a force that a row has reported: more than that is worth another row [1]
+   real(wp), parameter :: ripple = 1.0e-4_wp     !! rise to a maximum that is none, of the maximum value of the contact [1]
    integer, parameter :: n_remembered = 8        !! numbers of a contact in a checkpoint
 
    !> What is known of each contact at the end of the last step.
    type :: contact_monitor_t
-      type(peak_t), allocatable :: peaks(:)          !! (n_peak or more) greatest forces so far that lie within the last step
+      type(peak_t), allocatable :: peaks(:)          !! (n_peak or more) maximum forces so far that lie within the last step
       integer :: n_peak = 0                          !! how many
-      logical, allocatable :: owes_row(:)            !! (contacts) the present force is the greatest so far, and no row tells it
-      real(wp), allocatable :: told(:)               !! (contacts) the greatest force of the contact that a row tells [N]
-      logical :: tells_all = .false.                 !! maxima are told that are not the greatest so far, too
-      real(wp), allocatable :: low(:, :)             !! (2, contacts) least force and penetration since the last maximum [N, m]
-      real(wp) :: made = 0.0_wp                      !! energy that the contact of the last event began with, from nothing [J]
+      logical, allocatable :: owes_row(:)            !! (contacts) the present force is the maximum so far, and no row reports it
+      real(wp), allocatable :: told(:)               !! (contacts) the maximum force of the contact that a row reports [N]
+      logical :: tells_all = .false.                 !! maxima are reported that are not the maximum so far, too
+      real(wp), allocatable :: low(:, :)             !! (2, contacts) minimum force and penetration since the last maximum [N, m]
+      real(wp) :: made = 0.0_wp                      !! energy that the contact of the last event started with, from nothing [J]
       real(wp) :: shift = 0.0_wp                     !! time from the last onset to where a force that jumps there is seen [s]
       type(trend_t), allocatable :: force(:)         !! (contacts) normal force
       type(trend_t), allocatable :: penetration(:)   !! (contacts) penetration
@@ -59,7 +60,7 @@ module contact_monitor
       !> Look for maxima of force and penetration within the last step, and whether a force is cut off.
       module subroutine after_step(self, system, method)
          implicit none (type, external)
-         class(contact_monitor_t), intent(inout) :: self   !! the watch
+         class(contact_monitor_t), intent(inout) :: self   !! the monitor
          type(mechanism_t), intent(inout) :: system      !! the system
          class(integrator_t), intent(inout) :: method    !! the integrator, after a step; the system is at its end
       end subroutine after_step
@@ -67,21 +68,21 @@ module contact_monitor
       !> Numbers that a checkpoint needs.
       module integer function monitor_memory_size(self) result(n)
          implicit none (type, external)
-         class(contact_monitor_t), intent(in) :: self  !! the watch
+         class(contact_monitor_t), intent(in) :: self  !! the monitor
       end function monitor_memory_size
 
-      !> Write what the watch remembers.
+      !> Write what the monitor remembers.
       module subroutine monitor_save(self, row, place)
          implicit none (type, external)
-         class(contact_monitor_t), intent(in) :: self  !! the watch
+         class(contact_monitor_t), intent(in) :: self  !! the monitor
          real(wp), intent(inout) :: row(:)           !! (any) checkpoint [any]
          integer, intent(inout) :: place             !! last place used
       end subroutine monitor_save
 
-      !> Read what the watch remembers.
+      !> Read what the monitor remembers.
       module subroutine monitor_load(self, row, place)
          implicit none (type, external)
-         class(contact_monitor_t), intent(inout) :: self  !! the watch
+         class(contact_monitor_t), intent(inout) :: self  !! the monitor
          real(wp), intent(in) :: row(:)                 !! (any) checkpoint [any]
          integer, intent(inout) :: place                !! last place used
       end subroutine monitor_load
@@ -90,10 +91,10 @@ module contact_monitor
 
 contains
 
-   !> Room for the contacts of a system.
+   !> Storage for the contacts of a system.
    subroutine new_contact_monitor(system, monitor)
       type(mechanism_t), intent(in) :: system   !! the system
-      type(contact_monitor_t), intent(out) :: monitor   !! the watch
+      type(contact_monitor_t), intent(out) :: monitor   !! the monitor
 
       allocate (monitor%peaks(1))
       allocate (monitor%owes_row(system%clearance_joints%n_contact), source=.false.)
@@ -104,9 +105,9 @@ contains
       allocate (monitor%g(system%clearance_joints%n_contact), monitor%g_rate(system%clearance_joints%n_contact), source=0.0_wp)
    end subroutine new_contact_monitor
 
-   !> Peaks up to a time are told.
+   !> Peaks up to a time are reported.
    subroutine monitor_drop_peaks(self, t)
-      class(contact_monitor_t), intent(inout) :: self     !! the watch
+      class(contact_monitor_t), intent(inout) :: self     !! the monitor
       real(wp), intent(in) :: t                         !! the time [s]
 
       call drop_peaks(t, self%peaks, self%n_peak)
@@ -114,7 +115,7 @@ contains
 
    !> A row was written at the present state: nothing is owed.
    subroutine note_row(self)
-      class(contact_monitor_t), intent(inout) :: self     !! the watch
+      class(contact_monitor_t), intent(inout) :: self     !! the monitor
 
       where (self%owes_row) self%told = self%force%value
       self%owes_row = .false.
@@ -122,11 +123,11 @@ contains
 
    !> What the events at the end of the last step are going to be; to be asked before they are handled.
    subroutine extrapolate(self, system, method, has_end, has_onset, has_jump)
-      class(contact_monitor_t), intent(inout) :: self     !! the watch
+      class(contact_monitor_t), intent(inout) :: self     !! the monitor
       type(mechanism_t), intent(inout) :: system    !! the system
       class(integrator_t), intent(in) :: method         !! the integrator, at the events
       logical, intent(out) :: has_end                   !! a contact ends
-      logical, intent(out) :: has_onset                 !! a contact begins
+      logical, intent(out) :: has_onset                 !! a contact starts
       logical, intent(out) :: has_jump                  !! a normal force may jump
 
       type(trend_t) :: force, penetration
@@ -161,13 +162,13 @@ contains
       end do
    end subroutine extrapolate
 
-   !> After a start or events: forces begin anew, and count at once. A force that jumps at an onset is that of the moment after, and
-   !> so is the derivative that the next step begins with: at the onset itself the surfaces just meet, and round-off decides whether
+   !> After a start or events: forces start anew, and count at once. A force that jumps at an onset is that of the moment after, and
+   !> so is the derivative that the next step starts with: at the onset itself the surfaces just meet, and round-off decides whether
    !> there is a force. It is extrapolated back from two such moments.
    subroutine after_restart(self, system, method)
-      class(contact_monitor_t), intent(inout) :: self     !! the watch
+      class(contact_monitor_t), intent(inout) :: self     !! the monitor
       type(mechanism_t), intent(inout) :: system    !! the system, at the present state
-      class(integrator_t), intent(inout) :: method      !! the integrator, begun again; its derivative may change
+      class(integrator_t), intent(inout) :: method      !! the integrator, started again; its derivative may change
 
       integer :: i, k, number, status
 
@@ -194,16 +195,16 @@ contains
       if (self%shift > 0.0_wp) call system%linkage%set_state(method%t, method%step%y1, method%step%f1)
    end subroutine after_restart
 
-   !> A located event: a contact begins or ends, turns, slips or sticks. Where the energy that the contacts store jumps with it,
+   !> A located event: a contact starts or ends, turns, slips or sticks. Where the energy that the contacts store jumps with it,
    !> what is gone counts as lost in this contact: it is negative where the energy grows.
    subroutine handle_event(self, system, method, number, is_over, row, step_hint)
-      class(contact_monitor_t), intent(inout) :: self     !! the watch
+      class(contact_monitor_t), intent(inout) :: self     !! the monitor
       type(mechanism_t), intent(inout) :: system    !! the system; the contact's state is changed
       class(integrator_t), intent(inout) :: method      !! the integrator, at the event; the ledger of its state may change
       integer, intent(in) :: number                     !! number of the event function
-      logical, intent(out) :: is_over                   !! there is something to tell: a contact ended
-      type(event_t), intent(out) :: row                 !! what there is to tell
-      real(wp), intent(out) :: step_hint                !! step that suits what begins; 0: as before [s]
+      logical, intent(out) :: is_over                   !! there is something to report: a contact ended
+      type(event_t), intent(out) :: row                 !! what there is to report
+      real(wp), intent(out) :: step_hint                !! step that suits what starts; 0: as before [s]
 
       real(wp) :: loss, lost, rate, stored
       integer :: i, k, z
@@ -250,8 +251,8 @@ contains
 
    contains
 
-      !> What the stored energy jumped by. A contact that begins where the surfaces overlap came over an end of its guide, and began
-      !> with an energy from nothing.
+      !> What the stored energy jumped by. A contact that starts where the surfaces overlap came over an end of its guide, and
+      !> started with an energy from nothing.
       subroutine book_jump()
          lost = stored - system%clearance_joints%sets(k)%set%elastic_energy(system%linkage%motion)
          z = system%in_state(place_of_loss(number, loss_contact))
@@ -277,17 +278,17 @@ contains
 
    end subroutine handle_event
 
-   !> The run ends within a contact: tell of the first open one, and take it off the list.
+   !> The run ends within a contact: report of the first open one, and take it off the list.
    subroutine close_open(system, method, is_open, row)
       type(mechanism_t), intent(inout) :: system    !! the system
       class(integrator_t), intent(in) :: method         !! the integrator, at the end
-      logical, intent(out) :: is_open                   !! there was one: `row` tells of it
+      logical, intent(out) :: is_open                   !! there was one: `row` reports of it
       type(event_t), intent(out) :: row                 !! the contact
 
       integer :: i, k
 
       is_open = .false.
-      if (.not. allocated(method%step%y1)) return  ! the run did not begin
+      if (.not. allocated(method%step%y1)) return  ! the run did not start
       call system%linkage%set_motion(method%t, method%step%y1)
       do k = 1, size(system%clearance_joints%sets)
          associate (set => system%clearance_joints%sets(k)%set)

@@ -1,4 +1,4 @@
-!> What the watch over contacts remembers in a checkpoint.
+!> What the monitor over contacts remembers in a checkpoint.
 submodule(contact_monitor) contact_monitor_memory
    use memory, only: get, put
    implicit none (type, external)
@@ -10,7 +10,7 @@ contains
       n = n_remembered*size(self%force)
    end procedure monitor_memory_size
 
-   !> Write what the watch remembers.
+   !> Write what the monitor remembers.
    module procedure monitor_save
       integer :: k
 
@@ -22,7 +22,7 @@ contains
       end do
    end procedure monitor_save
 
-   !> Read what the watch remembers.
+   !> Read what the monitor remembers.
    module procedure monitor_load
       integer :: k
 

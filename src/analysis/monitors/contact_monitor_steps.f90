@@ -1,4 +1,4 @@
-!> What the watch over contacts sees at the end of a step.
+!> What the monitor over contacts sees at the end of a step.
 submodule(contact_monitor) contact_monitor_steps
    use contact_peaks, only: add_peak, find_force_peak, find_penetration_peak, has_peak_above
    use cut_off, only: follow_cut_off
@@ -31,8 +31,8 @@ contains
 
    contains
 
-      !> Look at a contact that touches. Where its greatest force stood at the start of the step and the step does not go beyond it,
-      !> the row that is owed is told now.
+      !> Look at a contact that touches. Where its maximum force stood at the start of the step and the step does not go beyond it,
+      !> the row that is owed is reported now.
       subroutine see_contact(slot, item)
          integer, intent(in) :: slot                     !! set of the contact
          integer, intent(in) :: item                     !! contact of the set
@@ -82,9 +82,9 @@ contains
 
    end procedure after_step
 
-   !> Find maxima within the step; a force that is the greatest so far is told. The system comes back to the end of the step.
+   !> Find maxima within the step; a force that is the maximum so far is reported. The system comes back to the end of the step.
    subroutine find_peaks(self, system, method, slot, item, has_peak, has_force_peak, force, penetration, most)
-      class(contact_monitor_t), intent(inout) :: self   !! the watch
+      class(contact_monitor_t), intent(inout) :: self   !! the monitor
       type(mechanism_t), intent(inout) :: system      !! the system
       class(integrator_t), intent(inout) :: method    !! the integrator, after a step
       integer, intent(in) :: slot                     !! set of the contact
@@ -128,9 +128,9 @@ contains
       call system%linkage%set_state(method%t, method%step%y1, method%step%f1)
    end subroutine find_peaks
 
-   !> Tell of a force.
+   !> Report of a force.
    subroutine tell(self, number, peak)
-      class(contact_monitor_t), intent(inout) :: self   !! the watch
+      class(contact_monitor_t), intent(inout) :: self   !! the monitor
       integer, intent(in) :: number                   !! number of the contact
       type(peak_t), intent(in) :: peak                !! the force and where it is
 

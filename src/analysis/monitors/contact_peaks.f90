@@ -24,7 +24,7 @@ module contact_peaks
       real(wp) :: rate = 0.0_wp   !! its rate [N/s or m/s]
    end type trend_t
 
-   !> The greatest force found, and the state there.
+   !> The maximum force found, and the state there.
    type :: peak_t
       real(wp) :: t = 0.0_wp            !! time [s]
       real(wp) :: force = 0.0_wp        !! normal force; negative: none found [N]
@@ -65,7 +65,7 @@ contains
       type(trend_t), intent(in) :: left                 !! penetration at the start of the step
       type(trend_t), intent(in) :: right                !! penetration at its end
       real(wp), intent(inout), contiguous :: y(:)       !! (n) scratch state [any]
-      real(wp), intent(out) :: maximum                 !! the greatest penetration found; 0: none [m]
+      real(wp), intent(out) :: maximum                 !! the maximum penetration found; 0: none [m]
       type(peak_t), intent(inout) :: peak               !! time and state there, with the force
 
       type(bracket_t) :: bracket
@@ -149,7 +149,7 @@ contains
       type(trend_t), intent(in) :: right                !! force at its end
       real(wp), intent(inout), contiguous :: y(:)       !! (n) scratch state [any]
       real(wp), intent(inout), contiguous :: ydot(:)    !! (n) scratch derivative [any]
-      type(peak_t), intent(inout) :: peak               !! the greatest force that was found
+      type(peak_t), intent(inout) :: peak               !! the maximum force that was found
 
       type(bracket_t) :: bracket
       type(trend_t) :: here
@@ -209,7 +209,7 @@ contains
          call look(system, slot, item, here, penetration)
       end subroutine look_from
 
-      !> Keep the force at the place if it is the greatest so far.
+      !> Keep the force at the place if it is the maximum so far.
       subroutine keep_greater()
          if (.not. here%value > peak%force) return
          peak%t = method%step%t0 + place*method%step%h
@@ -219,7 +219,7 @@ contains
 
    end subroutine find_force_peak
 
-   !> Put a peak in its place in a list, by time; one at a time that is there already is told with it.
+   !> Put a peak in its place in a list, by time; one at a time that is there already is reported with it.
    subroutine add_peak(peak, list, n)
       type(peak_t), intent(in) :: peak                       !! the peak
       type(peak_t), allocatable, intent(inout) :: list(:)    !! (n or more) peaks by time

@@ -24,7 +24,7 @@ module cpu_budget
 
 contains
 
-   !> Begin to count.
+   !> Start to count.
    subroutine begin(self, limit, used, clock)
       class(cpu_budget_t), intent(inout) :: self  !! the budget
       real(wp), intent(in) :: limit               !! time allowed, 0: no limit [s]

@@ -1,6 +1,6 @@
 !> Where a film that alone holds the surfaces of a joint apart comes to its end: the journal at e = eps_max c.
 !>
-!> The end is an event, that of a contact which would begin there; but there is none, and the run cannot go on.
+!> The end is an event, that of a contact which would start there; but there is none, and the run cannot continue.
 !> Source: the pressure of every film grows without bound for e -> c. Limits: joints with `level = lubricated`.
 module film_end
    use contact_places, only: touch_function
@@ -14,7 +14,7 @@ module film_end
 
 contains
 
-   !> The joint whose film comes to its end at the events of the last step, in words; blank if there is none.
+   !> The joint whose film comes to its end at the events of the last step, as text; blank if there is none.
    function film_that_ended(system, method) result(words)
       type(mechanism_t), intent(in) :: system    !! the system
       class(integrator_t), intent(in) :: method  !! the integrator, at events

@@ -1,7 +1,7 @@
-!> Films that a recorder asks for, unwrapped, at the moments for which it asks: a time, the end of the run, the least film.
+!> Films that a recorder asks for, unwrapped, at the moments for which it asks: a time, the end of the run, the minimum film.
 !>
-!> Pressures are found at these moments only. For the least film the motion of the bearing is looked at on the ends of steps, and
-!> that of the least film kept.
+!> Pressures are found at these moments only. For the minimum film the motion of the bearing is looked at on the ends of steps, and
+!> that of the minimum film kept.
 module film_moments
    use film_fields, only: field_request_t, film_field_t, moment_at, moment_end, moment_min
    use film_law, only: film_motion_t, max_eccentricity
@@ -16,9 +16,9 @@ module film_moments
    !> A film that is asked for.
    type :: wanted_film_t
       type(field_request_t) :: request       !! what is asked for
-      integer :: slot = 0                    !! set of the joint in the whole; 0: there is no such film, or it was told
+      integer :: slot = 0                    !! set of the joint in the whole; 0: there is no such film, or it was reported
       integer :: item = 0                    !! the joint within the set
-      real(wp) :: distance = -1.0_wp         !! of the centres with the least film [m]
+      real(wp) :: distance = -1.0_wp         !! of the centres with the minimum film [m]
       real(wp) :: t = 0.0_wp                 !! its time [s]
       type(film_motion_t) :: motion          !! motion of the bearing then
    end type wanted_film_t
@@ -26,7 +26,7 @@ module film_moments
    !> All that are asked for.
    type :: film_moments_t
       type(wanted_film_t), allocatable, private :: films(:)  !! (any) films
-      logical :: has_min = .false.                         !! least films are asked for
+      logical :: has_min = .false.                         !! minimum films are asked for
    contains
       procedure :: begin => moments_begin
       procedure :: look => moments_look
@@ -88,7 +88,7 @@ contains
       end associate
    end function motion_of
 
-   !> Update the least film at the end of a step of a part, or at a row of the whole.
+   !> Update the minimum film at the end of a step of a part, or at a row of the whole.
    subroutine moments_look(self, part, t)
       class(film_moments_t), intent(inout) :: self  !! the films
       type(mechanism_t), intent(in) :: part         !! the part or the whole, evaluated at this time
@@ -111,7 +111,7 @@ contains
       end do
    end subroutine moments_look
 
-   !> The earliest time that is asked for and was not told; none: one that is never reached.
+   !> The earliest time that is asked for and was not reported; none: one that is never reached.
    pure real(wp) function moments_next(self) result(t)
       class(film_moments_t), intent(in) :: self  !! the films
 
@@ -124,7 +124,7 @@ contains
       end do
    end function moments_next
 
-   !> Tell the films of a time.
+   !> Report the films of a time.
    subroutine moments_tell_at(self, system, t, recorder)
       class(film_moments_t), intent(inout) :: self  !! the films
       type(mechanism_t), intent(in) :: system       !! the whole, its motion that of the time
@@ -142,7 +142,7 @@ contains
       end do
    end subroutine moments_tell_at
 
-   !> Tell the films of the end, and the least ones.
+   !> Report the films of the end, and the minimum ones.
    subroutine moments_tell_rest(self, system, t, recorder)
       class(film_moments_t), intent(inout) :: self  !! the films
       type(mechanism_t), intent(in) :: system       !! the whole, its motion that of the end
@@ -162,7 +162,7 @@ contains
       end do
    end subroutine moments_tell_rest
 
-   !> Tell a film, once.
+   !> Report a film, once.
    subroutine tell(film, system, recorder)
       type(wanted_film_t), intent(inout) :: film    !! the film
       type(mechanism_t), intent(in) :: system       !! the whole
@@ -177,7 +177,7 @@ contains
       film%slot = 0
    end subroutine tell
 
-   !> Write what is remembered of the least films, and which were told.
+   !> Write what is remembered of the minimum films, and which were reported.
    subroutine moments_save(self, archive)
       class(film_moments_t), intent(in) :: self  !! the films
       type(archive_t), intent(inout) :: archive        !! what is remembered
@@ -194,7 +194,7 @@ contains
 
    !> Take it back.
    subroutine moments_load(self, archive)
-      class(film_moments_t), intent(inout) :: self  !! the films, begun
+      class(film_moments_t), intent(inout) :: self  !! the films, started
       type(archive_t), intent(inout) :: archive           !! what was remembered
 
       real(wp) :: numbers(size(transfer(film_motion_t(), [0.0_wp])))

@@ -4,8 +4,8 @@
 !> where it is given.
 !>
 !> Sources: Flores et al. (2008), section 5.8, with B. J. Hamrock, Fundamentals of Fluid Film Lubrication (1994), for 2.5 um, and
-!> R. M. Phelan, Fundamentals of Mechanical Design (1970), for that of the diameter. Limits: of steps, so that a least film between
-!> two ends is told a little too thick.
+!> R. M. Phelan, Fundamentals of Mechanical Design (1970), for that of the diameter. Limits: of steps, so that a minimum film
+!> between two ends is reported a little too thick.
 module film_monitor
    use clearance_set, only: clearance_set_t
    use film_law, only: film_motion_t, parameter_radius
@@ -18,14 +18,14 @@ module film_monitor
    private
    public :: film_monitor_t
 
-   integer, parameter :: limit_machined = 1    !! least film of machined surfaces
+   integer, parameter :: limit_machined = 1    !! minimum film of machined surfaces
    integer, parameter :: limit_diameter = 2    !! one that grows with the journal
    integer, parameter :: limit_roughness = 3   !! one that grows with the roughness
    integer, parameter :: n_limit = 3           !! limits of a film
 
-   real(wp), parameter :: machined = 2.5e-6_wp     !! least film of machined surfaces [m]
-   real(wp), parameter :: of_diameter = 1.5e-4_wp  !! least film over the journal's diameter [1]
-   real(wp), parameter :: of_roughness = 20.0_wp   !! least film over the roughness [1]
+   real(wp), parameter :: machined = 2.5e-6_wp     !! minimum film of machined surfaces [m]
+   real(wp), parameter :: of_diameter = 1.5e-4_wp  !! minimum film over the journal's diameter [1]
+   real(wp), parameter :: of_roughness = 20.0_wp   !! minimum film over the roughness [1]
 
    real(wp), parameter :: most_tilt = 0.3_wp        !! tilt up to which films of aligned journals hold, of the gap in the middle [1]
    real(wp), parameter :: min_engaged = 0.99_wp   !! part of the length that is all of it [1]
@@ -48,14 +48,14 @@ module film_monitor
       real(wp) :: first(n_limit) = 0.0_wp              !! (limits) when it was so first [s]
       real(wp) :: film_at_end = 0.0_wp                 !! thickness where a film that is alone ends; 0 of others [m]
       real(wp) :: limit(n_limit) = 0.0_wp              !! (limits) the limits, 0: none [m]
-      real(wp) :: minimum = huge(1.0_wp)                 !! least thickness [m]
+      real(wp) :: minimum = huge(1.0_wp)                 !! minimum thickness [m]
       real(wp) :: time = 0.0_wp                        !! when that was [s]
       real(wp) :: step = 0.0_wp                        !! step that ended then, or the one before: the longer of both [s]
       type(film_motion_t) :: motion                    !! motion of the bearing then
       type(lean_t) :: lean                             !! how its pin has lain
    end type thin_film_t
 
-   !> The films of all loose joints.
+   !> The films of all clearance joints.
    type :: film_monitor_t
       type(thin_film_t), allocatable :: joint(:)   !! (contacts) films, at first contacts of joints; unallocated: there is none
       real(wp), allocatable :: delta(:), rate(:)   !! (contacts) penetrations [m] and their rates [m/s]
@@ -75,7 +75,7 @@ contains
 
    !> Before the first step.
    subroutine monitor_begin(self, system)
-      class(film_monitor_t), intent(out) :: self   !! the watch
+      class(film_monitor_t), intent(out) :: self   !! the monitor
       type(mechanism_t), intent(in) :: system    !! the system
 
       integer :: first, i, k
@@ -102,7 +102,7 @@ contains
 
    !> After a step.
    subroutine monitor_look(self, system, t)
-      class(film_monitor_t), intent(inout) :: self   !! the watch
+      class(film_monitor_t), intent(inout) :: self   !! the monitor
       type(mechanism_t), intent(in) :: system      !! the system, its motion that at the end of the step
       real(wp), intent(in) :: t                    !! time there [s]
 
@@ -188,10 +188,10 @@ contains
       end if
    end subroutine warn_of_lean
 
-   !> What the watch of a part of the mechanism has seen.
+   !> What the monitor of a part of the mechanism has seen.
    subroutine monitor_gather(self, part, contacts)
-      class(film_monitor_t), intent(inout) :: self   !! watch of the whole, begun
-      type(film_monitor_t), intent(in) :: part       !! watch of the part
+      class(film_monitor_t), intent(inout) :: self   !! monitor of the whole, started
+      type(film_monitor_t), intent(in) :: part       !! monitor of the part
       integer, intent(in) :: contacts(:)           !! (contacts of the part) their numbers in the whole
 
       if (allocated(part%joint) .and. allocated(self%joint)) self%joint(contacts) = part%joint
@@ -199,7 +199,7 @@ contains
 
    !> Append a warning for each joint whose film was thinner than what is safe.
    subroutine monitor_warn(self, system, warnings)
-      class(film_monitor_t), intent(in) :: self                    !! the watch
+      class(film_monitor_t), intent(in) :: self                    !! the monitor
       type(mechanism_t), intent(in) :: system                    !! the system
       type(text_t), allocatable, intent(inout) :: warnings(:)    !! (any) appended to
 
@@ -233,7 +233,7 @@ contains
    !> Append a warning for each joint whose film, not the motion, made the steps of an explicit method as short as they were where
    !> it was thinnest: no longer than some multiple of the time in which it brings the journal to rest.
    subroutine monitor_warn_of_stiffness(self, system, method, warnings)
-      class(film_monitor_t), intent(in) :: self                    !! the watch
+      class(film_monitor_t), intent(in) :: self                    !! the monitor
       type(mechanism_t), intent(in) :: system                    !! the system
       character(*), intent(in) :: method                         !! name of the explicit method
       type(text_t), allocatable, intent(inout) :: warnings(:)    !! (any) appended to
@@ -264,7 +264,7 @@ contains
       end do
    end subroutine monitor_warn_of_stiffness
 
-   !> A limit in words.
+   !> A limit as text.
    function limit_words(limit, value) result(words)
       integer, intent(in) :: limit         !! which one
       real(wp), intent(in) :: value        !! the limit [m]
@@ -280,7 +280,7 @@ contains
       end select
    end function limit_words
 
-   !> A thickness in words.
+   !> A thickness as text.
    function micrometres(length) result(words)
       real(wp), intent(in) :: length        !! [m]
       character(:), allocatable :: words    !! in um
@@ -290,7 +290,7 @@ contains
 
    !> Write what was seen.
    subroutine monitor_save(self, archive)
-      class(film_monitor_t), intent(in) :: self   !! the watch
+      class(film_monitor_t), intent(in) :: self   !! the monitor
       type(archive_t), intent(inout) :: archive       !! receives it
 
       integer :: k
@@ -305,7 +305,7 @@ contains
 
    !> Take it back.
    subroutine monitor_load(self, archive)
-      class(film_monitor_t), intent(inout) :: self  !! the watch, begun
+      class(film_monitor_t), intent(inout) :: self  !! the monitor, started
       type(archive_t), intent(inout) :: archive         !! holds it
 
       real(wp) :: numbers(size(transfer(thin_film_t(), [0.0_wp])))

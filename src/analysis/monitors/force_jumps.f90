@@ -1,4 +1,4 @@
-!> Normal forces that jump where a contact begins or ends: those of laws that have a force where the surfaces just meet.
+!> Normal forces that jump where a contact starts or ends: those of laws that have a force where the surfaces just meet.
 module force_jumps
    use clearance_set, only: clearance_set_t
    use integrator, only: integrator_t
@@ -47,7 +47,7 @@ contains
    !> The motion is left at t + s.
    subroutine find_derivative_behind(system, method, shift, y, ydot, status)
       type(mechanism_t), intent(inout) :: system         !! the system
-      class(integrator_t), intent(inout) :: method       !! the integrator, begun again; its derivative is set
+      class(integrator_t), intent(inout) :: method       !! the integrator, started again; its derivative is set
       real(wp), intent(in) :: shift                      !! s [s]
       real(wp), intent(inout), contiguous :: y(:)        !! (n) scratch state [any]
       real(wp), intent(inout), contiguous :: ydot(:)     !! (n) scratch derivative [any]

@@ -6,14 +6,14 @@ submodule(guards) guard_warnings
 
 contains
 
-   !> A contact in words.
+   !> A contact as text.
    module procedure joint_words
       words = "joint '"//set%names(set%item_of(c))%s//"'"
       if (set%label_of(c) /= "") words = words//", contact "//set%label_of(c)
       words = words//", law '"//set%laws%normal%name//"'"
    end procedure joint_words
 
-   !> What was passed, in words.
+   !> What was passed, as text.
    module procedure breach_words
       associate (breach => self%breach(g, m), limit => self%limit(g, m))
          select case (g)
@@ -40,7 +40,7 @@ contains
       end associate
    end procedure breach_words
 
-   !> A length in words.
+   !> A length as text.
    function millimetres(length) result(words)
       real(wp), intent(in) :: length        !! [m]
       character(:), allocatable :: words    !! in mm
@@ -85,7 +85,7 @@ contains
                        " times the size of the model: check for a driver or load that acts too long, or a missed contact")
    end procedure guards_warn
 
-   !> The breach with the greatest value, 0: none.
+   !> The breach with the maximum value, 0: none.
    pure integer function max_of(breaches) result(k)
       type(breach_t), intent(in) :: breaches(:)   !! (any) breaches
 

@@ -42,7 +42,7 @@ module guards
    type :: breach_t
       logical :: is_there = .false.              !! it was passed
       real(wp) :: first = 0.0_wp                 !! when it was passed first [s]
-      real(wp) :: value = 0.0_wp                 !! the greatest value [any]
+      real(wp) :: value = 0.0_wp                 !! the maximum value [any]
       real(wp) :: time = 0.0_wp                  !! when that was reached [s]
    end type breach_t
 
@@ -52,10 +52,10 @@ module guards
       logical :: stops(n_contact_guard) = .false.       !! (guards of a contact) whether the run ends there
       real(wp), allocatable :: limit(:, :)       !! (guards of a contact, contacts) limits; huge: none [m, m/s or N]
       type(breach_t), allocatable :: breach(:, :)       !! (guards of a contact, contacts) where they were passed
-      real(wp) :: penetration = 0.0_wp           !! greatest penetration over the size of the surfaces, 0: no limit [1]
-      real(wp) :: energy = 0.0_wp                !! greatest residual over the largest energy, 0: no limit [1]
+      real(wp) :: penetration = 0.0_wp           !! maximum penetration over the size of the surfaces, 0: no limit [1]
+      real(wp) :: energy = 0.0_wp                !! maximum residual over the largest energy, 0: no limit [1]
       integer :: n_wrong = 0                     !! steps in a row with a greater one
-      real(wp) :: speed = huge(1.0_wp)           !! greatest speed of a body [m/s]
+      real(wp) :: speed = huge(1.0_wp)           !! maximum speed of a body [m/s]
       real(wp) :: way = huge(1.0_wp)             !! way from the start that is worth a word [m]
       real(wp) :: size = 0.0_wp                  !! of the scene [m]
       real(wp), allocatable :: start(:, :)       !! (2, bodies) centres at the start [m]
@@ -85,7 +85,7 @@ module guards
          type(text_t), allocatable, intent(inout) :: warnings(:)    !! (any) appended to
       end subroutine guards_warn
 
-      !> A contact in words.
+      !> A contact as text.
       module function joint_words(set, c) result(words)
          implicit none (type, external)
          class(clearance_set_t), intent(in) :: set       !! set of the contact
@@ -103,11 +103,11 @@ module guards
       !> Take it back.
       module subroutine guards_load(self, archive)
          implicit none (type, external)
-         class(guards_t), intent(inout) :: self  !! the guards, begun
+         class(guards_t), intent(inout) :: self  !! the guards, started
          type(archive_t), intent(inout) :: archive     !! holds it
       end subroutine guards_load
 
-      !> What was passed, in words.
+      !> What was passed, as text.
       module function breach_words(self, g, m) result(words)
          implicit none (type, external)
          class(guards_t), intent(in) :: self     !! the guards
@@ -195,7 +195,7 @@ contains
 
    !> What the guards of a part have seen.
    subroutine guards_gather(self, part, bodies, contacts)
-      class(guards_t), intent(inout) :: self   !! guards of the whole, begun
+      class(guards_t), intent(inout) :: self   !! guards of the whole, started
       type(guards_t), intent(in) :: part       !! guards of the part
       integer, intent(in) :: bodies(:)         !! (bodies of the part) their numbers in the whole
       integer, intent(in) :: contacts(:)       !! (contacts of the part) their numbers in the whole
@@ -251,7 +251,7 @@ contains
    end subroutine guards_look
 
    !> Whether all contacts of a set that touch are within their limits, or beyond one by no more than they were before: of what was
-   !> passed by more before no more is told.
+   !> passed by more before no more is reported.
    pure logical function are_within(n, contact, limit, breach)
       integer, intent(in) :: n                                  !! number of contacts
       type(contact_memory_t), intent(in) :: contact(n)          !! (n) the contacts
@@ -290,8 +290,8 @@ contains
       real(wp), intent(in) :: r(3, 0:n)      !! (3, 0:bodies) centres of mass [m]
       real(wp), intent(in) :: v(3, 0:n)      !! (3, 0:bodies) their velocities [m/s]
       real(wp), intent(in) :: start(2, n)    !! (2, bodies) centres at the start [m]
-      real(wp), intent(in) :: way_2          !! square of the greatest way [m^2]
-      real(wp), intent(in) :: speed_2        !! square of the greatest speed [m^2/s^2]
+      real(wp), intent(in) :: way_2          !! square of the maximum way [m^2]
+      real(wp), intent(in) :: speed_2        !! square of the maximum speed [m^2/s^2]
 
       integer :: k
 
@@ -304,7 +304,7 @@ contains
    end function are_near
 
    !> The ledger after a step: energy made of nothing, more than the part that the guard allows of the largest energy, and more
-   !> than the round-off of what it adds up, for many steps in a row: where a motion begins with next to no energy, the first
+   !> than the round-off of what it adds up, for many steps in a row: where a motion starts with next to no energy, the first
    !> ones may have it wrong.
    subroutine guards_look_at_energy(self, residual, largest, added)
       class(guards_t), intent(inout) :: self      !! the guards
@@ -320,10 +320,11 @@ contains
                    real_text(abs(residual)/largest, 3)//" of the maximum energy (guard 'energy')")
    end subroutine guards_look_at_energy
 
-   !> What a contact made of nothing that began where its surfaces overlapped. It is booked as its loss, so that no residual has it.
+   !> What a contact made of nothing that started where its surfaces overlapped. It is booked as its loss, so that no residual has
+   !> it.
    subroutine guards_look_at_made(self, made, largest)
       class(guards_t), intent(inout) :: self      !! the guards
-      real(wp), intent(in) :: made                !! by the contact that began just now [J]
+      real(wp), intent(in) :: made                !! by the contact that started just now [J]
       real(wp), intent(in) :: largest             !! largest energy before [J]
 
       if (.not. self%energy > 0.0_wp .or. made <= self%energy*(largest + made)) return

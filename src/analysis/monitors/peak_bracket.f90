@@ -10,7 +10,7 @@ module peak_bracket
    public :: bracket_t, find_bends
 
    real(wp), parameter, public :: gain = 1.0e-11_wp  !! rise at which the search ends, over the extreme [1]
-   real(wp), parameter :: at_row = 1.0e-9_wp   !! least distance from a row, of that between rows [1]
+   real(wp), parameter :: at_row = 1.0e-9_wp   !! minimum distance from a row, of that between rows [1]
    integer, parameter, public :: most_output_times = 6  !! instants looked at for one extreme
 
    !> The search for one extreme of a number times its sign.

@@ -18,8 +18,8 @@ module run_audit
 
    !> What the results must fulfil, and what ends a run before its end.
    type :: limits_t
-      real(wp) :: energy = 0.0_wp      !! greatest residual of the ledger over the largest energy, 0: none [1]
-      real(wp) :: violation = 0.0_wp   !! greatest violation of a constraint, 0: none [m]
+      real(wp) :: energy = 0.0_wp      !! maximum residual of the ledger over the largest energy, 0: none [1]
+      real(wp) :: violation = 0.0_wp   !! maximum violation of a constraint, 0: none [m]
       real(wp) :: cpu = 0.0_wp         !! processor time allowed, 0: no limit [s]
       real(wp) :: clock = 0.0_wp       !! time allowed by the clock on the wall, 0: no limit [s]
       type(guards_t) :: guards         !! what no mechanism does
@@ -31,9 +31,9 @@ contains
    !> What a careful reader of the results should know.
    subroutine warn_of_errors(system, worst, worst_row, lost, added, summary)
       type(mechanism_t), intent(in) :: system  !! the system
-      real(wp), intent(in) :: worst                !! greatest violation, over the size of the bodies or one radian [1]
+      real(wp), intent(in) :: worst                !! maximum violation, over the size of the bodies or one radian [1]
       integer, intent(in) :: worst_row             !! the row it belongs to
-      real(wp), intent(in) :: lost                 !! least that contacts had lost: negative, they made energy [J]
+      real(wp), intent(in) :: lost                 !! minimum that contacts had lost: negative, they made energy [J]
       real(wp), intent(in) :: added                !! magnitude of what the ledger adds up [J]
       type(summary_t), intent(inout) :: summary    !! warnings are added to it
 
@@ -63,7 +63,7 @@ contains
 
    !> Whether a residual of the ledger is the round-off of what it adds up: all there is where nothing moves.
    pure logical function is_round_off(residual, added)
-      real(wp), intent(in) :: residual   !! greatest of the run [J]
+      real(wp), intent(in) :: residual   !! maximum of the run [J]
       real(wp), intent(in) :: added      !! magnitude of what the ledger adds up [J]
 
       is_round_off = residual <= noise*epsilon(1.0_wp)*added

@@ -55,7 +55,7 @@ contains
       real(wp), intent(in) :: t                 !! time [s]
       integer, intent(in) :: number             !! number of the contact's event function
       real(wp), intent(in) :: before(3)         !! (3) its `sliding_way` before the event [1]
-      logical, intent(out) :: has_row           !! it does: `row` tells of it
+      logical, intent(out) :: has_row           !! it does: `row` reports of it
       type(event_t), intent(out) :: row         !! what happened
 
       integer :: k, slot
@@ -80,13 +80,13 @@ contains
       end associate
    end function slides_slowly
 
-   !> Whether a contact began to stick in the last decision, or does so no more, at this instant.
+   !> Whether a contact started to stick in the last decision, or does so no more, at this instant.
    subroutine find_change(system, t, slot, k, has_row, row)
       type(mechanism_t), intent(in) :: system   !! the system, its contacts decided
       real(wp), intent(in) :: t                 !! time [s]
       integer, intent(in) :: slot               !! set of the contact
       integer, intent(in) :: k                  !! contact of the set
-      logical, intent(out) :: has_row           !! it did: `row` tells of it
+      logical, intent(out) :: has_row           !! it did: `row` reports of it
       type(event_t), intent(out) :: row         !! what happened
 
       logical :: stuck
@@ -137,8 +137,9 @@ contains
    end subroutine tell
 
    !> Contacts whose event of friction, or whose turn, a jump of a load or of the velocity of a driver brought about, as what
-   !> happened at the end of the last step: `g` holds the event functions before the jump, the integrator was begun anew behind it.
-   !> So do those that slip with no speed to speak of: drivers may have come to rest, but for round-off, or may be about to turn.
+   !> happened at the end of the last step: `g` holds the event functions before the jump, the integrator was started anew behind
+   !> it. So do those that slip with no speed to speak of: drivers may have come to rest, but for round-off, or may be about to
+   !> turn.
    subroutine note_jumps(system, method)
       type(mechanism_t), intent(in) :: system       !! the system
       class(integrator_t), intent(inout) :: method      !! the integrator

@@ -34,12 +34,12 @@ module stop_condition
       real(wp) :: limit = 0.0_wp           !! SI [any]
    end type condition_t
 
-   !> Conditions, any of which ends the run; without any it goes on to its end.
+   !> Conditions, any of which ends the run; without any it continues to its end.
    type :: stop_t
       integer :: n = 0                           !! number of conditions
       type(condition_t), allocatable :: list(:)  !! (n or more) the conditions
       real(wp), allocatable :: before(:)         !! (n) how far beyond the limit at the start of the step [any]
-      real(wp) :: turning = 0.0_wp               !! greatest angular speed of a body there [rad/s]
+      real(wp) :: turning = 0.0_wp               !! maximum angular speed of a body there [rad/s]
       real(wp) :: t = 0.0_wp                     !! when the run ended [s]
       integer :: met = 0                         !! the condition that ended it, 0: none
    contains
@@ -128,7 +128,7 @@ contains
 
    contains
 
-      !> Greatest angular speed of a body at the motion that is set [rad/s].
+      !> Maximum angular speed of a body at the motion that is set [rad/s].
       pure real(wp) function max_turning()
          max_turning = sqrt(maxval(sum(system%linkage%motion%omega**2, dim=1)))
       end function max_turning
@@ -207,7 +207,7 @@ contains
 
    end subroutine stop_look
 
-   !> End the last step at a time within it, where the motion is over: by interpolation, so that nothing goes on from there.
+   !> End the last step at a time within it, where the motion is over: by interpolation, so that nothing continues from there.
    subroutine cut_step(system, method, t, status)
       type(mechanism_t), intent(inout) :: system     !! the system; at the end of what remains afterwards
       class(integrator_t), intent(inout) :: method   !! the integrator, after a step

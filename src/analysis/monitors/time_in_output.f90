@@ -27,7 +27,7 @@ module time_in_output
 
 contains
 
-   !> Begin to count, with what was counted before.
+   !> Start to count, with what was counted before.
    subroutine begin(self, before)
       class(output_time_t), intent(inout) :: self  !! the time
       real(wp), intent(in) :: before              !! processor time aside so far [s]
@@ -40,12 +40,12 @@ contains
 
    !> The motion is left for output.
    subroutine leave(self)
-      class(output_time_t), intent(inout) :: self  !! the time, begun
+      class(output_time_t), intent(inout) :: self  !! the time, started
 
       call system_clock(self%left_at)
    end subroutine leave
 
-   !> Output is done, the motion goes on.
+   !> Output is done, the motion continues.
    subroutine come_back(self)
       class(output_time_t), intent(inout) :: self  !! the time, left before
 
@@ -64,7 +64,7 @@ contains
 
    !> Processor time aside so far; the motion is not left.
    real(wp) function seconds(self)
-      class(output_time_t), intent(in) :: self  !! the time, begun
+      class(output_time_t), intent(in) :: self  !! the time, started
 
       integer(i8) :: now
       real(wp) :: cpu

@@ -46,7 +46,7 @@ contains
       end associate
    end subroutine handle_turn
 
-   !> Greatest rate of a contact that rests.
+   !> Maximum rate of a contact that rests.
    pure real(wp) function speed_of_rest(system, slot, k, delta) result(speed)
       type(mechanism_t), intent(in) :: system   !! the system
       integer, intent(in) :: slot                   !! set of the contact

@@ -18,7 +18,7 @@ module acting_forces
 
 contains
 
-   !> The greatest of the sums of all bodies, after an evaluation of loads and rows and with the multipliers set [N.m].
+   !> The maximum of the sums of all bodies, after an evaluation of loads and rows and with the multipliers set [N.m].
    real(wp) function max_acting(system)
       class(mechanism_t), intent(in) :: system   !! the system
 

@@ -59,7 +59,7 @@ contains
    !> Bring the temperature of each heated film half the way to what its heat asks for.
    subroutine correct_temperatures(system, missing, worst, error)
       class(mechanism_t), intent(inout) :: system           !! the system at an equilibrium
-      real(wp), intent(out) :: missing                      !! greatest difference of temperatures before that [K]
+      real(wp), intent(out) :: missing                      !! maximum difference of temperatures before that [K]
       character(:), allocatable, intent(out) :: worst       !! joint that has it
       type(error_t), allocatable, intent(out) :: error      !! a film has no flow, or gets too hot
 

@@ -1,8 +1,8 @@
 !> Static equilibrium: search, classification, and its record of one instant.
 !>
 !> The search goes downhill (see static_relaxation) until a thousandth of the loads is out of balance, then KINSOL
-!> polishes; where KINSOL fails or wanders off, as at an indifferent equilibrium, the descent goes on
-!> alone. The equilibrium is stable, unstable or indifferent by the least eigenvalue of the tangent stiffness
+!> polishes; where KINSOL fails or wanders off, as at an indifferent equilibrium, the descent continues
+!> alone. The equilibrium is stable, unstable or indifferent by the minimum eigenvalue of the tangent stiffness
 !> against the motions that the joints leave free.
 !> Source and limits: static_problem.
 module static
@@ -150,7 +150,7 @@ contains
       end do
    end subroutine check_loads
 
-   !> Positions to begin with.
+   !> Positions to start with.
    subroutine assemble_at_rest(scene, system, q, report, error)
       type(scene_t), intent(in) :: scene                    !! the scene
       type(mechanism_t), intent(inout) :: system        !! the system that is searched
@@ -303,7 +303,7 @@ contains
    pure function bodies_in(system, modes) result(part)
       class(mechanism_t), intent(in) :: system           !! the system
       real(wp), intent(in) :: modes(:, :)                !! (n_v bodies, motions) unit motions [1]
-      real(wp) :: part(system%linkage%bodies%n)          !! (bodies) greatest part of each, 0 to 1 [1]
+      real(wp) :: part(system%linkage%bodies%n)          !! (bodies) maximum part of each, 0 to 1 [1]
 
       integer :: k
 

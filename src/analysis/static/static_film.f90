@@ -5,8 +5,8 @@
 !> with N the motions that the rows leave free. The tangent stiffness of a film is far from symmetric, a load moves the journal
 !> across its own direction, so that there is no way downhill; a step is halved until less is out of balance at its end.
 !>
-!> Source: Nocedal and Wright, Numerical Optimization (2006), section 11.2. Limits: begins where the deck puts the bodies, with the
-!> joints assembled; velocities are the least that the drivers ask for, so that mechanisms which go round have no steady state.
+!> Source: Nocedal and Wright, Numerical Optimization (2006), section 11.2. Limits: starts where the deck puts the bodies, with the
+!> joints assembled; velocities are the minimum that the drivers ask for, so that mechanisms which go round have no steady state.
 module static_film
    use kinds, only: wp
    use lapack, only: dgetrf, dgetrs
@@ -18,7 +18,7 @@ module static_film
    public :: settle_in_films
 
    integer, parameter :: n_halving = 40            !! lengths of a step tried
-   real(wp), parameter :: enough = 1.0e-4_wp       !! least part of a step's length by which the load has to fall [1]
+   real(wp), parameter :: enough = 1.0e-4_wp       !! minimum part of a step's length by which the load has to fall [1]
 
 contains
 

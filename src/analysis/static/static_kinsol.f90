@@ -79,7 +79,7 @@ contains
       class(mechanism_t), intent(inout), target :: system  !! the system, balance evaluated at the start
       integer, intent(in) :: dependent(:)                      !! rows that depend on others
       real(wp), intent(in) :: load                             !! largest load [N.m]
-      real(wp), intent(in) :: tolerance                        !! greatest value of an equation allowed [1]
+      real(wp), intent(in) :: tolerance                        !! maximum value of an equation allowed [1]
       integer, intent(in) :: most                              !! iterations allowed
       real(wp), intent(inout) :: q(:)                          !! (n_q bodies) positions, polished if solved [any]
       logical, intent(out) :: is_solved                        !! the iteration ended by the tolerance, or by round-off

@@ -2,8 +2,8 @@
 !>
 !> $$ r = g(q) - \Phi_q^T \lambda = 0, \quad \Phi(q, 0) = 0 $$
 !>
-!> with velocities and accelerations zero and forces at t = 0. Loose joints act by the elastic force of their
-!> penetration. Where joints have lubricant films, which carry nothing without a speed, velocities are the least that the drivers
+!> with velocities and accelerations zero and forces at t = 0. Clearance joints act by the elastic force of their
+!> penetration. Where joints have lubricant films, which carry nothing without a speed, velocities are the minimum that the drivers
 !> ask for. Positions are scaled, lengths by the size of the bodies, angles by a radian, so that
 !> every entry of r and of the tangent stiffness K = -dr/dq (lambda held) is a moment.
 !>
@@ -35,7 +35,7 @@ module static_problem
       real(wp), allocatable :: stiffness(:)   !! (freedoms) eigenvalues of the free tangent stiffness, ascending [N.m]
       real(wp), allocatable :: tangent(:, :)  !! (freedoms, freedoms) free tangent stiffness, of films not symmetric, N^T K N [N.m]
       real(wp), allocatable :: modes(:, :)    !! (n_v bodies, freedoms) the motions that belong to them [1]
-      real(wp) :: steepest = 0.0_wp           !! greatest change of the load along a free motion [N.m]
+      real(wp) :: steepest = 0.0_wp           !! maximum change of the load along a free motion [N.m]
       real(wp) :: speed = 1.0_wp              !! of the drivers where there are films, over that of the deck [1]
       integer(i8) :: n_evaluations = 0_i8     !! evaluations of the loads so far
    end type balance_t

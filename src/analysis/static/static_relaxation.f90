@@ -2,9 +2,9 @@
 !>
 !> Each step goes along s = sum of modes (f_k / |K_k|), f_k the load out of balance along mode k, K_k its tangent
 !> stiffness: Newton's step where the stiffness is positive, downhill where it is negative, so that an unstable
-!> equilibrium is left unless the search begins exactly in it. No body turns by more than 0.3 rad in a step, or
+!> equilibrium is left unless the search starts exactly in it. No body turns by more than 0.3 rad in a step, or
 !> moves by more than 0.3 of the extent of the mechanism and ten sizes of its bodies; a step is shortened until the
-!> loads at its end no longer work against it by more than half of what they do for it at its begin. Then
+!> loads at its end no longer work against it by more than half of what they do for it at its start. Then
 !> the ideal joints are closed again.
 !>
 !> Source: Nocedal and Wright, Numerical Optimization (2006), sections 3.4 (modified Newton), 6.2 and 15.3 (null

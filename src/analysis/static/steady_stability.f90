@@ -8,7 +8,7 @@
 !>
 !> Source: Lund (1987), see `journal_whirl`; Meirovitch, Computational Methods in Structural Dynamics (1980), section 3.10 (state
 !> space). Limits: dense; a state that does not change while the bodies turn: where the drivers ask for accelerations there is none,
-!> and this is told instead.
+!> and this is reported instead.
 module steady_stability
    use acting_forces, only: has_films
    use clearance_set, only: clearance_set_t
@@ -26,14 +26,14 @@ module steady_stability
    private
    public :: find_eigenvalues, gather_films, is_steady, mode_words, no_growth
 
-   real(wp), parameter :: part = 1.0e-3_wp          !! step of the differences, of the least gap left [1]
+   real(wp), parameter :: part = 1.0e-3_wp          !! step of the differences, of the minimum gap left [1]
    real(wp), parameter :: no_load = 1.0e-6_wp       !! load of accelerations that counts as none, of the largest load [1]
    real(wp), parameter :: lost_digits = 1.0e-6_wp   !! real part that counts as none, of its eigenvalue [1]
-   real(wp), parameter :: lost_in_all = 1.0e-9_wp   !! the same, of the greatest eigenvalue [1]
+   real(wp), parameter :: lost_in_all = 1.0e-9_wp   !! the same, of the maximum eigenvalue [1]
 
 contains
 
-   !> Whether the state stays as it is while the drivers go on: they ask for no accelerations. After `look_at`.
+   !> Whether the state stays as it is while the drivers continue: they ask for no accelerations. After `look_at`.
    logical function is_steady(system)
       type(mechanism_t), intent(in) :: system  !! the system at the equilibrium
 
@@ -114,7 +114,7 @@ contains
       turn_between = sign(1.0_wp, speed)*atan2(from(1)*to(2) - from(2)*to(1), dot_product(from, to))
    end function turn_between
 
-   !> Eigenvalues at an equilibrium, of the greatest growth first.
+   !> Eigenvalues at an equilibrium, of the maximum growth first.
    subroutine find_eigenvalues(system, q, balance, eigenvalues)
       type(mechanism_t), intent(inout) :: system                !! the system; left at the equilibrium
       real(wp), intent(in) :: q(:)                              !! (n_q bodies) positions of the equilibrium [any]
@@ -149,7 +149,7 @@ contains
       eigenvalues = pace*eigenvalues
    end subroutine find_eigenvalues
 
-   !> Eigenvalues of a matrix, of the greatest real part first.
+   !> Eigenvalues of a matrix, of the maximum real part first.
    subroutine sorted_eigenvalues(matrix, values)
       real(wp), intent(inout) :: matrix(:, :)  !! (n, n) the matrix, destroyed [1]
       real(wp), intent(out) :: values(:, :)    !! (2, n) real and imaginary parts [1]
@@ -230,12 +230,12 @@ contains
 
    !> Growth that counts as none: what the differences and the eigenvalues lose.
    pure real(wp) function no_growth(eigenvalues)
-      real(wp), intent(in) :: eigenvalues(:, :)  !! (2, n) real and imaginary parts, of the greatest growth first [1/s]
+      real(wp), intent(in) :: eigenvalues(:, :)  !! (2, n) real and imaginary parts, of the maximum growth first [1/s]
 
       no_growth = max(lost_digits*norm2(eigenvalues(:, 1)), lost_in_all*maxval(norm2(eigenvalues, dim=1)))
    end function no_growth
 
-   !> How the motion of the greatest growth goes on, in words.
+   !> How the motion of the maximum growth continues, as text.
    function mode_words(linear) result(words)
       type(linearised_t), intent(in) :: linear  !! with eigenvalues and films
       character(:), allocatable :: words        !! as "e-fold in 0.3 s, at 4.1 Hz, 0.498 of the speed of the journal"

@@ -1,7 +1,7 @@
-!> The speed at which a mechanism on lubricant films begins to whirl: all drivers faster or slower in one proportion.
+!> The speed at which a mechanism on lubricant films starts to whirl: all drivers faster or slower in one proportion.
 !>
 !> From the speed of the deck on, faster where it is stable there and slower where it is not, by steps of a tenth; the equilibrium
-!> of each speed is found from that of the one before. Where the greatest real part of the eigenvalues has changed its sign, the
+!> of each speed is found from that of the one before. Where the maximum real part of the eigenvalues has changed its sign, the
 !> zero is found by regula falsi (Illinois). What comes out is the nearest change, if there are not two within one step.
 !>
 !> Source: M. Dowell and P. Jarratt, A modified regula falsi method, BIT 11 (1971) 168-174; otherwise `steady_stability`.
@@ -26,7 +26,7 @@ module whirl_onset
    !> A speed and what happens there.
    type :: trial_t
       real(wp) :: speed = 1.0_wp          !! over that of the deck [1]
-      real(wp) :: growth = 0.0_wp         !! greatest real part [1/s]
+      real(wp) :: growth = 0.0_wp         !! maximum real part [1/s]
       real(wp) :: frequency = 0.0_wp      !! imaginary part that belongs to it [rad/s]
       real(wp), allocatable :: q(:)       !! (n_q bodies) the equilibrium [any]
    end type trial_t

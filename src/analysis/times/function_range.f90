@@ -1,4 +1,4 @@
-!> Named functions must reach as far as the motion: found before it begins, not when it gets there.
+!> Named functions must reach as far as the motion: found before it starts, not when it gets there.
 module function_range
    use, intrinsic :: ieee_arithmetic, only: ieee_is_nan
    use curve, only: beyond_error
@@ -21,7 +21,7 @@ contains
    subroutine check_function_ranges(scene, end, mistakes)
       type(scene_t), intent(in) :: scene              !! the scene
       real(wp), intent(in) :: end                     !! end of the motion [s]
-      type(diagnostics_t), intent(inout) :: mistakes  !! mistakes found
+      type(diagnostics_t), intent(inout) :: mistakes  !! errors found
 
       integer :: k
 
@@ -37,7 +37,7 @@ contains
    subroutine check_table(table, end, mistakes)
       type(table_t), intent(in) :: table              !! rows of a kind
       real(wp), intent(in) :: end                     !! end of the motion [s]
-      type(diagnostics_t), intent(inout) :: mistakes  !! mistakes found
+      type(diagnostics_t), intent(inout) :: mistakes  !! errors found
 
       real(wp) :: t
       integer :: c, i

@@ -1,15 +1,15 @@
 !> Instants at which functions of time are not smooth, and how long a step may be so that it passes over nothing.
 !>
-!> The expressions of loads and drivers are searched as the motion goes on (`root_scan`, `rate_scan`). An instant ends a step
+!> The expressions of loads and drivers are searched as the motion continues (`root_scan`, `rate_scan`). An instant ends a step
 !> exactly; up to it the system evaluates all functions on their left side, then on their right one, and the integrator
-!> restarts (`smooth_segment`). Between instants a step is not longer than the functions' pace, nor than a quarter of a turn of
-!> any body that a contact may touch, unless the user has set a greatest or fixed step. A body whose motion is known has no error
-!> that would keep steps short where it does work on what cannot move: in a step it turns by 8 tolerance^(1/7) rad at most (unless
-!> the method has a history that ends of steps disturb), and by 5 tolerance^(1/6) rad, as an integral over the angle allows, where
-!> nothing else can move.
+!> restarts (`smooth_segment`). Between instants a step is not longer than the functions' characteristic rate, nor than a quarter of
+!> a turn of any body that a contact may touch, unless the user has set a maximum or fixed step. A body whose motion is known has no
+!> error that would keep steps short where it does work on what cannot move: in a step it turns by 8 tolerance^(1/7) rad at most
+!> (unless the method has a history that ends of steps disturb), and by 5 tolerance^(1/6) rad, as an integral over the angle allows,
+!> where nothing else can move.
 !>
 !> Limits: laws of springs and contacts, and what loads see of the motion, are functions of the state; their kinks are left to the
-!> control of the step. Of a load that sees the motion the parts that are functions of the time are watched.
+!> control of the step. Of a load that sees the motion the parts that are functions of the time are monitored.
 module output_times
    use, intrinsic :: ieee_exceptions, only: ieee_get_status, ieee_set_halting_mode, ieee_set_status, ieee_status_type, ieee_usual
    use expression, only: expression_t
@@ -27,12 +27,12 @@ module output_times
    public :: output_times_t, new_output_times, watched_t
 
    real(wp), parameter :: one = 16.0_wp*eps     !! of the time: instants closer than this are one [1]
-   real(wp), parameter :: turn = 0.5_wp*pi      !! greatest turn of a body with contacts in a step [rad]
-   ! greatest turn of a body of known motion at a tolerance of one, and the root of the tolerance that it falls with [rad, 1]
+   real(wp), parameter :: turn = 0.5_wp*pi      !! maximum turn of a body with contacts in a step [rad]
+   ! maximum turn of a body of known motion at a tolerance of one, and the root of the tolerance that it falls with [rad, 1]
    real(wp), parameter :: beside(2) = [8.0_wp, 7.0_wp]  !! others that can move
    real(wp), parameter :: alone(2) = [5.0_wp, 6.0_wp]   !! none that can
 
-   !> A cell of the deck whose expression is watched.
+   !> A cell of the deck whose expression is monitored.
    type :: watched_t
       character(:), allocatable :: name        !! of the cell, as `hand.fx`
       type(root_scan_t), allocatable :: scans(:)  !! (n) where it is not smooth
@@ -42,16 +42,16 @@ module output_times
 
    !> All of them, and where the motion is.
    type :: output_times_t
-      type(watched_t), allocatable :: cells(:)   !! (cells or more) what is watched
+      type(watched_t), allocatable :: cells(:)   !! (cells or more) what is monitored
       integer :: n = 0                           !! cells
       type(place_t) :: next                      !! the next instant
       real(wp) :: end = 0.0_wp                   !! end of the motion [s]
       logical :: paces = .false.                 !! some function limits the step
-      real(wp) :: omega = 0.0_wp                 !! greatest angular speed of a body that a contact may touch [rad/s]
-      real(wp) :: prescribed_omega = 0.0_wp           !! greatest one of a body whose motion is known [rad/s]
+      real(wp) :: omega = 0.0_wp                 !! maximum angular speed of a body that a contact may touch [rad/s]
+      real(wp) :: prescribed_omega = 0.0_wp           !! maximum one of a body whose motion is known [rad/s]
       logical :: is_still = .false.              !! whether nothing else can move
       real(wp) :: tolerance = -1.0_wp            !! that the next are of [1]
-      real(wp) :: prescribed_turn(2) = 0.0_wp  !! (2) greatest turns of such a body in a step: others move too; none does [rad]
+      real(wp) :: prescribed_turn(2) = 0.0_wp  !! (2) maximum turns of such a body in a step: others move too; none does [rad]
    contains
       procedure :: begin => output_times_begin
       procedure :: is_at => output_times_is_at
@@ -62,7 +62,7 @@ module output_times
 
 contains
 
-   !> Watch the expressions of a scene.
+   !> Monitor the expressions of a scene.
    subroutine new_output_times(scene, end, has_contacts, output_times)
       type(scene_t), intent(in) :: scene           !! the scene
       real(wp), intent(in) :: end                  !! end of the motion [s]
@@ -87,7 +87,7 @@ contains
       call ieee_set_status(status)
    end subroutine new_output_times
 
-   !> Watch the expressions of a table.
+   !> Monitor the expressions of a table.
    subroutine monitor_table(table, turns_count, output_times)
       type(table_t), intent(in) :: table              !! rows of a kind
       logical, intent(in) :: turns_count              !! whether angles must not turn by much in a step
@@ -145,7 +145,7 @@ contains
       end associate
    end function is_function_of_time
 
-   !> Watch an expression.
+   !> Monitor an expression.
    subroutine monitor(expression, end, is_turning, cell)
       type(expression_t), intent(in) :: expression   !! the expression
       real(wp), intent(in) :: end                    !! end of the motion [s]
@@ -164,7 +164,7 @@ contains
       call new_rate_scan(expression, 0.0_wp, end, merge(turn, 0.0_wp, is_turning), cell%pace)
    end subroutine monitor
 
-   !> The motion begins at t = 0: functions take their right side there.
+   !> The motion starts at t = 0: functions take their right side there.
    subroutine output_times_begin(self, end, segment)
       class(output_times_t), intent(inout) :: self       !! the instants
       real(wp), intent(in) :: end                    !! end of the motion [s]
@@ -198,10 +198,10 @@ contains
       is_at = t >= self%next%at
    end function output_times_is_at
 
-   !> Pass the next instant: functions take their right side, and the one after it is looked for.
+   !> Pass the next instant: functions take their right side, and the one after it is searched.
    subroutine output_times_pass(self, segment)
       class(output_times_t), intent(inout) :: self       !! the instants
-      type(smooth_segment_t), intent(inout) :: segment   !! the stretch that begins
+      type(smooth_segment_t), intent(inout) :: segment   !! the stretch that starts
 
       type(ieee_status_type) :: status
       integer :: i, k
@@ -251,7 +251,7 @@ contains
    !> Note how fast the bodies of contacts turn, and those of known motion: it limits the next step.
    pure subroutine output_times_note_turning(self, system)
       class(output_times_t), intent(inout) :: self   !! the instants
-      type(mechanism_t), intent(in) :: system    !! the system, its motion that of the beginning of the next step
+      type(mechanism_t), intent(in) :: system    !! the system, its motion that of the start of the next step
 
       integer :: k
 
@@ -272,7 +272,7 @@ contains
       end do
    end subroutine output_times_note_turning
 
-   !> Greatest component of the angular velocities of some pairs of bodies.
+   !> Maximum component of the angular velocities of some pairs of bodies.
    pure real(wp) function fastest(n, body, n_body, omega)
       integer, intent(in) :: n                        !! number of pairs
       integer, intent(in) :: body(2, n)               !! (2, n) their bodies
@@ -291,10 +291,10 @@ contains
       end do
    end function fastest
 
-   !> Latest end of the step that begins; how fast bodies turn there has been noted.
+   !> Latest end of the step that starts; how fast bodies turn there has been noted.
    subroutine output_times_stop_after(self, method, stop)
       class(output_times_t), intent(inout) :: self       !! the instants
-      class(integrator_t), intent(in) :: method      !! the integrator, at the beginning of the step
+      class(integrator_t), intent(in) :: method      !! the integrator, at the start of the step
       real(wp), intent(out) :: stop                  !! its latest end [s]
 
       type(ieee_status_type) :: status

@@ -26,7 +26,7 @@ contains
       end select
    end function has_contact_rows
 
-   !> The same in words, blank where there are no contacts.
+   !> The same as text, blank where there are no contacts.
    function contact_rows_text(scene, system) result(words)
       type(scene_t), intent(in) :: scene           !! the scene
       type(mechanism_t), intent(in) :: system  !! its system

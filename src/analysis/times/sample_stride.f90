@@ -26,7 +26,7 @@ module sample_stride
       integer :: n = 0                     !! samples since the last event, at most 3
       real(wp) :: t(3) = 0.0_wp            !! (3) times of the last samples [s]
       real(wp), allocatable :: a(:, :)     !! (m, 3) accelerations there [any]
-      real(wp), allocatable :: most(:)     !! (m) their greatest magnitudes so far [any]
+      real(wp), allocatable :: most(:)     !! (m) their maximum magnitudes so far [any]
    contains
       procedure :: begin => begin_stride
       procedure :: forget => forget_samples
@@ -39,7 +39,7 @@ module sample_stride
 
 contains
 
-   !> Begin with the first step.
+   !> Start with the first step.
    subroutine begin_stride(self, m)
       class(sample_stride_t), intent(inout) :: self  !! the stride
       integer, intent(in) :: m                       !! accelerations
@@ -121,7 +121,7 @@ contains
 
    !> Take it back.
    subroutine load_stride(self, archive)
-      class(sample_stride_t), intent(inout) :: self  !! the stride, begun
+      class(sample_stride_t), intent(inout) :: self  !! the stride, started
       type(archive_t), intent(inout) :: archive            !! holds it
 
       integer :: k

@@ -40,7 +40,7 @@ contains
       type(scene_t), intent(in) :: scene                  !! the scene
       type(mechanism_t), intent(in) :: system         !! its system, for the drivers
       type(time_plan_t), intent(out) :: plan              !! times
-      type(diagnostics_t), intent(inout) :: diagnostics   !! mistakes found
+      type(diagnostics_t), intent(inout) :: diagnostics   !! errors found
 
       type(value_t) :: end
       real(wp) :: last
@@ -107,7 +107,7 @@ contains
       type(scene_t), intent(in) :: scene                  !! the scene
       type(mechanism_t), intent(in) :: system             !! its system, for the drivers
       type(time_plan_t), intent(inout) :: plan            !! times
-      type(diagnostics_t), intent(inout) :: diagnostics   !! mistakes found
+      type(diagnostics_t), intent(inout) :: diagnostics   !! errors found
 
       associate (value => scene%settings%dynamic%values(place_of(scene%settings%dynamic, "checkpoint")))
          plan%checkpoint = seconds(value, "checkpoint", -1.0_wp, system, diagnostics)
@@ -126,7 +126,7 @@ contains
       type(scene_t), intent(in) :: scene                  !! the scene
       type(mechanism_t), intent(in) :: system         !! its system, for the drivers
       type(time_plan_t), intent(inout) :: plan            !! times
-      type(diagnostics_t), intent(inout) :: diagnostics   !! mistakes found
+      type(diagnostics_t), intent(inout) :: diagnostics   !! errors found
 
       real(wp), allocatable :: longer(:)
       integer :: item, k, most, n, slot
@@ -183,7 +183,7 @@ contains
       end associate
    end subroutine plan_statistics
 
-   !> Time at which a period begins, negative: the driver never makes so many turns.
+   !> Time at which a period starts, negative: the driver never makes so many turns.
    function period_start(period, k, system, slot, item) result(t)
       type(value_t), intent(in) :: period           !! the setting
       integer, intent(in) :: k                      !! number of the period, from 0
@@ -218,7 +218,7 @@ contains
       character(*), intent(in) :: key                     !! its key
       real(wp), intent(in) :: t_end                       !! end of the turns, negative: turns since the start [s]
       type(mechanism_t), intent(in) :: system         !! drivers
-      type(diagnostics_t), intent(inout) :: diagnostics   !! mistakes found
+      type(diagnostics_t), intent(inout) :: diagnostics   !! errors found
       real(wp) :: t                                       !! the time [s]
 
       integer :: before, item, slot
@@ -241,7 +241,7 @@ contains
    !> A driver turns less than is asked for.
    subroutine report_turns(value, diagnostics)
       type(value_t), intent(in) :: value                  !! the setting
-      type(diagnostics_t), intent(inout) :: diagnostics   !! receives the mistake
+      type(diagnostics_t), intent(inout) :: diagnostics   !! receives the error
 
       call diagnostics%add(value%location, "driver '"//value%text//"' never completes so many turns", "never reached")
    end subroutine report_turns
@@ -251,9 +251,9 @@ contains
       type(value_t), intent(in) :: value                  !! the setting
       character(*), intent(in) :: key                     !! its key
       type(mechanism_t), intent(in) :: system         !! drivers
-      integer, intent(out) :: slot                        !! the driver's set, 0: a time, or a mistake
+      integer, intent(out) :: slot                        !! the driver's set, 0: a time, or an error
       integer, intent(out) :: item                        !! its number there
-      type(diagnostics_t), intent(inout) :: diagnostics   !! mistakes found
+      type(diagnostics_t), intent(inout) :: diagnostics   !! errors found
 
       type(text_list_t) :: drivers
       character(:), allocatable :: hint

@@ -18,7 +18,7 @@ contains
       character(*), intent(in) :: line               !! the line, or its first part
       integer, intent(in), optional :: indent        !! blanks before it
       character(*), intent(in), optional :: second   !! its second part
-      integer, intent(in), optional :: column        !! where that begins
+      integer, intent(in), optional :: column        !! where that starts
 
       character(:), allocatable :: whole
 

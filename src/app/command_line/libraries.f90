@@ -22,7 +22,7 @@ module libraries
          import :: c_char, c_int
          implicit none (type, external)
          character(kind=c_char), intent(out) :: version(*)  !! text, ended by NUL
-         integer(c_int), value :: length                    !! room in it
+         integer(c_int), value :: length                    !! workspace in it
          integer(c_int) :: status                           !! 0: done
       end function sundials_get_version
    end interface

@@ -51,12 +51,12 @@ module options
       logical :: by_statistics = .false.             !! `--statistics`
    end type legacy_options_t
 
-   !> Runs that are stopped and go on.
+   !> Runs that are stopped and continue.
    type :: restart_options_t
       logical :: is_resumed = .false.                !! `--resume`
       logical :: is_verified = .false.               !! `--verify-restart`
       real(wp) :: walltime = 0.0_wp                  !! `--walltime TIME`; 0: none [s]
-      integer(i8) :: begun = 0                       !! when the program began, on the clock of `clock_ms` [ms]
+      integer(i8) :: begun = 0                       !! when the program started, on the clock of `clock_ms` [ms]
    end type restart_options_t
 
    !> How right the numbers are.
@@ -80,7 +80,7 @@ module options
       logical :: is_quiet = .false.                  !! `--quiet`
       logical :: is_json = .false.                   !! `--json`
       logical :: is_csv = .false.                    !! `--csv`
-      type(restart_options_t) :: restart             !! runs that are stopped and go on
+      type(restart_options_t) :: restart             !! runs that are stopped and continue
       type(help_options_t) :: help                   !! what help is asked for
       type(legacy_options_t) :: legacy               !! what concerns other programs
    end type options_t
@@ -338,12 +338,12 @@ contains
       call set_error(error, exit_usage, "option "//word//" needs a time above zero with its unit, as 60s, got '"//value//"'")
    end subroutine take_time
 
-   !> A mistake on the command line, with the nearest word that would do.
+   !> An error on the command line, with the nearest word that would do.
    subroutine usage_error(message, word, known, error)
       character(*), intent(in) :: message                  !! what is wrong
       character(*), intent(in) :: word                     !! the wrong word
       character(*), intent(in) :: known                    !! blank-separated words that would do
-      type(error_t), allocatable, intent(out) :: error     !! the mistake
+      type(error_t), allocatable, intent(out) :: error     !! the error
 
       character(:), allocatable :: near
 

@@ -6,8 +6,8 @@
 !> of it,
 !> by least squares in logarithms. c_max and d are those that come nearest, in the mean square, to the law along this impact of
 !> the two
-!> bodies as if they were free; d is looked for between a thousandth of the depth and twice that.
-!> What the function misses is told at speeds a decade to either side too, for its damping does not go with the impact speed.
+!> bodies as if they were free; d is searched between a thousandth of the depth and twice that.
+!> What the function misses is reported at speeds a decade to either side too, for its damping does not go with the impact speed.
 !>
 !> Signs: p' > 0 while the bodies approach. Source: the public description of IMPACT in Adams/Solver.
 !> Limits: friction is not in it; contacts of a law that stores nothing have no k.
@@ -29,7 +29,7 @@ module explain_adams
    type :: impact_function_t
       real(wp) :: k = 0.0_wp      !! stiffness [N/m^e]
       real(wp) :: e = 1.5_wp      !! exponent [1]
-      real(wp) :: c = 0.0_wp      !! greatest damping [N.s/m]
+      real(wp) :: c = 0.0_wp      !! maximum damping [N.s/m]
       real(wp) :: d = 1.0_wp      !! depth at which it is reached [m]
    end type impact_function_t
 
@@ -43,7 +43,7 @@ module explain_adams
 
 contains
 
-   !> All loose joints.
+   !> All clearance joints.
    subroutine explain_adams_parameters(loaded)
       type(loaded_t), intent(in) :: loaded        !! the deck
 
@@ -61,7 +61,7 @@ contains
       end do
    end subroutine explain_adams_parameters
 
-   !> One loose joint.
+   !> One clearance joint.
    subroutine explain_item(set, item, inverse_mass)
       class(clearance_set_t), intent(in) :: set     !! its set
       integer, intent(in) :: item                   !! item of the set

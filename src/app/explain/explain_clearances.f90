@@ -1,4 +1,4 @@
-!> Loose joints, for `gudgeon explain`: their laws, and how long a contact lasts beside the steps and the output.
+!> Clearance joints, for `gudgeon explain`: their laws, and how long a contact lasts beside the steps and the output.
 module explain_clearances
    use clearance_set, only: clearance_set_t
    use console, only: say
@@ -16,7 +16,7 @@ module explain_clearances
 
 contains
 
-   !> Loose joints: laws, stiffness, initial gap, time scale of a contact against the output interval.
+   !> Clearance joints: laws, stiffness, initial gap, time scale of a contact against the output interval.
    subroutine explain_clearance_joints(loaded, y)
       type(loaded_t), intent(inout) :: loaded         !! the deck
       real(wp), allocatable, intent(in) :: y(:)       !! (n) start; unallocated: none was found [any]
@@ -78,7 +78,7 @@ contains
       integer, intent(in) :: item                   !! item of the set
       real(wp), intent(in) :: inverse_mass(0:)      !! (0:bodies) one over the mass, 0 for the ground [1/kg]
 
-      real(wp), parameter :: near = 0.9_wp  ! eccentricity over clearance at which a decay is told [1]
+      real(wp), parameter :: near = 0.9_wp  ! eccentricity over clearance at which a decay is reported [1]
       character(:), allocatable :: words
       real(wp) :: decay
       type(kind_info_t) :: info
@@ -140,7 +140,7 @@ contains
       contact_time = set%contact_time(contact, speed, system%linkage%inverse_mass(1, :))
    end function contact_time
 
-   !> How much of an impact's energy goes into elastic waves, which a quasi-static law leaves out.
+   !> How much of an impact's energy goes into elastic waves, which a quasi-static law omits.
    subroutine explain_validity(speed_limit)
       real(wp), intent(in) :: speed_limit  !! huge: not known [m/s]
 

@@ -1,6 +1,6 @@
 !> What the deck gives but the motion does not need, for `gudgeon explain`.
 !>
-!> Whether a row is used follows from the references of all columns of all tables, as each kind's own `info` tells them.
+!> Whether a row is used follows from the references of all columns of all tables, as each kind's own `info` reports them.
 module explain_dropped
    use console, only: say
    use kind_info, only: cell_reference

@@ -1,4 +1,4 @@
-!> What counts as nothing in a scene: every number of the module `floors`, in the scene's own measure.
+!> What is negligible in a scene: every number of the module `floors`, in the scene's own measure.
 module explain_floors
    use channel_noise, only: noise_words
    use console, only: say
@@ -13,9 +13,10 @@ module explain_floors
 
 contains
 
-   !> For `gudgeon explain`: the pace of a mechanism at its start, and what is small beside it. The system is evaluated.
+   !> For `gudgeon explain`: the characteristic rate of a mechanism at its start, and what is small beside it. The system is
+   !> evaluated.
    subroutine floors_of_scene(system, y, end)
-      type(mechanism_t), intent(inout) :: system  !! the system; its pace is set
+      type(mechanism_t), intent(inout) :: system  !! the system; its characteristic rate is set
       real(wp), intent(in) :: y(:)                    !! (n) state at the start [any]
       real(wp), intent(in) :: end                     !! end of the run [s]
 
@@ -69,7 +70,7 @@ contains
       call say("```")
    end subroutine floors_manual
 
-   !> What a number is a part of, in words.
+   !> What a number is a part of, as text.
    pure function measure(of) result(words)
       integer, intent(in) :: of            !! of what, as in `floors`
       character(:), allocatable :: words   !! as "of the mechanism's speed"

@@ -1,4 +1,4 @@
-!> Ideal joints that rub, for `gudgeon explain`: their laws, and the data that the friction takes.
+!> Ideal joints with friction, for `gudgeon explain`: their laws, and the data that the friction takes.
 module explain_friction
    use console, only: say
    use echo, only: item_words
@@ -11,7 +11,7 @@ module explain_friction
 
 contains
 
-   !> Ideal joints that rub: the law and its parameters, the lengths that the friction acts on, and the preload.
+   !> Ideal joints with friction: the law and its parameters, the lengths that the friction acts on, and the preload.
    subroutine explain_rubbing_joints(scene, system)
       type(scene_t), intent(in) :: scene         !! the scene
       type(mechanism_t), intent(in) :: system    !! its system
@@ -38,7 +38,7 @@ contains
       end do
    end subroutine explain_rubbing_joints
 
-   !> A friction law in words: name, kind and parameters.
+   !> A friction law as text: name, kind and parameters.
    function law_words(scene, name) result(words)
       type(scene_t), intent(in) :: scene       !! the scene
       character(*), intent(in) :: name         !! name of the law

@@ -17,7 +17,7 @@ module explain_guards
 
 contains
 
-   !> Say what ends a motion early, and what it is told of.
+   !> Say what ends a motion early, and what it is reported of.
    subroutine say_guards(loaded)
       type(loaded_t), intent(in) :: loaded   !! the deck
 

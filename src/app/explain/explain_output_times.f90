@@ -1,4 +1,4 @@
-!> What `gudgeon explain` says of instants at which functions of time are not smooth, and of the greatest step.
+!> What `gudgeon explain` says of instants at which functions of time are not smooth, and of the maximum step.
 module explain_output_times
    use, intrinsic :: ieee_exceptions, only: ieee_get_status, ieee_set_halting_mode, ieee_set_status, ieee_status_type, ieee_usual
    use console, only: say
@@ -133,7 +133,7 @@ contains
       end if
    end subroutine explain_places
 
-   !> The shortest pace of a cell.
+   !> The shortest characteristic rate of a cell.
    subroutine explain_rates(cell)
       type(watched_t), intent(inout) :: cell   !! the cell; its search is used up
 

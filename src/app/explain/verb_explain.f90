@@ -34,10 +34,10 @@ module verb_explain
 
 contains
 
-   !> Find every mistake without integrating.
+   !> Find every error without integrating.
    subroutine check_deck(options, error)
       type(options_t), intent(in) :: options               !! the command line
-      type(error_t), allocatable, intent(out) :: error     !! mistakes of the deck, or no assembly
+      type(error_t), allocatable, intent(out) :: error     !! errors of the deck, or no assembly
 
       type(assembly_t) :: assembly
       type(loaded_t) :: loaded
@@ -83,7 +83,7 @@ contains
       words = "; a comparison of "//counted(size(settings), "setting", "settings")
    end function comparison_text
 
-   !> Where the analysis of the deck begins; the equilibrium of a static one.
+   !> Where the analysis of the deck starts; the equilibrium of a static one.
    subroutine find_begin(loaded, y, assembly, error)
       type(loaded_t), intent(inout) :: loaded              !! the deck
       real(wp), allocatable, intent(out) :: y(:)           !! (at least 6 bodies) positions and velocities [any]
@@ -110,7 +110,7 @@ contains
    !> Say what is modelled and what was dropped.
    subroutine explain_deck(options, error)
       type(options_t), intent(in) :: options               !! the command line
-      type(error_t), allocatable, intent(out) :: error     !! mistakes of the deck, or no assembly
+      type(error_t), allocatable, intent(out) :: error     !! errors of the deck, or no assembly
 
       type(assembly_t) :: assembly
       type(error_t), allocatable :: start_error

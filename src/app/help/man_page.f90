@@ -1,6 +1,6 @@
 !> `gudgeon help --man`: the man page, in the macros of man(7), from the tables of verbs and options and from the kinds.
 !>
-!> Limits: a kind stands there with its one line; its columns are told by `gudgeon help KIND`.
+!> Limits: a kind stands there with its one line; its columns are reported by `gudgeon help KIND`.
 module man_page
    use command_words, only: exit_codes, exit_meanings, known_options, known_verbs, words_of_value
    use console, only: say

@@ -207,7 +207,7 @@ contains
    !> An option in one line, with the words that its value may be.
    subroutine write_option(option, takers)
       type(option_t), intent(in) :: option   !! the option
-      character(*), intent(in) :: takers     !! verbs that take it; blank: they are not told
+      character(*), intent(in) :: takers     !! verbs that take it; blank: they are not reported
 
       character(:), allocatable :: words
 
@@ -256,7 +256,7 @@ contains
       call floors_manual()
    end subroutine write_manual
 
-   !> All that a kind says of itself.
+   !> All that a kind describes.
    subroutine write_kind(info, is_markdown)
       type(kind_info_t), intent(in) :: info  !! the kind
       logical, intent(in) :: is_markdown     !! as a part of the manual
@@ -295,7 +295,7 @@ contains
       if (is_markdown) call say("```")
    end subroutine write_kind
 
-   !> One column in words.
+   !> One column as text.
    function describe(column) result(words)
       type(column_t), intent(in) :: column   !! the column
       character(:), allocatable :: words     !! help, what it holds, default, bounds

@@ -1,8 +1,8 @@
-!> Figures that draw the mechanism: the instants that they want, against the times of the run.
+!> Figures that draw the mechanism: the instants that they need, against the times of the run.
 !>
 !> `mechanism` is at its instants, else at the end. `strip` and `animation` are over the window `last`, else over the last turn of
 !> the first driver that makes one, else over all that is written; of a turn the first and the last position would be one, so the
-!> last is left out. `coupler` follows a point over its window, else over all that is written, with the mechanism at the end of it.
+!> last is omitted. `coupler` follows a point over its window, else over all that is written, with the mechanism at the end of it.
 module drawn_figures
    use catalogue, only: catalogue_t
    use diagnostics, only: diagnostics_t
@@ -32,7 +32,7 @@ contains
       type(mechanism_t), intent(in) :: system         !! its system, for the drivers
       type(time_plan_t), intent(in) :: times          !! of the run
       type(catalogue_t), intent(in) :: catalogue      !! what it can report
-      type(diagnostics_t), intent(inout) :: mistakes  !! mistakes found
+      type(diagnostics_t), intent(inout) :: mistakes  !! errors found
 
       type(figure_t) :: figure
       type(wanted_frames_t) :: wanted
@@ -49,14 +49,14 @@ contains
       end associate
    end subroutine check_drawn_figures
 
-   !> What the figures of a run want; there are no mistakes in them.
+   !> What the figures of a run need; there are no errors in them.
    subroutine plan_drawn_figures(words, scene, system, times, catalogue, plan)
       type(text_t), intent(in) :: words(:)        !! (n) words of figures
       type(scene_t), intent(in) :: scene          !! the scene
       type(mechanism_t), intent(in) :: system     !! its system, for the drivers
       type(time_plan_t), intent(in) :: times      !! of the run
       type(catalogue_t), intent(in) :: catalogue  !! what it can report
-      type(frame_plan_t), intent(out) :: plan     !! what they want
+      type(frame_plan_t), intent(out) :: plan     !! what they need
 
       type(wanted_frames_t), allocatable :: list(:)
       type(diagnostics_t) :: mistakes
@@ -81,7 +81,7 @@ contains
       end do
    end subroutine plan_drawn_figures
 
-   !> What one figure wants.
+   !> What one figure needs.
    subroutine want(figure, scene, system, times, location, wanted, mistakes)
       type(figure_t), intent(in) :: figure              !! the figure
       type(scene_t), intent(in) :: scene                !! the scene
@@ -89,7 +89,7 @@ contains
       type(time_plan_t), intent(in) :: times            !! of the run
       type(location_t), intent(in) :: location          !! where its word stands
       type(wanted_frames_t), intent(out) :: wanted      !! instants, window and point
-      type(diagnostics_t), intent(inout) :: mistakes    !! mistakes found
+      type(diagnostics_t), intent(inout) :: mistakes    !! errors found
 
       integer :: k, n
       logical :: closes
@@ -131,15 +131,15 @@ contains
       end if
    end subroutine want
 
-   !> Where the window of a figure begins; all windows end with the run.
+   !> Where the window of a figure starts; all windows end with the run.
    subroutine find_window(figure, system, times, location, from, closes, mistakes)
       type(figure_t), intent(in) :: figure              !! the figure
       type(mechanism_t), intent(in) :: system           !! drivers
       type(time_plan_t), intent(in) :: times            !! of the run
       type(location_t), intent(in) :: location          !! where its word stands
-      real(wp), intent(out) :: from                     !! its beginning [s]
+      real(wp), intent(out) :: from                     !! its start [s]
       logical, intent(out) :: closes                    !! it is one of turns
-      type(diagnostics_t), intent(inout) :: mistakes    !! mistakes found
+      type(diagnostics_t), intent(inout) :: mistakes    !! errors found
 
       type(diagnostics_t) :: ignored
       type(value_t) :: value
@@ -177,7 +177,7 @@ contains
       type(scene_t), intent(in) :: scene                !! the scene
       type(location_t), intent(in) :: location          !! where the word stands
       type(wanted_frames_t), intent(inout) :: wanted    !! body and place are set
-      type(diagnostics_t), intent(inout) :: mistakes    !! mistakes found
+      type(diagnostics_t), intent(inout) :: mistakes    !! errors found
 
       character(:), allocatable :: hint
       integer :: k

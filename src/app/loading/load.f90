@@ -1,4 +1,4 @@
-!> From a deck on disk to a scene, its system and its times; every mistake of the deck in one error.
+!> From a deck on disk to a scene, its system and its times; every error of the deck in one error.
 module load
    use build_clearances, only: has_ideal
    use build_system, only: levels_as_written, levels_ideal, levels_clearance_joints, new_system
@@ -43,7 +43,7 @@ module load
       type(deck_t) :: deck                        !! its text and parameters
       type(scene_t) :: scene                      !! what it means
       type(mechanism_t) :: system             !! its equations
-      type(catalogue_t), allocatable :: catalogue !! what they can report; of a case of a sweep none until it is wanted
+      type(catalogue_t), allocatable :: catalogue !! what they can report; of a case of a sweep none until it is requested
       type(time_plan_t) :: plan                   !! its times
       type(sweep_t) :: sweep                      !! its cases
       logical :: is_stream = .false.              !! the deck came through a pipe and cannot be read again
@@ -55,7 +55,7 @@ contains
    subroutine load_deck(options, loaded, error)
       type(options_t), intent(in) :: options               !! the command line
       type(loaded_t), intent(out) :: loaded                !! the deck
-      type(error_t), allocatable, intent(out) :: error     !! mistakes of the command line or the deck
+      type(error_t), allocatable, intent(out) :: error     !! errors of the command line or the deck
 
       type(diagnostics_t) :: mistakes
 
@@ -77,11 +77,11 @@ contains
    end subroutine load_deck
 
    !> Load the deck once more with other parameters: what they do not stand in is not read again. It is the very same as if all of
-   !> it were (`load_deck`), which is done where words or settings change, and where there are mistakes, to tell these in full.
+   !> it were (`load_deck`), which is done where words or settings change, and where there are errors, to report these in full.
    subroutine load_case(options, loaded, error)
       type(options_t), intent(in) :: options               !! the command line, but for `--set` that of before
       type(loaded_t), intent(inout) :: loaded              !! the deck as it was loaded before
-      type(error_t), allocatable, intent(out) :: error     !! mistakes of the parameters
+      type(error_t), allocatable, intent(out) :: error     !! errors of the parameters
 
       logical :: is_done
       logical, allocatable :: is_touched(:)
@@ -100,7 +100,7 @@ contains
    subroutine prepare(options, loaded, error)
       type(options_t), intent(in) :: options               !! the command line
       type(loaded_t), intent(inout) :: loaded              !! deck and scene are known; the rest is set
-      type(error_t), allocatable, intent(out) :: error     !! mistakes of the command line or the deck
+      type(error_t), allocatable, intent(out) :: error     !! errors of the command line or the deck
 
       type(catalogue_t) :: catalogue
       type(diagnostics_t) :: mistakes
@@ -170,12 +170,13 @@ contains
       end if
    end function runs_as_written
 
-   !> What a deck can have words for: channels and figures of loose joints and of its first analysis, whatever a run has of them.
+   !> What a deck can have words for: channels and figures of clearance joints and of its first analysis, whatever a run has of
+   !> them.
    subroutine list_words(deck, scene, catalogue, mistakes)
       type(deck_t), intent(in) :: deck                !! the deck
       type(scene_t), intent(inout) :: scene           !! its scene; expressions over channels are understood
       type(catalogue_t), intent(out) :: catalogue     !! all that it can report
-      type(diagnostics_t), intent(inout) :: mistakes  !! mistakes found
+      type(diagnostics_t), intent(inout) :: mistakes  !! errors found
 
       type(mechanism_t) :: clearance_joints
 
@@ -187,11 +188,11 @@ contains
       call build_catalogue(clearance_joints, catalogue)
    end subroutine list_words
 
-   !> Every word that a sweep gives to a parameter must make a deck without mistakes, the other parameters being the deck's own.
+   !> Every word that a sweep gives to a parameter must make a deck without errors, the other parameters being the deck's own.
    subroutine check_swept_words(options, loaded, error)
       type(options_t), intent(in) :: options               !! the command line
       type(loaded_t), intent(in) :: loaded                 !! the deck
-      type(error_t), allocatable, intent(out) :: error     !! mistakes of the deck with one of the words
+      type(error_t), allocatable, intent(out) :: error     !! errors of the deck with one of the words
 
       type(loaded_t) :: other
       type(options_t) :: case

@@ -20,7 +20,7 @@ module run_limits
 
 contains
 
-   !> Limits of a run. Conditions on channels that its joints, taken as ideal, do not have are left out, with a warning.
+   !> Limits of a run. Conditions on channels that its joints, taken as ideal, do not have are omitted, with a warning.
    subroutine limits_of(scene, system, catalogue, limits, warnings)
       type(scene_t), intent(in) :: scene                        !! the scene
       type(mechanism_t), intent(in) :: system               !! the system that will run
@@ -51,10 +51,10 @@ contains
       end associate
    end subroutine limits_of
 
-   !> Limits of an ideal twin: its processor time and guards only.
+   !> Limits of an reference run with ideal joints: its processor time and guards only.
    function twin_limits(scene, system) result(limits)
       type(scene_t), intent(in) :: scene              !! the scene
-      type(mechanism_t), intent(in) :: system     !! the twin's system
+      type(mechanism_t), intent(in) :: system     !! the reference run's system
       type(limits_t) :: limits                        !! limits
 
       limits%cpu = scene%settings%dynamic%number("limit_cpu")
@@ -71,8 +71,8 @@ contains
    !> Conditions must name one number of a channel of the scene, and compare it with a number of its dimension.
    subroutine check_conditions(scene, catalogue, mistakes)
       type(scene_t), intent(in) :: scene              !! the scene
-      type(catalogue_t), intent(in) :: catalogue      !! what its loose joints can report
-      type(diagnostics_t), intent(inout) :: mistakes  !! mistakes found
+      type(catalogue_t), intent(in) :: catalogue      !! what its clearance joints can report
+      type(diagnostics_t), intent(inout) :: mistakes  !! errors found
 
       type(scalar_t), allocatable :: scalars(:)
       type(dim_t) :: dimension
@@ -130,7 +130,7 @@ contains
       end associate
    end function dimension_of
 
-   !> A condition in words, its limit in the SI unit of the channel.
+   !> A condition as text, its limit in the SI unit of the channel.
    function words_of(condition, catalogue) result(words)
       type(condition_t), intent(in) :: condition    !! the condition
       type(catalogue_t), intent(in) :: catalogue    !! what can be reported

@@ -21,11 +21,11 @@ contains
 
    !> Channels and figures must name what the scene has.
    subroutine check_words(deck, scene, end, catalogue, mistakes)
-      type(deck_t), intent(in) :: deck                !! the deck, for the places of mistakes
+      type(deck_t), intent(in) :: deck                !! the deck, for the places of errors
       type(scene_t), intent(in) :: scene              !! the scene
       real(wp), intent(in) :: end                     !! of the run; 0: it has none [s]
       type(catalogue_t), intent(in) :: catalogue      !! what it can report
-      type(diagnostics_t), intent(inout) :: mistakes  !! mistakes found
+      type(diagnostics_t), intent(inout) :: mistakes  !! errors found
 
       integer :: k
 
@@ -41,11 +41,11 @@ contains
       end do
    end subroutine check_words
 
-   !> The channels of a key: each wrong one is a mistake.
+   !> The channels of a key: each wrong one is an error.
    subroutine check_channels(value, catalogue, mistakes)
       type(value_t), intent(in) :: value              !! of the key, perhaps without words
       type(catalogue_t), intent(in) :: catalogue      !! what can be reported
-      type(diagnostics_t), intent(inout) :: mistakes  !! mistakes found
+      type(diagnostics_t), intent(inout) :: mistakes  !! errors found
 
       type(selection_t) :: selection
       character(:), allocatable :: hint, message
@@ -62,13 +62,13 @@ contains
 
    !> A figure of the list.
    subroutine check_figure(deck, scene, end, catalogue, value, k, mistakes)
-      type(deck_t), intent(in) :: deck                !! the deck, for the place of a mistake
+      type(deck_t), intent(in) :: deck                !! the deck, for the place of an error
       type(scene_t), intent(in) :: scene              !! the scene
       real(wp), intent(in) :: end                     !! of the run; 0: it has none [s]
       type(catalogue_t), intent(in) :: catalogue      !! what it can report
       type(value_t), intent(in) :: value              !! of the key `figures`
       integer, intent(in) :: k                        !! which of its words
-      type(diagnostics_t), intent(inout) :: mistakes  !! mistakes found
+      type(diagnostics_t), intent(inout) :: mistakes  !! errors found
 
       type(figure_t), allocatable :: figures(:)
       character(:), allocatable :: hint, message, part

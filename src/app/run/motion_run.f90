@@ -1,4 +1,5 @@
-!> A motion in time under forces: begun or gone on with, integrated, concluded with that of its ideal twin for the figures.
+!> A motion in time under forces: started or continued with, integrated, concluded with that of its reference run with ideal joints
+!> for the figures.
 module motion_run
    use accurate_run, only: budget_of, choose_tolerance, tell_accuracy
    use assembly_report, only: assembly_t
@@ -50,7 +51,7 @@ contains
       real(wp), intent(in) :: stop_at                              !! time of the motion after which it is saved and ends [s]
       type(horizon_t), intent(inout) :: horizon                    !! what is known of it; what is asked for and not known is found
       type(error_t), allocatable, intent(out) :: error             !! whatever went wrong
-      type(member_result_t), intent(inout), optional :: member     !! what a sweep wants to know of the run
+      type(member_result_t), intent(inout), optional :: member     !! what a sweep needs to know of the run
 
       class(integrator_t), allocatable :: method
       type(assembly_t) :: assembly
@@ -105,10 +106,10 @@ contains
       call end_as_asked(summary, error)
    end subroutine run_motion
 
-   !> When a run begins and ends, and that it is saved.
+   !> When a run starts and ends, and that it is saved.
    subroutine set_life(options, goes_on, stop_at, life)
       type(options_t), intent(in) :: options        !! the command line
-      logical, intent(in) :: goes_on                !! an earlier run is gone on with
+      logical, intent(in) :: goes_on                !! an earlier run is continued with
       real(wp), intent(in) :: stop_at               !! time of the motion after which it is saved and ends [s]
       type(lifetime_t), intent(inout) :: life       !! these are set
 
@@ -120,7 +121,7 @@ contains
 
    !> What an earlier run has saved, and what it knew of its horizon.
    subroutine take_up(plan, saved, horizon, error)
-      type(output_plan_t), intent(inout) :: plan                   !! of the run; learns where it goes on
+      type(output_plan_t), intent(inout) :: plan                   !! of the run; learns where it continues
       type(saved_run_t), allocatable, intent(out) :: saved         !! what was saved
       type(horizon_t), intent(out) :: horizon                      !! what was known of it; no instants: nothing
       type(error_t), allocatable, intent(out) :: error             !! it cannot be read, or is of another run
@@ -131,7 +132,7 @@ contains
       call read_checkpoint(plan, saved, error)
       if (allocated(error)) return
       plan%life%resumed_from = saved%t
-      archive = saved%output  ! which the recorder reads from its beginning
+      archive = saved%output  ! which the recorder reads from its start
       call load_horizon(archive, horizon)
    end subroutine take_up
 
@@ -198,7 +199,7 @@ contains
       call find_horizon(job, horizon)
    end subroutine look_ahead
 
-   !> After the motion: that of the ideal twin for the figures, the figures, the summary.
+   !> After the motion: that of the reference run with ideal joints for the figures, the figures, the summary.
    subroutine conclude(loaded, ideal, keeper, summary, error)
       type(loaded_t), intent(in) :: loaded                      !! the deck
       type(ideal_start_t), intent(inout) :: ideal               !! the start with ideal joints, if it was needed

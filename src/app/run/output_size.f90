@@ -1,4 +1,4 @@
-!> How much a run will write, estimated before it begins.
+!> How much a run will write, estimated before it starts.
 !>
 !> Of each number kept 8 bytes an instant in run.h5 and 25 in a text file; of each point of motion.vtkhdf ten numbers. Limits: rows
 !> at contacts, whose number nobody knows before, and what a few thousand events take are not counted.
@@ -25,7 +25,7 @@ module output_size
 
 contains
 
-   !> A run that would write more than the deck allows, or than there is room for, is refused before anything is made.
+   !> A run that would write more than the deck allows, or than there is storage for, is refused before anything is made.
    subroutine check_size(options, loaded, directory, error)
       type(options_t), intent(in) :: options               !! the command line
       type(loaded_t), intent(in) :: loaded                 !! the deck
@@ -41,7 +41,7 @@ contains
       if (loaded%scene%analysis == analysis_static .or. options%write == "numbers") return
       associate (output => loaded%scene%settings%output)
          call select_channels(output%values(place_of(output, "channels"))%words, loaded%catalogue, selection, bad, message, hint)
-         if (bad > 0) return  ! told elsewhere
+         if (bad > 0) return  ! reported elsewhere
          size_limit = output%number("size_limit")
          each = of_binary*selection%count()
          if (options%write == "all") each = each + of_text*selection%count()

@@ -1,4 +1,5 @@
-!> Runs that are stopped and go on: what their options go together with, where they go on, the proof that it makes no difference.
+!> Runs that are stopped and continue: what their options go together with, where they continue, the proof that it makes no
+!> difference.
 module restart_run
    use checkpoint_file, only: checkpoint_name
    use errors, only: error_t, exit_different, exit_usage, set_error
@@ -65,7 +66,7 @@ contains
                      "  = add to [analysis.dynamic]: checkpoint = 0.1 s, or checkpoint = 1 turns of a driver")
    end subroutine check_schedule
 
-   !> The directory of a run: a new one, or with `--resume` that of the run that goes on.
+   !> The directory of a run: a new one, or with `--resume` that of the run that continues.
    subroutine open_directory(options, path, directory, goes_on, is_complete, error)
       type(options_t), intent(in) :: options                 !! the command line
       character(*), intent(in) :: path                       !! where it is
@@ -92,7 +93,7 @@ contains
       end if
    end subroutine open_directory
 
-   !> Whether a run has come to its end, by its summary. One that failed, as for want of room on the disk, has not.
+   !> Whether a run has come to its end, by its summary. One that failed, as for need of room on the disk, has not.
    logical function has_completed(path)
       character(*), intent(in) :: path      !! of the summary
 
@@ -103,7 +104,7 @@ contains
       has_completed = message == "" .and. index(summary%text, """status"": """//status_complete//"""") > 0
    end function has_completed
 
-   !> Compare a run with one that was stopped and went on several times.
+   !> Compare a run with one that was stopped and continued several times.
    subroutine compare_restarted(one, other, n_restart, is_quiet, error)
       character(*), intent(in) :: one                        !! directory of the run
       character(*), intent(in) :: other                      !! directory of that with restarts

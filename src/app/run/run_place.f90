@@ -1,4 +1,4 @@
-!> Where a run writes: its directory, made, or taken again where an earlier run is gone on with.
+!> Where a run writes: its directory, made, or taken again where an earlier run is continued with.
 module run_place
    use errors, only: error_t
    use load, only: loaded_t
@@ -35,7 +35,7 @@ contains
       type(options_t), intent(in) :: options               !! the command line
       type(loaded_t), intent(in) :: loaded                 !! the deck
       type(output_directory_t), intent(inout) :: directory !! opened
-      logical, intent(out) :: goes_on                      !! an earlier run is gone on with
+      logical, intent(out) :: goes_on                      !! an earlier run is continued with
       logical, intent(out) :: is_complete                  !! that run has ended: nothing is to be done
       type(error_t), allocatable, intent(out) :: error     !! it cannot be made, or is not free
 

@@ -34,7 +34,7 @@ module run_plan
 
 contains
 
-   !> What the recorder is told.
+   !> What the recorder is reported.
    subroutine make_plan(options, loaded, directory, assembly, plan)
       type(options_t), intent(in) :: options       !! the command line
       type(loaded_t), intent(in) :: loaded         !! the deck

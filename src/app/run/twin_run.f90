@@ -26,7 +26,7 @@ contains
       type(loaded_t), intent(in) :: loaded                 !! the deck
       type(output_plan_t), intent(in) :: plan              !! plan of the run proper
       type(ideal_start_t), intent(inout) :: ideal          !! the start with ideal joints, if the run proper has found it
-      type(error_t), allocatable, intent(out) :: error     !! there is no twin
+      type(error_t), allocatable, intent(out) :: error     !! there is no reference run
 
       class(integrator_t), allocatable :: method
       type(assembly_t) :: assembly

@@ -57,7 +57,7 @@ contains
       type(options_t), intent(in) :: options                       !! the command line
       type(loaded_t), intent(inout) :: loaded                      !! the deck
       type(error_t), allocatable, intent(out) :: error             !! whatever went wrong
-      type(member_result_t), intent(inout), optional :: member     !! what a sweep wants to know of the run
+      type(member_result_t), intent(inout), optional :: member     !! what a sweep needs to know of the run
 
       type(horizon_t) :: horizon
 

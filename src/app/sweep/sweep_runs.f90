@@ -1,12 +1,12 @@
-!> The runs of a sweep, each in a process of its own, as many at once as wanted.
+!> The runs of a sweep, each in a process of its own, as many at once as requested.
 !>
 !> The process of a run is a copy of this one, which has read the deck and all that it names: it does what `gudgeon run DECK
 !> --set ... --member K` does, and gives the very numbers of that command. The first case is loaded here; from it each run goes to
 !> its own, which reads again only what the parameters stand in (`load_case`). Where a case has many runs that is done here, once
 !> for all of them; with few jobs too, before the copy is made: pages that both processes write cost more. Many jobs would wait for
 !> it. What a run found comes back and is written to the journal at once. A run that fails is recorded with its exit code and its
-!> message, and the others go on. Messages go to a file that the runs of one job use one after the other; it becomes that of a run
-!> that fails.
+!> message, and the others continue. Messages go to a file that the runs of one job use one after the other; it becomes that of a
+!> run that fails.
 module sweep_runs
    use errors, only: error_t, exit_file, exit_ok, set_error
    use kinds, only: i8, wp
@@ -33,7 +33,7 @@ module sweep_runs
    public :: run_all
 
    integer, parameter :: few_jobs = 4               !! so many do not wait for cases that are loaded one after the other [1]
-   real(wp), parameter :: write_interval = 10.0_wp  !! least time between two times that the results are written [s]
+   real(wp), parameter :: write_interval = 10.0_wp  !! minimum time between two times that the results are written [s]
    real(wp), parameter :: write_share = 200.0_wp    !! and this many times as long as writing them took [1]
 
    !> The case whose runs are being started.
@@ -42,7 +42,7 @@ module sweep_runs
       integer :: loaded_number = 0                !! of the case that is loaded; 0: none
       type(options_t) :: options                  !! its command line
       type(loaded_t) :: loaded                    !! the deck of the case that is loaded
-      type(error_t), allocatable :: error         !! the deck of that case has mistakes
+      type(error_t), allocatable :: error         !! the deck of that case has errors
       real(wp) :: cpu = 0.0_wp                    !! processor time of loading it, until a run has been charged with it [s]
    end type ready_t
 
@@ -157,7 +157,7 @@ contains
       ready%options%directory = work%directories(number)%s
    end subroutine make_ready
 
-   !> Load a case, unless that is done: from the one that is loaded, if that has no mistakes.
+   !> Load a case, unless that is done: from the one that is loaded, if that has no errors.
    subroutine turn_to_case(ready)
       type(ready_t), intent(inout) :: ready   !! the case
 

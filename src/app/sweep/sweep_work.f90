@@ -118,7 +118,7 @@ contains
       n_failed = count(self%results%runs%exit_code > 0)
    end function n_failed
 
-   !> Take runs that a journal has. One that ended by a signal, or for want of memory or room on a disk, is made again.
+   !> Take runs that a journal has. One that ended by a signal, or for need of memory or room on a disk, is made again.
    subroutine take_journal(work, journal, folder)
       type(sweep_work_t), intent(inout) :: work       !! the sweep
       type(journal_t), intent(in) :: journal          !! the runs

@@ -1,6 +1,6 @@
 !> `gudgeon merge DIR`: the parts of a sweep, `DIR.shards/I-of-N`, put together in DIR as if one sweep had made all runs.
 !>
-!> What is needed is in the journals of the parts, also the deck and every file that it names, as they were when the parts began.
+!> What is needed is in the journals of the parts, also the deck and every file that it names, as they were when the parts started.
 !> Parts of different models, options or programs are refused. It may be called while parts are being made; what is not there yet
 !> is missing.
 module verb_merge

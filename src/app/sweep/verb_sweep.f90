@@ -2,7 +2,7 @@
 !>
 !> The deck and every file that it names are read once, so that all runs are of the same model whatever becomes of the files. Runs
 !> are numbered case by case and collected by their number. What is done is in the journal as soon as it is (`sweep_journal`): a
-!> sweep of the same model into the same directory goes on from there. With `--shard I/N` only every N-th run is made, into a
+!> sweep of the same model into the same directory continues from there. With `--shard I/N` only every N-th run is made, into a
 !> directory of its own, and `gudgeon merge` puts the parts together (`verb_merge`).
 module verb_sweep
    use errors, only: error_t, exit_usage, set_error
@@ -30,7 +30,7 @@ contains
    !> Run the sweep.
    subroutine sweep_deck(options, error)
       type(options_t), intent(in) :: options               !! the command line
-      type(error_t), allocatable, intent(out) :: error     !! mistakes, no directory, or part of the runs failed
+      type(error_t), allocatable, intent(out) :: error     !! errors, no directory, or part of the runs failed
 
       type(loaded_t) :: loaded
       type(origin_of_sweep_t) :: origin
@@ -118,10 +118,10 @@ contains
       call work%journal%begin(path, error)
    end subroutine begin_sweep
 
-   !> Files that are not what they were when the sweep began; its runs are of what was read then.
+   !> Files that are not what they were when the sweep started; its runs are of what was read then.
    subroutine tell_changes(program, stamp, warnings)
       character(*), intent(in) :: program                        !! path of this program
-      character(*), intent(in) :: stamp                          !! by which it was known at the beginning
+      character(*), intent(in) :: stamp                          !! by which it was known at the start
       type(text_t), allocatable, intent(inout) :: warnings(:)    !! (m) grown
 
       type(text_t), allocatable :: changed(:)

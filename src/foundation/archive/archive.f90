@@ -1,7 +1,7 @@
 !> A row of numbers that grows as it is written, for what is remembered of a run and whose size nobody knows beforehand.
 !>
 !> Written in one order and read in the same one. Counts, flags and characters travel as whole numbers in doubles, exact below
-!> 2^53; lists carry their length. Whoever reads a tape that is too short gets zeros, and `is_good` is false from there on.
+!> 2^53; lists carry their length. Whoever reads an archive that is too short gets zeros, and `is_good` is false from there on.
 module archive
    use kinds, only: i8, wp
    implicit none (type, external)
@@ -29,9 +29,9 @@ module archive
 
 contains
 
-   !> Room for so many numbers more.
+   !> Storage for so many numbers more.
    subroutine make_storage(self, more)
-      class(archive_t), intent(inout) :: self  !! the tape
+      class(archive_t), intent(inout) :: self  !! the archive
       integer, intent(in) :: more           !! numbers to come
 
       real(wp), allocatable :: grown(:)
@@ -44,7 +44,7 @@ contains
    end subroutine make_storage
 
    subroutine put_real(self, value)
-      class(archive_t), intent(inout) :: self  !! the tape
+      class(archive_t), intent(inout) :: self  !! the archive
       real(wp), intent(in) :: value         !! the value [any]
 
       call make_storage(self, 1)
@@ -53,7 +53,7 @@ contains
    end subroutine put_real
 
    subroutine put_reals(self, values)
-      class(archive_t), intent(inout) :: self  !! the tape
+      class(archive_t), intent(inout) :: self  !! the archive
       real(wp), intent(in) :: values(:)     !! (any) the values [any]
 
       call make_storage(self, size(values))
@@ -62,28 +62,28 @@ contains
    end subroutine put_reals
 
    subroutine put_integer(self, value)
-      class(archive_t), intent(inout) :: self  !! the tape
+      class(archive_t), intent(inout) :: self  !! the archive
       integer, intent(in) :: value          !! the value
 
       call put_real(self, real(value, wp))
    end subroutine put_integer
 
    subroutine put_integers(self, values)
-      class(archive_t), intent(inout) :: self  !! the tape
+      class(archive_t), intent(inout) :: self  !! the archive
       integer, intent(in) :: values(:)      !! (any) the values
 
       call put_reals(self, real(values, wp))
    end subroutine put_integers
 
    subroutine put_long(self, value)
-      class(archive_t), intent(inout) :: self  !! the tape
+      class(archive_t), intent(inout) :: self  !! the archive
       integer(i8), intent(in) :: value      !! the value
 
       call put_real(self, real(value, wp))
    end subroutine put_long
 
    subroutine put_logical(self, value)
-      class(archive_t), intent(inout) :: self  !! the tape
+      class(archive_t), intent(inout) :: self  !! the archive
       logical, intent(in) :: value          !! the value
 
       call put_real(self, merge(1.0_wp, 0.0_wp, value))
@@ -91,7 +91,7 @@ contains
 
    !> A text with its length.
    subroutine put_text(self, text)
-      class(archive_t), intent(inout) :: self  !! the tape
+      class(archive_t), intent(inout) :: self  !! the archive
       character(*), intent(in) :: text      !! the text
 
       integer :: k
@@ -102,7 +102,7 @@ contains
 
    !> A list of numbers with its length.
    subroutine archive_put_list(self, values)
-      class(archive_t), intent(inout) :: self  !! the tape
+      class(archive_t), intent(inout) :: self  !! the archive
       real(wp), intent(in) :: values(:)     !! (any) the values [any]
 
       call put_integer(self, size(values))
@@ -110,7 +110,7 @@ contains
    end subroutine archive_put_list
 
    subroutine get_real(self, value)
-      class(archive_t), intent(inout) :: self  !! the tape
+      class(archive_t), intent(inout) :: self  !! the archive
       real(wp), intent(out) :: value        !! the value [any]
 
       value = 0.0_wp
@@ -121,7 +121,7 @@ contains
    end subroutine get_real
 
    subroutine get_reals(self, values)
-      class(archive_t), intent(inout) :: self   !! the tape
+      class(archive_t), intent(inout) :: self   !! the archive
       real(wp), intent(out) :: values(:)     !! (any) the values [any]
 
       values = 0.0_wp
@@ -132,7 +132,7 @@ contains
    end subroutine get_reals
 
    subroutine get_integer(self, value)
-      class(archive_t), intent(inout) :: self  !! the tape
+      class(archive_t), intent(inout) :: self  !! the archive
       integer, intent(out) :: value         !! the value
 
       real(wp) :: number
@@ -142,7 +142,7 @@ contains
    end subroutine get_integer
 
    subroutine get_integers(self, values)
-      class(archive_t), intent(inout) :: self   !! the tape
+      class(archive_t), intent(inout) :: self   !! the archive
       integer, intent(out) :: values(:)      !! (any) the values
 
       integer :: k
@@ -153,7 +153,7 @@ contains
    end subroutine get_integers
 
    subroutine get_long(self, value)
-      class(archive_t), intent(inout) :: self  !! the tape
+      class(archive_t), intent(inout) :: self  !! the archive
       integer(i8), intent(out) :: value     !! the value
 
       real(wp) :: number
@@ -163,7 +163,7 @@ contains
    end subroutine get_long
 
    subroutine get_logical(self, value)
-      class(archive_t), intent(inout) :: self  !! the tape
+      class(archive_t), intent(inout) :: self  !! the archive
       logical, intent(out) :: value         !! the value
 
       real(wp) :: number
@@ -174,7 +174,7 @@ contains
 
    !> A list of numbers as long as it was.
    subroutine archive_get_list(self, values)
-      class(archive_t), intent(inout) :: self                 !! the tape
+      class(archive_t), intent(inout) :: self                 !! the archive
       real(wp), allocatable, intent(out) :: values(:)      !! (any) the values [any]
 
       integer :: n
@@ -187,7 +187,7 @@ contains
 
    !> A text.
    subroutine archive_get_text(self, text)
-      class(archive_t), intent(inout) :: self                 !! the tape
+      class(archive_t), intent(inout) :: self                 !! the archive
       character(:), allocatable, intent(out) :: text       !! the text
 
       real(wp), allocatable :: codes(:)
@@ -202,7 +202,7 @@ contains
 
    !> Whether all that was written has been read, and no more.
    pure logical function archive_is_at_end(self) result(is_at_end)
-      class(archive_t), intent(in) :: self  !! the tape
+      class(archive_t), intent(in) :: self  !! the archive
 
       is_at_end = self%is_good .and. self%place == self%n
    end function archive_is_at_end

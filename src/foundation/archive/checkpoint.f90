@@ -1,7 +1,7 @@
 !> What a run remembers, as one row of numbers in named pieces, each with the version of its form.
 !>
 !> Whoever remembers something lists its pieces, in the order in which it saves them. A checkpoint carries the list of whoever
-!> wrote it, so that whoever would read it can tell by name what differs, and reads nothing that another form was written in.
+!> wrote it, so that whoever would read it can report by name what differs, and reads nothing that another form was written in.
 module checkpoint
    use errors, only: error_t, exit_usage, set_error
    use kinds, only: wp
@@ -15,7 +15,7 @@ module checkpoint
       character(:), allocatable :: name   !! what remembers it, as `clearance.revolute 'gudgeon'`
       integer :: version = 1              !! of its form: raised where what is saved, or its order, changes
       integer :: size = 0                 !! how many numbers
-      logical :: is_fixed = .true.        !! their number does not change while a run goes on
+      logical :: is_fixed = .true.        !! their number does not change while a run continues
    end type segment_t
 
    !> A checkpoint.
@@ -58,7 +58,7 @@ contains
       n = sum(segments%size)
    end function size_of_segments
 
-   !> Room for the pieces of a list.
+   !> Storage for the pieces of a list.
    subroutine checkpoint_begin(self, segments)
       class(checkpoint_t), intent(inout) :: self   !! the checkpoint, without numbers
       type(segment_t), intent(in) :: segments(:)       !! (any) what will be saved

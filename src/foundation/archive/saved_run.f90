@@ -1,4 +1,4 @@
-!> All that a run must remember to go on: of each part of the mechanism, of the whole, of the output.
+!> All that a run must remember to continue: of each part of the mechanism, of the whole, of the output.
 module saved_run
    use checkpoint, only: checkpoint_t
    use kinds, only: wp
@@ -8,8 +8,8 @@ module saved_run
    public :: saved_run_t
    public :: requested_action_checkpoint, action_none, requested_action_stop
 
-   integer, parameter :: action_none = 0     !! go on
-   integer, parameter :: requested_action_checkpoint = 1  !! save what is remembered as soon as it can be, and go on
+   integer, parameter :: action_none = 0     !! continue
+   integer, parameter :: requested_action_checkpoint = 1  !! save what is remembered as soon as it can be, and continue
    integer, parameter :: requested_action_stop = 2        !! save it as soon as it can be, and end
 
    !> What is remembered.

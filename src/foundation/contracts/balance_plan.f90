@@ -1,5 +1,5 @@
 !> What is read of bodies whose reactions follow from their own balance, and in which order these are found: bound once, so that a
-!> sample looks for nothing.
+!> sample searches nothing.
 !>
 !> See `balanced_report`. Limits: joints and drivers that hold a body alone.
 module balance_plan
@@ -13,7 +13,7 @@ module balance_plan
       integer :: code = 0               !! the quantity, as `balanced_report` numbers it
       integer :: place = 0              !! values of the catalogue before that of the item
       integer :: body = 0               !! the body that is held
-      real(wp) :: sense = 0.0_wp        !! 1: what acts on this body is told, -1: what acts on the other one [1]
+      real(wp) :: sense = 0.0_wp        !! 1: what acts on this body is reported, -1: what acts on the other one [1]
       real(wp) :: pin(2) = 0.0_wp       !! (2) of a driver: the pin of its joint, frame of the body [m]
       integer :: slot = 0               !! set of the joint or driver
       integer :: item = 0               !! its item

@@ -1,6 +1,6 @@
 !> What a scene can report: every channel of every item, with its current values.
 !>
-!> A room of the catalogue is a list of items of one sort (bodies, joints, ...); a group is one
+!> A group of the catalogue is a list of items of one sort (bodies, joints, ...); a group is one
 !> quantity of all the items of a room, one dataset of the output file. The equations fill `values`;
 !> the writers in output/ read the rest once and know no kind by name.
 module catalogue
@@ -30,7 +30,7 @@ module catalogue
       integer :: n_group = 0                      !! quantities so far
       type(group_t), allocatable :: groups(:)     !! (groups) quantities; while some are added with places for more
       real(wp), allocatable :: values(:)          !! (any) current values of all, SI; NaN: the item has no such channel [any]
-      type(reading_offer_t) :: offer              !! what the sets of the system tell
+      type(reading_offer_t) :: offer              !! what the sets of the system report
       type(reading_plan_t) :: readings            !! what is read of the sets of the system, if it is bound
       type(bound_formula_t), allocatable :: formulas(:)  !! (any) expressions over channels, each after those that it uses
    contains
@@ -53,7 +53,7 @@ contains
    !> Number of the group of a room with a given channel name, 0 if there is none.
    pure integer function catalogue_find_group(self, room, name) result(found)
       class(catalogue_t), intent(in) :: self  !! the catalogue
-      integer, intent(in) :: room             !! room to look in
+      integer, intent(in) :: room             !! workspace to look in
       character(*), intent(in) :: name        !! channel name
 
       integer :: k
@@ -98,7 +98,7 @@ contains
    !> Add all the channels that a kind announces to a room.
    subroutine catalogue_add_kind(self, room, info)
       class(catalogue_t), intent(inout) :: self  !! the catalogue
-      integer, intent(in) :: room                !! room of the kind's items
+      integer, intent(in) :: room                !! workspace of the kind's items
       type(kind_info_t), intent(in) :: info      !! the kind
 
       integer :: k
@@ -166,12 +166,12 @@ contains
       end associate
    end function catalogue_value
 
-   !> What a set tells: its channels, and where their values go.
+   !> What a set reports: its channels, and where their values go.
    subroutine catalogue_list(self, room, info, offer)
       class(catalogue_t), intent(in) :: self     !! the catalogue
-      integer, intent(in) :: room                !! room of the set's items; of loose joints: their contacts have one of their own
+      integer, intent(in) :: room  !! workspace of the set's items; of clearance joints: their contacts have one of their own
       type(kind_info_t), intent(in) :: info      !! its channels
-      type(readings_t), intent(inout) :: offer   !! what it tells
+      type(readings_t), intent(inout) :: offer   !! what it reports
 
       integer :: group, k
 
@@ -183,10 +183,10 @@ contains
       end do
    end subroutine catalogue_list
 
-   !> What is read of a set: those of its channels that someone wants of any item, or item by item.
+   !> What is read of a set: those of its channels that someone needs of any item, or item by item.
    pure subroutine catalogue_bind(self, offer, readings, columns)
       class(catalogue_t), intent(in) :: self      !! the catalogue
-      type(readings_t), intent(in) :: offer       !! what the set tells
+      type(readings_t), intent(in) :: offer       !! what the set reports
       type(readings_t), intent(inout) :: readings !! what is read
       integer, intent(in), optional :: columns(:) !! (items of the set) their places in the room; absent: not item by item
 
@@ -222,7 +222,7 @@ contains
 
    end subroutine catalogue_bind
 
-   !> What wanted expressions read is wanted too.
+   !> What requested expressions read is requested too.
    pure subroutine catalogue_spread_wants(self)
       class(catalogue_t), intent(inout) :: self  !! the catalogue
 
@@ -239,7 +239,7 @@ contains
       end do
    end subroutine catalogue_spread_wants
 
-   !> Values of the wanted expressions, when all else is filled. What does not exist is NaN. No allocation.
+   !> Values of the requested expressions, when all else is filled. What does not exist is NaN. No allocation.
    subroutine catalogue_work_out(self, t)
       class(catalogue_t), intent(inout) :: self  !! the catalogue
       real(wp), intent(in) :: t                  !! time [s]
@@ -274,7 +274,7 @@ contains
       if (allocated(info%channels)) count_channels = size(info%channels)
    end function count_channels
 
-   !> Make room for the values, all NaN; no more items come.
+   !> Make storage for the values, all NaN; no more items come.
    subroutine catalogue_allocate_data(self)
       class(catalogue_t), intent(inout) :: self  !! the catalogue
 

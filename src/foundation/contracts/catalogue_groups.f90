@@ -7,7 +7,7 @@ module catalogue_groups
 
    !> One quantity of all the items of a room.
    type :: group_t
-      integer :: room = 0                     !! room, one of the above
+      integer :: room = 0                     !! workspace, one of the above
       type(channel_t) :: channel              !! name, SI unit, frame, components and long name
       logical, allocatable :: has(:)          !! (items) which of them have the channel
       logical, allocatable :: is_wanted(:)    !! (items) whose value someone reads; others may not be found

@@ -1,7 +1,7 @@
 !> What of a channel is round-off: less than a part of what its kind is in a run.
 !>
-!> A sum of numbers is rounded by a part of the greatest of them, so a channel whose greatest magnitude is below that part of the
-!> greatest of its kind was computed from nothing. Kinds are units; those of rates, accelerations and powers follow from the
+!> A sum of numbers is rounded by a part of the maximum of them, so a channel whose maximum magnitude is below that part of the
+!> maximum of its kind was computed from nothing. Kinds are units; those of rates, accelerations and powers follow from the
 !> lengths, the duration and the forces too, so that a mechanism at rest has noise as one that moves. Tables, figures and
 !> comparisons show such a channel as zero; run.h5 keeps its numbers.
 module channel_noise
@@ -18,10 +18,10 @@ module channel_noise
 
 contains
 
-   !> The noise of channels by the greatest magnitudes of all.
+   !> The noise of channels by the maximum magnitudes of all.
    pure function noise_of_channels(units, maximum, duration) result(noise)
       type(text_t), intent(in) :: units(:)                 !! (n) SI
-      real(wp), intent(in) :: maximum(:)                  !! (n) greatest magnitudes; none is a number: 0 [any]
+      real(wp), intent(in) :: maximum(:)                  !! (n) maximum magnitudes; none is a number: 0 [any]
       real(wp), intent(in) :: duration                     !! of the run [s]
       real(wp) :: noise(size(units))                       !! (n) less is round-off [any]
 
@@ -60,7 +60,7 @@ contains
 
    contains
 
-      !> The greatest magnitude of all channels of a unit.
+      !> The maximum magnitude of all channels of a unit.
       pure real(wp) function max_of(unit) result(most)
          character(*), intent(in) :: unit   !! the unit
 

@@ -10,7 +10,7 @@ module film_fields
    public :: append_field, field_request_t, film_field_t, load_fields, save_fields, moment_at, moment_end, moment_min
 
    integer, parameter :: moment_end = 1    !! the end of the run
-   integer, parameter :: moment_min = 2  !! the end of the step with the least film
+   integer, parameter :: moment_min = 2  !! the end of the step with the minimum film
    integer, parameter :: moment_at = 3     !! a time
 
    !> A film that is asked for.

@@ -16,12 +16,12 @@ module groups_of_catalogue
    integer, parameter :: group_forces = 6      !! force elements
    integer, parameter :: group_energy = 7      !! the energy ledger: one item without a name
    integer, parameter :: group_points = 8      !! points of the deck
-   integer, parameter :: group_motions = 9     !! points as seen from elsewhere
+   integer, parameter :: group_motions = 9     !! points as observed from elsewhere
    integer, parameter :: group_reactions = 10  !! reactions at points
    integer, parameter :: group_requests = 11   !! expressions over channels: one item, a group of its own for each
-   integer, parameter :: n_groups = 11         !! number of rooms
+   integer, parameter :: n_groups = 11         !! number of groups
 
-   !> (n_rooms) groups of the output file, in the order of the rooms
+   !> (n_rooms) groups of the output file, in the order of the groups
    character(*), parameter :: group_paths(n_groups) = [character(19) :: "bodies", "joints", "drivers", "clearances", &
                                                      "clearances/contacts", "forces", "energy", "points", "motions", &
                                                      "reactions", "requests"]

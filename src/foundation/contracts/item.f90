@@ -1,10 +1,10 @@
 !> A row of a deck table (or a section of settings), typed, in SI: what the kinds are made from.
 !>
-!> The deck reader fills items from the columns of a `kind_info_t`: value k belongs to column k. Whoever wants a value asks for
-!> its column by name, once, where it makes a typed record of the row; to ask for a column that is not there is a mistake of the
+!> The deck reader fills items from the columns of a `kind_info_t`: value k belongs to column k. Whoever needs a value asks for
+!> its column by name, once, where it makes a typed record of the row; to ask for a column that is not there is an error of the
 !> program, and stops it.
 !> The scene turns the names of references into indices. After that no part of the program looks
-!> at deck text again, except to say where a mistake stands.
+!> at deck text again, except to say where an error stands.
 module item
    use expression, only: expression_t
    use kind_info, only: dim_none, dim_t, longest_column
@@ -88,7 +88,7 @@ contains
    !> the copy is never given back (gfortran).
    pure subroutine take_items(items, chosen, some)
       type(item_t), intent(in) :: items(:)                 !! (n) items
-      integer, intent(in) :: chosen(:)                     !! (m) numbers of those wanted
+      integer, intent(in) :: chosen(:)                     !! (m) numbers of those requested
       type(item_t), allocatable, intent(out) :: some(:)    !! (m) these
 
       integer :: k
@@ -127,7 +127,7 @@ contains
       number = self%values(place_of(self, name))%number
    end function item_number
 
-   !> The direction in a column, its greatest component one, so that its length can be found; zero where the column is left open.
+   !> The direction in a column, its maximum component one, so that its length can be found; zero where the column is left open.
    pure function item_direction(self, name) result(x)
       class(item_t), intent(in) :: self   !! the row
       character(*), intent(in) :: name    !! the column

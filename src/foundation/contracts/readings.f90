@@ -20,21 +20,21 @@ module readings
    !> Channels that are read of one set.
    type :: readings_t
       integer :: n = 0                    !! number of channels
-      integer :: most = 0                 !! greatest number of a channel
+      integer :: most = 0                 !! maximum number of a channel
       type(reading_t), allocatable :: of(:)  !! (n or more) the channels
    contains
       procedure :: start => readings_start
       procedure :: add => readings_add
    end type readings_t
 
-   !> Of the rows that are not solved for: those that reports want, and what these hang on.
+   !> Of the rows that are not solved for: those that reports need, and what these hang on.
    type :: wanted_rows_t
       integer, allocatable :: sets(:)      !! (any) sets of joints and drivers whose rows are evaluated
-      integer, allocatable :: one_dof(:)    !! (any) guided bodies whose multipliers are found
-      logical :: has_prescribed = .false.       !! whether those of the known bodies are
+      integer, allocatable :: one_dof(:)    !! (any) bodies with one degree of freedom whose multipliers are found
+      logical :: has_prescribed = .false.       !! whether those of the prescribed bodies are
    end type wanted_rows_t
 
-   !> Channels of all sets of a system: those that these tell, each for all items.
+   !> Channels of all sets of a system: those that these report, each for all items.
    type :: reading_offer_t
       type(readings_t) :: bodies                   !! of the bodies
       type(readings_t) :: energy                   !! of the ledger
@@ -43,7 +43,7 @@ module readings
       type(readings_t), allocatable :: clearance_joints(:)    !! (sets) of joints with clearance
       type(readings_t), allocatable :: forces(:)   !! (sets) of force elements
       type(readings_t) :: points                   !! of points, point by point
-      type(readings_t) :: motions                  !! of points as seen from elsewhere, one by one
+      type(readings_t) :: motions                  !! of points as observed from elsewhere, one by one
       type(readings_t) :: reactions                !! of reactions at points, one by one
    end type reading_offer_t
 
@@ -59,7 +59,7 @@ module readings
 
 contains
 
-   !> Room for some channels, none yet.
+   !> Storage for some channels, none yet.
    pure subroutine readings_start(self, most)
       class(readings_t), intent(inout) :: self   !! the list
       integer, intent(in) :: most                !! channels at most
@@ -70,7 +70,7 @@ contains
       allocate (self%of(most))
    end subroutine readings_start
 
-   !> Add a channel; there is room for it.
+   !> Add a channel; there is storage for it.
    pure subroutine readings_add(self, code, group, item, place, width)
       class(readings_t), intent(inout) :: self   !! the list
       integer, intent(in) :: code                !! the channel

@@ -16,18 +16,18 @@ module recorder
    public :: n_row_kind, row_end, row_instant, row_jump, row_kinds, row_onset, row_peak, row_stop
    public :: status_complete, status_failed, status_running, status_stopped
 
-   character(*), parameter :: status_running = "running"    !! the run goes on
+   character(*), parameter :: status_running = "running"    !! the run continues
    character(*), parameter :: status_complete = "complete"  !! the run reached its end
    character(*), parameter :: status_stopped = "stopped"    !! the run was stopped and can be resumed
    character(*), parameter :: status_failed = "failed"      !! the run ended early
 
    integer, parameter :: row_instant = 0  !! row of an output instant
-   integer, parameter :: row_onset = 1    !! a contact has just begun
-   integer, parameter :: row_peak = 2     !! the normal force of a contact is the greatest since its onset
+   integer, parameter :: row_onset = 1    !! a contact has just started
+   integer, parameter :: row_peak = 2     !! the normal force of a contact is the maximum since its onset
    integer, parameter :: row_end = 3      !! a contact is about to end
    integer, parameter :: row_jump = 4     !! just before or after a jump of a normal force
    integer, parameter :: row_stop = 5     !! a condition ends the run
-   integer, parameter :: n_row_kind = 5   !! the greatest of these numbers
+   integer, parameter :: n_row_kind = 5   !! the maximum of these numbers
    !> What the numbers mean.
    character(*), parameter :: row_kinds = "0 output time, 1 onset, 2 peak, 3 separation, 4 before or after a jump, 5 stop"
 
@@ -44,8 +44,8 @@ module recorder
       real(wp) :: release_speed = 0.0_wp                !! normal separation speed at the end, positive [m/s]
       real(wp) :: energy_lost = 0.0_wp                  !! by contact damping and friction; NaN without ledger [J]
       real(wp) :: impulse = 0.0_wp                      !! of the normal force over the contact [N.s]
-      real(wp) :: peak_force_time = 0.0_wp              !! when the normal force was greatest [s]
-      real(wp) :: peak_penetration_time = 0.0_wp        !! when the penetration was greatest [s]
+      real(wp) :: peak_force_time = 0.0_wp              !! when the normal force was maximum [s]
+      real(wp) :: peak_penetration_time = 0.0_wp        !! when the penetration was maximum [s]
       character(:), allocatable :: state_before         !! contact state before the event
       character(:), allocatable :: state_after          !! contact state after the event
    end type event_t
@@ -54,7 +54,7 @@ module recorder
    type :: run_method_t
       character(:), allocatable :: integrator      !! integrator
       character(:), allocatable :: solver          !! way of solving the augmented system
-      character(:), allocatable :: stabilisation   !! way of holding the constraints
+      character(:), allocatable :: stabilisation   !! stabilisation method
       real(wp) :: tolerance = 0.0_wp               !! local error tolerance, 0 with fixed steps [1]
    end type run_method_t
 
@@ -66,7 +66,7 @@ module recorder
       integer(i8) :: output_evaluations = 0        !! those of them made for output only
       integer(i8) :: factorisations = 0            !! of the augmented matrix
       integer :: events = 0                        !! located events
-      integer :: contacts = 0                      !! contacts that began
+      integer :: contacts = 0                      !! contacts that started
       integer :: samples = 0                       !! output instants
       integer :: rows(n_row_kind) = 0              !! (n_row_kind) rows beside those of output instants, by kind
    end type run_count_t
@@ -74,10 +74,10 @@ module recorder
    !> How right a run is.
    type :: run_quality_t
       logical :: has_ledger = .true.               !! whether the ledger was kept
-      real(wp) :: energy_max = 0.0_wp              !! greatest kinetic + elastic energy + |change of potential| [J]
-      real(wp) :: energy_residual_max = 0.0_wp     !! greatest |residual| of the ledger; NaN without ledger [J]
-      real(wp) :: violation_max = 0.0_wp           !! greatest |Phi| over the run; rotations times 1 m [m]
-      real(wp) :: violation_rate_max = 0.0_wp      !! greatest |dPhi/dt| over the run [m/s]
+      real(wp) :: energy_max = 0.0_wp              !! maximum kinetic + elastic energy + |change of potential| [J]
+      real(wp) :: energy_residual_max = 0.0_wp     !! maximum |residual| of the ledger; NaN without ledger [J]
+      real(wp) :: violation_max = 0.0_wp           !! maximum |Phi| over the run; rotations times 1 m [m]
+      real(wp) :: violation_rate_max = 0.0_wp      !! maximum |dPhi/dt| over the run [m/s]
    end type run_quality_t
 
    !> What a run cost and how right it is.
@@ -153,7 +153,7 @@ module recorder
          type(error_t), allocatable, intent(out) :: error   !! a file cannot be written
       end subroutine event_interface
 
-      !> Told now and then how far the analysis is; must be cheap.
+      !> Reported now and then how far the analysis is; must be cheap.
       subroutine progress_interface(self, fraction)
          import :: recorder_t, wp
          implicit none (type, external)
@@ -183,7 +183,7 @@ contains
    end function wants_all
 
    !> Keep the catalogue's current values as those of an instant of a contact, or of one at which a condition ends the run:
-   !> nothing, unless a recorder wants them. Times do not fall from call to call of `sample` and `further_row`; where a force
+   !> nothing, unless a recorder needs them. Times do not fall from call to call of `sample` and `further_row`; where a force
    !> jumps, two calls have the same.
    subroutine skip_further_row(self, t, kind, catalogue, error)
       class(recorder_t), intent(inout) :: self           !! the recorder
@@ -210,7 +210,7 @@ contains
    end subroutine skip_poincare
 
    !> Whether the run is to be saved, or to end: asked after every step, so it must be cheap. Nothing, unless a recorder knows
-   !> better; `can_save` tells it whether the run could be saved just now.
+   !> better; `can_save` reports it whether the run could be saved just now.
    integer function action_for_none(self, can_save) result(requested_action)
       class(recorder_t), intent(inout) :: self           !! the recorder
       logical, intent(in) :: can_save                    !! the run can be saved after this step
@@ -225,7 +225,7 @@ contains
       type(error_t), allocatable, intent(out) :: error   !! it cannot be kept
    end subroutine skip_checkpoint
 
-   !> The run goes on from what was saved: the recorder, started, takes back what it remembered. Unless it keeps such, nothing.
+   !> The run continues from what was saved: the recorder, started, takes back what it remembered. Unless it keeps such, nothing.
    subroutine skip_going_on(self, saved, error)
       class(recorder_t), intent(inout) :: self           !! the recorder
       type(saved_run_t), intent(inout) :: saved          !! what was remembered

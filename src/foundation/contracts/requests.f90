@@ -1,8 +1,8 @@
 !> What a deck asks of a motion beside the channels of its items: points, places, reactions, and expressions over channels.
 !>
-!> Every point of the deck can tell its position, velocity and acceleration, world frame. A row of [request.motion] is a point as
-!> seen from another one or from a body; one of [request.reaction] the reaction of a joint or spring at a point, along the axes of a
-!> body; one of [request] an expression over channels.
+!> Every point of the deck can report its position, velocity and acceleration, world frame. A row of [request.motion] is a point as
+!> observed from another one or from a body; one of [request.reaction] the reaction of a joint or spring at a point, along the axes
+!> of a body; one of [request] an expression over channels.
 module requests
    use expression, only: expression_t
    use kind_info, only: add_channel, add_formula, add_reference, add_word, dim_none, dim_t, in_plane, in_space, kind_info_t
@@ -25,7 +25,7 @@ module requests
 
    !> A channel by its names, so that it can be found in any catalogue.
    type :: source_t
-      integer :: room = 0                        !! room of the catalogue
+      integer :: room = 0                        !! workspace of the catalogue
       character(:), allocatable :: item          !! name of the item; of a contact, its joint's
       character(:), allocatable :: label         !! of a contact
       character(:), allocatable :: channel       !! the quantity
@@ -41,7 +41,7 @@ module requests
       type(source_t), allocatable :: sources(:)  !! (channels) what it reads
    end type formula_t
 
-   !> A point as it is seen from somewhere.
+   !> A point as it is observed from somewhere.
    type :: motion_request_t
       character(:), allocatable :: name   !! of the request
       type(place_t) :: place              !! the point, and from where
@@ -82,7 +82,7 @@ contains
       call add_word(info, "unit", "unit of the value; default: that of the expression", default="")
    end function request_info
 
-   !> The deck table of points as seen from elsewhere.
+   !> The deck table of points as observed from elsewhere.
    function motion_request_info() result(info)
       type(kind_info_t) :: info  !! columns and channels
 

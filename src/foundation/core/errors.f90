@@ -11,16 +11,16 @@ module errors
    integer, parameter :: exit_ok = 0           !! done
    integer, parameter :: exit_different = 1    !! compared and found different
    integer, parameter :: exit_usage = 2        !! a wrong command line
-   integer, parameter :: exit_deck = 3         !! a mistake in the deck
+   integer, parameter :: exit_deck = 3         !! an error in the deck
    integer, parameter :: exit_assembly = 4     !! the mechanism cannot be assembled
    integer, parameter :: exit_integration = 5  !! the integration failed
    integer, parameter :: exit_audit = 6        !! energy or constraint above the deck's limit
    integer, parameter :: exit_stopped = 7      !! stopped with a checkpoint
    integer, parameter :: exit_sweep = 8        !! part of a sweep failed
    integer, parameter :: exit_file = 9         !! file or disk
-   integer, parameter :: exit_internal = 70    !! a mistake of the program itself
+   integer, parameter :: exit_internal = 70    !! an error of the program itself
 
-   !> What went wrong, in words a user can act on.
+   !> What went wrong, as text a user can act on.
    type :: error_t
       integer :: code = exit_internal        !! exit code of the program, one of the above
       character(:), allocatable :: message   !! text, possibly of several lines, without a final newline

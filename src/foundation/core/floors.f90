@@ -1,8 +1,8 @@
-!> What counts as nothing, and what stands in where a law or a scale would be divided by it.
+!> What is negligible, and what stands in where a law or a scale would be divided by it.
 !>
-!> Every such number is a part of something that the scene itself has: of the mechanism's own speed (its pace times its size, see
-!> `mechanism_scales`), of a step, of the time or the depth of a contact. None is a speed, a length, a time or a force of its
-!> own, so
+!> Every such number is a part of something that the scene itself has: of the mechanism's own speed (its characteristic rate times
+!> its size, see `mechanism_scales`), of a step, of the time or the depth of a contact. None is a speed, a length, a time or a force
+!> of its own, so
 !> that small and slow mechanisms are computed as large and fast ones are. `gudgeon explain` and the manual print this list.
 module floors
    use kinds, only: wp
@@ -13,8 +13,8 @@ module floors
    public :: at_rest, captured, chatter_time, contact_lever, gentle, idle_part, late, min_band, min_stabilisation, min_mobility, &
       look_ahead, no_acceleration, remembered, settling, shortest_difference, standstill, torn, widest_band
 
-   integer, parameter :: of_speed = 1         !! of the mechanism's own speed, pace times size
-   integer, parameter :: of_pace = 2          !! of its pace
+   integer, parameter :: of_speed = 1         !! of the mechanism's own speed, characteristic rate times size
+   integer, parameter :: of_pace = 2          !! of its characteristic rate
    integer, parameter :: of_step = 3          !! of the step in hand
    integer, parameter :: of_contact = 4       !! of what a contact has itself
    integer, parameter :: of_acceleration = 5  !! of the acceleration that the normal force would give
@@ -26,12 +26,12 @@ module floors
    ! contacts
    real(wp), parameter :: gentle = 0.1_wp                 !! impact speed in damping terms at least, of the speed of the depth [1]
    ! error scales
-   real(wp), parameter :: remembered = 0.01_wp            !! rate that errors are measured by at least, of the pace [1]
+   real(wp), parameter :: remembered = 0.01_wp  !! rate that errors are measured by at least, of the characteristic rate [1]
    real(wp), parameter :: late = 1.0e-2_wp                !! rate that errors are measured by at least, of 1/duration of the run [1]
-   real(wp), parameter :: idle_part = 1.0e-6_wp           !! way in a run at least, for the pace, of the size [1]
+   real(wp), parameter :: idle_part = 1.0e-6_wp           !! way in a run at least, for the characteristic rate, of the size [1]
    real(wp), parameter :: shortest_difference = 1.0e4_wp  !! time of a difference at least, of the spacing of time [1]
    ! holding the constraints
-   real(wp), parameter :: min_stabilisation = 0.1_wp             !! gain that follows the violation at least, of the pace [1]
+   real(wp), parameter :: min_stabilisation = 0.1_wp  !! gain that follows the violation at least, of the characteristic rate [1]
    ! friction that sticks
    real(wp), parameter :: at_rest = 1.0e-9_wp             !! sliding velocity that is none, of the speed [1]
    real(wp), parameter :: standstill = 1.0e-15_wp         !! sliding velocity at which slip ends, of the speed [1]
@@ -40,7 +40,7 @@ module floors
    real(wp), parameter :: torn = 1.0e-4_wp                !! sliding velocity that ends sticking, of the speed [1]
    real(wp), parameter :: min_band = 1.0e-12_wp         !! first velocity the wrong way after a chatter, of the speed [1]
    real(wp), parameter :: widest_band = 1.0e-5_wp         !! last one, of the speed [1]
-   real(wp), parameter :: settling = 5.0_wp               !! decay of a sliding velocity left over, of the pace [1]
+   real(wp), parameter :: settling = 5.0_wp               !! decay of a sliding velocity left over, of the characteristic rate [1]
    real(wp), parameter :: chatter_time = 1.0e-2_wp        !! time between decisions that is chatter, of the contact's own [1]
    real(wp), parameter :: look_ahead = 1.0e-2_wp          !! how far ahead a driven contact at rest is looked at, of the step [1]
    real(wp), parameter :: no_acceleration = 1.0e-12_wp    !! sliding acceleration that is none, of what F_N would give [1]
@@ -57,7 +57,7 @@ contains
 
    !> The list.
    pure function all_floors() result(list)
-      type(floor_t), allocatable :: list(:)  !! (floors) in the order of the rooms
+      type(floor_t), allocatable :: list(:)  !! (floors) in the order of the groups
 
       list = [floor_t(gentle, of_contact, "minimum impact speed in damping terms, over the speed of the present penetration"), &
               floor_t(remembered, of_speed, "minimum speed for error control during slow motion"), &

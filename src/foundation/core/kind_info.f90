@@ -1,4 +1,4 @@
-!> What a kind says of itself: its deck table or section, its rows and its output channels.
+!> Description of a kind: its deck table or section, its rows and its output channels.
 !>
 !> Every joint, driver, force, contact law, friction law, clearance geometry, integrator and every
 !> section of settings gives one `kind_info_t`. The deck reader, the range checks, the writers,
@@ -55,10 +55,10 @@ module kind_info
 
    !> Bounds of a number.
    type :: bounds_t
-      real(wp) :: lower = -no_bound           !! least value allowed, SI [any]
-      real(wp) :: upper = no_bound            !! greatest value allowed, SI [any]
-      logical :: open_lower = .false.         !! the least value itself is not allowed
-      logical :: open_upper = .false.         !! the greatest value itself is not allowed
+      real(wp) :: lower = -no_bound           !! minimum value allowed, SI [any]
+      real(wp) :: upper = no_bound            !! maximum value allowed, SI [any]
+      logical :: open_lower = .false.         !! the minimum value itself is not allowed
+      logical :: open_upper = .false.         !! the maximum value itself is not allowed
       logical :: not_zero = .false.           !! zero is not allowed
    end type bounds_t
 
@@ -76,7 +76,7 @@ module kind_info
       character(:), allocatable :: choices    !! of a word: blank-separated words, blank if any is taken
       character(:), allocatable :: default    !! as in a deck; blank: may be left open; unallocated: required
       type(bounds_t) :: bounds                !! of a number
-      logical :: is_free = .false.            !! left out means more than the default: the echo leaves it out too
+      logical :: is_free = .false.            !! omitted means more than the default: the echo leaves it out too
       character(:), allocatable :: options    !! of a word: blank-separated option names (`key=value`)
       character(:), allocatable :: help       !! one line
    end type column_t
@@ -88,7 +88,7 @@ module kind_info
       character(:), allocatable :: frame  !! world, body, joint or none
       integer :: components = 1           !! 1; a vector: 2, which in a spatial scene means 3; 4: Euler parameters
       character(:), allocatable :: help   !! long name
-      integer :: code = 0                 !! number by which its kind knows it when values are wanted
+      integer :: code = 0                 !! number by which its kind knows it when values are requested
    end type channel_t
 
    !> A kind: all that the rest of the program knows of it by name.
@@ -147,12 +147,12 @@ contains
       type(dim_t), intent(in) :: dimension           !! of the number
       character(*), intent(in) :: help               !! one line
       character(*), intent(in), optional :: default  !! as in a deck, with its unit; absent: required
-      real(wp), intent(in), optional :: lower        !! least value allowed, SI [any]
-      real(wp), intent(in), optional :: upper        !! greatest value allowed, SI [any]
-      logical, intent(in), optional :: open_lower    !! the least value itself is not allowed
-      logical, intent(in), optional :: open_upper    !! the greatest value itself is not allowed
+      real(wp), intent(in), optional :: lower        !! minimum value allowed, SI [any]
+      real(wp), intent(in), optional :: upper        !! maximum value allowed, SI [any]
+      logical, intent(in), optional :: open_lower    !! the minimum value itself is not allowed
+      logical, intent(in), optional :: open_upper    !! the maximum value itself is not allowed
       logical, intent(in), optional :: not_zero      !! zero is not allowed
-      logical, intent(in), optional :: is_free       !! left out means more than the default
+      logical, intent(in), optional :: is_free       !! omitted means more than the default
 
       type(column_t) :: column
 
@@ -325,7 +325,7 @@ contains
       call add_column(info, column)
    end subroutine add_words
 
-   !> Append a key that holds conditions on channels, any of which is enough; left out: none.
+   !> Append a key that holds conditions on channels, any of which is enough; omitted: none.
    subroutine add_condition(info, name, help)
       type(kind_info_t), intent(inout) :: info       !! the kind
       character(*), intent(in) :: name               !! as written in the deck
@@ -356,8 +356,8 @@ contains
       character(*), intent(in) :: name               !! as written in the deck
       character(*), intent(in) :: help               !! one line
       character(*), intent(in), optional :: default  !! as in a deck; blank: may be left open; absent: required
-      real(wp), intent(in), optional :: lower        !! least number of seconds or turns allowed [any]
-      logical, intent(in), optional :: open_lower    !! the least value itself is not allowed
+      real(wp), intent(in), optional :: lower        !! minimum number of seconds or turns allowed [any]
+      logical, intent(in), optional :: open_lower    !! the minimum value itself is not allowed
 
       type(column_t) :: column
 

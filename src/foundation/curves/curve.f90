@@ -4,7 +4,7 @@
 !>
 !> with p piecewise polynomial: on [x_k, x_k+1] p = sum_i c_ik (x - x_k)^i, and laws s_m that rise from 0 to 1 (`rise_laws`).
 !>
-!> Beyond its first and last place p goes on as it is, does not exist (NaN), holds its value, goes on along its
+!> Beyond its first and last place p continues as it is, does not exist (NaN), holds its value, continues along its
 !> tangent, or repeats itself. A curve that does not exist there forgives round-off of a place.
 module curve
    use jets, only: jet_chain
@@ -15,7 +15,7 @@ module curve
    public :: beyond_error, beyond_stabilisation, beyond_linear, beyond_periodic, beyond_same
    public :: curve_t, curve_values, jet_of_curve, rise_t
 
-   integer, parameter :: beyond_same = 0      !! beyond its places the first and the last piece go on
+   integer, parameter :: beyond_same = 0      !! beyond its places the first and the last piece continue
    integer, parameter :: beyond_error = 1     !! it does not exist there
    integer, parameter :: beyond_stabilisation = 2      !! the value of the end
    integer, parameter :: beyond_linear = 3    !! the tangent of the end
@@ -27,7 +27,7 @@ module curve
    !> A rise, or with a negative height a fall.
    type :: rise_t
       integer :: law = 1            !! number of its law
-      real(wp) :: begin = 0.0_wp    !! where it begins [any]
+      real(wp) :: begin = 0.0_wp    !! where it starts [any]
       real(wp) :: length = 1.0_wp   !! how long it takes [any]
       real(wp) :: height = 0.0_wp   !! how high it rises [any]
    end type rise_t
@@ -109,7 +109,7 @@ contains
       end do
    end subroutine values_at
 
-   !> The polynomial of the piece that holds a place: the last one that begins before it, or the first.
+   !> The polynomial of the piece that holds a place: the last one that starts before it, or the first.
    pure subroutine segment_values(n, place, c, x, f)
       integer, intent(in) :: n            !! number of places
       real(wp), intent(in) :: place(n)    !! (n) places [any]

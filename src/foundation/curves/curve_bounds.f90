@@ -69,7 +69,7 @@ contains
          is_empty = .false.
       end subroutine take
 
-      !> The pieces over an interval; the first and the last go on beyond their ends.
+      !> The pieces over an interval; the first and the last continue beyond their ends.
       subroutine take_segments(range)
          real(wp), intent(in) :: range(2)  !! (2) the interval [any]
 
@@ -88,7 +88,7 @@ contains
 
       !> A part on one side of the places: constant, or straight.
       subroutine take_outside(a, b)
-         real(wp), intent(in) :: a  !! its beginning [any]
+         real(wp), intent(in) :: a  !! its start [any]
          real(wp), intent(in) :: b  !! its end [any]
 
          real(wp) :: at_a(3), at_b(3)
@@ -119,7 +119,7 @@ contains
 
    end subroutine bound_curve
 
-   !> The piece that holds a place: the last one that begins before it, or the first.
+   !> The piece that holds a place: the last one that starts before it, or the first.
    pure integer function segment_of(curve, x) result(low)
       type(curve_t), intent(in) :: curve  !! the curve
       real(wp), intent(in) :: x           !! the place [any]

@@ -44,14 +44,14 @@ contains
       holds_zero = a(1) <= 0.0_wp .and. a(2) >= 0.0_wp
    end function holds_zero
 
-   !> Greatest absolute value.
+   !> Maximum absolute value.
    pure real(wp) function magnitude(a)
       real(wp), intent(in) :: a(2)  !! (2) bounds [any]
 
       magnitude = max(abs(a(1)), abs(a(2)))
    end function magnitude
 
-   !> The least interval that holds two.
+   !> The minimum interval that holds two.
    pure function hull(a, b) result(x)
       real(wp), intent(in) :: a(2)  !! (2) bounds [any]
       real(wp), intent(in) :: b(2)  !! (2) bounds [any]

@@ -12,7 +12,7 @@
 !> Before u = 0 it is 0, from u = 1 on it is 1. Modified sine, in units of 1/(4 + pi): pi u - sin(4 pi u)/4 up to u = 1/8,
 !> 2 + pi u - 9/4 sin((pi + 4 pi u)/3) up to 7/8, then 4 + pi u - sin(4 pi u)/4.
 !>
-!> Every law rises all the way and is symmetric, s(1 - u) = 1 - s(u); its speed is greatest in the middle, and its acceleration
+!> Every law rises all the way and is symmetric, s(1 - u) = 1 - s(u); its speed is largest in the middle, and its acceleration
 !> has one extremum in each half. The bounds use that and nothing else.
 !>
 !> Source: R. L. Norton, Cam design and manufacturing handbook (2002), chapters 3 and 4. Limits: none.
@@ -148,7 +148,7 @@ contains
       end do
    end function bound_rise
 
-   !> Place in the first half where the acceleration of a law has its extremum; 0: at its beginning.
+   !> Place in the first half where the acceleration of a law has its extremum; 0: at its start.
    pure real(wp) function max_of(law) result(u)
       integer, intent(in) :: law   !! number of the law
 

@@ -158,7 +158,7 @@ contains
    !> The same of an expression that uses channels.
    pure subroutine evaluate_seeing(self, x, along, value, slope)
       class(expression_t), intent(in) :: self   !! the expression
-      real(wp), intent(in) :: x(:)              !! (1 + sights) the time and the channels [any]
+      real(wp), intent(in) :: x(:)              !! (1 + observables) the time and the channels [any]
       integer, intent(in) :: along              !! number of the variable of the derivative
       real(wp), intent(out) :: value            !! its value [any]
       real(wp), intent(out) :: slope            !! derivative [any]

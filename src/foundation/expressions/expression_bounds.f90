@@ -29,7 +29,7 @@ contains
       real(wp), intent(in) :: t(2)                   !! (2) interval of the first variable [s or any]
       real(wp), intent(out) :: jet(2, 3)             !! (2, 3) bounds of value, first and second derivative [any]
       real(wp), intent(out) :: range(2, size(expression%code))  !! (2, n) bounds of the result of each operation [any]
-      real(wp), intent(out) :: bend(size(expression%code))      !! (n) its greatest second derivative, 0: no scale of its own [any]
+      real(wp), intent(out) :: bend(size(expression%code))      !! (n) its maximum second derivative, 0: no scale of its own [any]
 
       real(wp) :: stack(2, 3, stack_size)
       integer :: k, top

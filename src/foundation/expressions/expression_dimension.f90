@@ -1,6 +1,6 @@
 !> Dimensions of the parts of an expression, and the rule for radians.
 !>
-!> Dimensions must agree in sums, in `min`, `max`, `atan2`, and with what is wanted. Radians are an
+!> Dimensions must agree in sums, in `min`, `max`, `atan2`, and with what is requested. Radians are an
 !> exponent of their own, so that `50 Hz` in the place of `5000 rpm` is found. But mechanics drops
 !> them (speed is radius times angular speed), so some values are soft: their radians may be taken or
 !> left when they are compared. Soft are
@@ -34,11 +34,11 @@ module expression_dimension
 
 contains
 
-   !> Whether a value may stand where a dimension is wanted.
+   !> Whether a value may stand where a dimension is requested.
    pure logical function dimension_agrees(dimension, is_soft, wanted)
       type(dim_t), intent(in) :: dimension  !! of the value
       logical, intent(in) :: is_soft        !! its radians may be taken or left
-      type(dim_t), intent(in) :: wanted     !! what is wanted
+      type(dim_t), intent(in) :: wanted     !! what is requested
 
       dimension_agrees = same_dimension(dimension, wanted)
       if (is_soft) dimension_agrees = same_dimension(without_radians(dimension), without_radians(wanted))
@@ -101,7 +101,7 @@ contains
       a%dimension = dimension_power(a%dimension, exponent)
    end subroutine combine_power
 
-   !> A dimension with the radians left out.
+   !> A dimension with the radians omitted.
    pure type(dim_t) function without_radians(dimension)
       type(dim_t), intent(in) :: dimension  !! any
 

@@ -65,7 +65,7 @@ contains
       character(*), intent(in) :: name                   !! of the function
       integer, intent(in) :: operation                   !! of the function
       type(term_t), intent(in) :: arguments(:)           !! (most_arguments) those after the first are not always used
-      type(term_t), intent(inout) :: term                !! in: where it begins; out: the value
+      type(term_t), intent(inout) :: term                !! in: where it starts; out: the value
       character(:), allocatable, intent(out) :: message  !! empty: all is well
       integer, intent(out) :: wrong                      !! number of the wrong argument
 

@@ -20,7 +20,7 @@ contains
    subroutine parse_name(parser, name, term)
       type(parser_t), intent(inout) :: parser  !! the reader, after the name
       character(*), intent(in) :: name         !! the name
-      type(term_t), intent(inout) :: term      !! in: where it begins; out: what was read
+      type(term_t), intent(inout) :: term      !! in: where it starts; out: what was read
 
       integer :: last
 
@@ -55,7 +55,7 @@ contains
    subroutine use_symbol(parser, i, term, last)
       type(parser_t), intent(inout) :: parser  !! the reader
       integer, intent(in) :: i                 !! number of the parameter
-      type(term_t), intent(inout) :: term      !! in: where it begins; out: what was read
+      type(term_t), intent(inout) :: term      !! in: where it starts; out: what was read
       integer, intent(in) :: last              !! last character of its name
 
       associate (symbol => parser%symbols%list(i))

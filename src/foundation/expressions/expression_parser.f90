@@ -31,7 +31,7 @@ module expression_parser
       module recursive subroutine parse_word(parser, term)
          implicit none (type, external)
          type(parser_t), intent(inout) :: parser  !! the reader, at the name
-         type(term_t), intent(inout) :: term      !! in: where it begins; out: what was read
+         type(term_t), intent(inout) :: term      !! in: where it starts; out: what was read
       end subroutine parse_word
 
    end interface

@@ -14,7 +14,7 @@ module expression_state
    public :: advance, call_function, descend, emit, fail, name_length, new_parser, peek, resolve, suggestion
    public :: channel_finder_t, digits, fault_t, find_function, find_variable, function_list, letters, parser_t
 
-   !> A mistake in an expression.
+   !> An error in an expression.
    type :: fault_t
       character(:), allocatable :: message  !! what is wrong; empty: reported already, say nothing
       character(:), allocatable :: help     !! what to do, may be empty
@@ -39,7 +39,7 @@ module expression_state
          class(channel_finder_t), intent(in) :: self            !! the finder
          character(*), intent(in) :: word                       !! as `ram.velocity.y`
          type(dim_t), intent(out) :: dimension                  !! of the channel
-         character(:), allocatable, intent(out) :: message      !! what is wrong; empty: nothing; unallocated: it is told already
+         character(:), allocatable, intent(out) :: message  !! what is wrong; empty: nothing; unallocated: it is reported already
          character(:), allocatable, intent(out) :: help         !! what to do, may be empty
       end subroutine find_channel_interface
    end interface
@@ -65,7 +65,7 @@ module expression_state
       integer :: n_seen = 0                         !! channels that it uses
       type(observable_t) :: observables(most_seen)            !! (most_seen) these
       type(dim_t) :: observed_dimensions(most_seen) = dim_none  !! (most_seen) their dimensions
-      type(fault_t), allocatable :: fault           !! the first mistake
+      type(fault_t), allocatable :: fault           !! the first error
    end type parser_t
 
    character(*), parameter :: digits = "0123456789"
@@ -90,7 +90,7 @@ contains
       call advance(parser, 0)
    end subroutine new_parser
 
-   !> Go on by some characters, and over the blanks that follow.
+   !> Continue by some characters, and over the blanks that follow.
    subroutine advance(parser, n)
       type(parser_t), intent(inout) :: parser  !! the reader
       integer, intent(in) :: n                 !! characters that were read
@@ -113,7 +113,7 @@ contains
       if (parser%at <= len(parser%source)) peek = parser%source(parser%at:parser%at)
    end function peek
 
-   !> Length of the name with which a string begins; 0 if it begins otherwise.
+   !> Length of the name with which a string starts; 0 if it starts otherwise.
    pure integer function name_length(string)
       character(*), intent(in) :: string  !! any string
 
@@ -224,7 +224,7 @@ contains
       if (parser%depth > deepest) call fail(parser, parser%at, parser%at, "the expression is nested too deeply")
    end subroutine descend
 
-   !> Remember a mistake; only the first one counts.
+   !> Remember an error; only the first one counts.
    subroutine fail(parser, first, last, message, help)
       type(parser_t), intent(inout) :: parser      !! the reader
       integer, intent(in) :: first                 !! first character that is wrong

@@ -5,13 +5,13 @@
 !> | step(u), abs(u) | u | changes sign |
 !> | min(a, b), max(a, b) | a - b, with the sign for which below zero means b | changes sign |
 !> | atan2(y, x) | y, where x is negative | changes sign |
-!> | a curve that holds or goes on straight | its argument less its first, its last place | changes sign |
+!> | a curve that holds or continues straight | its argument less its first, its last place | changes sign |
 !> | a law that rises | its argument less the places where its formula changes | changes sign |
 !> | a curve of such laws | its argument less these; sin of it over the period if it repeats itself | changes sign |
 !> | sqrt(u), u^p with p < 2 | u | touches zero |
 !> | asin(u), acos(u) | 1 - u^2 | touches zero |
 !>
-!> The operations choose their branch by `function < 0`, and so does whoever looks for the places, so that a place is between
+!> The operations choose their branch by `function < 0`, and so does whoever searches the places, so that a place is between
 !> two neighbouring numbers. Each function is itself an expression, the part of the program that makes the argument.
 !> An expression may see a motion too: its parts that do not are functions of the time (`time_parts`), and only these have switches.
 !> Limits: a cubic spline is twice continuously differentiable; its knots are no such places.
@@ -156,7 +156,7 @@ contains
                    .not. any(g%code == op_time .and. g%operand > 1.5_wp)
    end function is_of_time
 
-   !> The greatest parts of an expression that are functions of the time alone; of one that sees no motion, itself.
+   !> The maximum parts of an expression that are functions of the time alone; of one that sees no motion, itself.
    subroutine time_parts(expression, parts)
       type(expression_t), intent(in) :: expression             !! the expression
       type(expression_t), allocatable, intent(out) :: parts(:) !! (any) its parts
@@ -192,7 +192,7 @@ contains
       switch%condition = condition
    end subroutine set_condition
 
-   !> Where the operand begins that ends with an operation.
+   !> Where the operand starts that ends with an operation.
    pure integer function begin_of(expression, last) result(first)
       type(expression_t), intent(in) :: expression  !! the expression
       integer, intent(in) :: last                   !! number of the last operation

@@ -12,7 +12,7 @@ module expression_symbols
 
    integer, parameter :: symbol_number = 1    !! a parameter with a value and a dimension
    integer, parameter :: symbol_word = 2      !! a parameter that is a word
-   integer, parameter :: symbol_broken = 3    !! one whose mistake was reported already
+   integer, parameter :: symbol_broken = 3    !! one whose error was reported already
    integer, parameter :: symbol_function = 4  !! a named function
 
    !> A parameter, or a named function.
@@ -42,7 +42,7 @@ module expression_symbols
 
 contains
 
-   !> Make room for so many symbols more; those that are there stay.
+   !> Make storage for so many symbols more; those that are there stay.
    subroutine start_symbols(self, n)
       class(symbols_t), intent(inout) :: self  !! the symbols
       integer, intent(in) :: n                 !! most that will be added

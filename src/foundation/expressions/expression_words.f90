@@ -137,7 +137,7 @@ contains
 
    end subroutine emit_rise
 
-   !> Length of the channel with which a string begins, names with dots between them; 0 if it begins otherwise.
+   !> Length of the channel with which a string starts, names with dots between them; 0 if it starts otherwise.
    pure integer function channel_length(string) result(length)
       character(*), intent(in) :: string  !! any string
 
@@ -158,7 +158,7 @@ contains
    subroutine parse_channel(parser, word, term)
       type(parser_t), intent(inout) :: parser  !! the reader, at the channel
       character(*), intent(in) :: word         !! the channel
-      type(term_t), intent(inout) :: term      !! in: where it begins; out: what was read
+      type(term_t), intent(inout) :: term      !! in: where it starts; out: what was read
 
       character(:), allocatable :: help, message
       integer :: k
@@ -197,7 +197,7 @@ contains
    recursive subroutine parse_call(parser, name, term)
       type(parser_t), intent(inout) :: parser  !! the reader, at the parenthesis
       character(*), intent(in) :: name         !! of the function
-      type(term_t), intent(inout) :: term      !! in: where it begins; out: what was read
+      type(term_t), intent(inout) :: term      !! in: where it starts; out: what was read
 
       type(term_t) :: argument
       character(:), allocatable :: known
@@ -234,7 +234,7 @@ contains
       call call_function(parser, i)
    end subroutine parse_call
 
-   !> Whether a name is that of a function or parameter whose mistake was reported already.
+   !> Whether a name is that of a function or parameter whose error was reported already.
    pure logical function is_broken(parser, name)
       type(parser_t), intent(in) :: parser  !! the reader
       character(*), intent(in) :: name      !! the name

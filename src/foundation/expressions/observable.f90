@@ -1,8 +1,8 @@
 !> What expressions see of a motion: a word of the deck, and where its value is found. Plain data; `observed_motion` finds the
 !> value.
 !>
-!> A place is a point of a body, seen from an origin, along the axes of a body. Quantities of a place: its position, velocity and
-!> acceleration, its distance from the origin and the rate of that. Quantities of a body: its angle and angular velocity.
+!> A place is a point of a body, observed from an origin, along the axes of a body. Quantities of a place: its position, velocity
+!> and acceleration, its distance from the origin and the rate of that. Quantities of a body: its angle and angular velocity.
 module observable
    use kinds, only: wp
    implicit none (type, external)
@@ -18,7 +18,7 @@ module observable
    integer, parameter :: sees_angle = 6             !! of a planar body
    integer, parameter :: sees_angular_velocity = 7  !! of a body
 
-   !> A point of a body, seen from an origin. Bodies: 0 is the ground.
+   !> A point of a body, observed from an origin. Bodies: 0 is the ground.
    type :: place_t
       integer :: body = 0                   !! body of the point
       real(wp) :: s(3) = 0.0_wp             !! (3) the point, frame of its body [m]

@@ -1,7 +1,7 @@
 !> The integral of an expression over its variable, to nearly round-off, with kinks and jumps found by halving.
 !>
 !> Lobatto's formula with 7 points, the ends among them, over an interval and over its halves; where they differ the
-!> halves are halved. So a law that begins just before x, as that of a stop, is seen. Source: Davis and Rabinowitz,
+!> halves are halved. So a law that starts just before x, as that of a stop, is seen. Source: Davis and Rabinowitz,
 !> Methods of numerical integration (1984), sections 2.7 and 6.2.
 !> Limits: a bump between the points of the first interval and zero at all of them is overlooked.
 module quadrature

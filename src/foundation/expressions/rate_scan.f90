@@ -6,11 +6,11 @@
 !>
 !> so that the line between the ends of a stretch is off by less than what f_k changes in all, or f_k changes by less than
 !> an eighth of that: a step of this length sees a pulse; its error control does the rest. Where the bounds of f_k'' are those
-!> of the function everywhere (a sine), a stretch is not divided but has a pace of its own. Of a sine this gives 4 rad, of
-!> exp(-(t/T)^2) steps of T to 2 T where it is not flat.
+!> of the function everywhere (a sine), a stretch is not divided but has a characteristic rate of its own. Of a sine this gives 4
+!> rad, of exp(-(t/T)^2) steps of T to 2 T where it is not flat.
 !>
-!> Stretches are made as they are asked for, from a stack. Limits: an operation without a greatest or least value (a pole) gives no
-!> pace; of products and sums only the operands do.
+!> Stretches are made as they are asked for, from a stack. Limits: an operation without a maximum or minimum value (a pole) gives no
+!> characteristic rate; of products and sums only the operands do.
 module rate_scan
    use expression, only: expression_t
    use expression_bounds, only: bound_expression
@@ -21,16 +21,16 @@ module rate_scan
 
    integer, parameter :: deepest = 60              !! stretches on the stack
    integer, parameter :: n_ahead = 8               !! stretches known ahead
-   integer, parameter :: most_stretches = 1000000  !! that are looked through for the shortest pace
-   integer, parameter :: n_quarter = 4             !! parts of a stretch that must all bend for a pace of its own
+   integer, parameter :: most_stretches = 1000000  !! that are looked through for the shortest characteristic rate
+   integer, parameter :: n_quarter = 4             !! parts of a stretch that must all bend for a characteristic rate of its own
    integer, parameter :: n_look = 4                !! places looked at in each of them
-   real(wp), parameter :: uniform = 0.25_wp        !! of the shortest pace: what counts as bending [1]
+   real(wp), parameter :: uniform = 0.25_wp        !! of the shortest characteristic rate: what counts as bending [1]
    real(wp), parameter :: golden = 0.61803398874989485_wp  !! places looked at are multiples of it [1]
-   real(wp), parameter :: part_of_change = 0.125_wp  !! change that no pace is asked for [1]
+   real(wp), parameter :: part_of_change = 0.125_wp  !! change that no characteristic rate is asked for [1]
 
-   !> A stretch with its pace.
+   !> A stretch with its characteristic rate.
    type :: stretch_t
-      real(wp) :: begin = 0.0_wp   !! where it begins [s]
+      real(wp) :: begin = 0.0_wp   !! where it starts [s]
       real(wp) :: end = 0.0_wp     !! where it ends [s]
       real(wp) :: pace = 0.0_wp    !! longest step on it [s]
    end type stretch_t
@@ -38,10 +38,10 @@ module rate_scan
    !> A search.
    type :: rate_scan_t
       type(expression_t) :: f                    !! the function
-      real(wp), allocatable :: change(:)         !! (operations) greatest less least value [any]
+      real(wp), allocatable :: change(:)         !! (operations) maximum less minimum value [any]
       logical :: is_calm = .true.                !! it limits no step
-      real(wp) :: most = 0.0_wp                  !! greatest change of the function in a step, 0: any [any]
-      real(wp) :: left = 0.0_wp                  !! where the stretches begin that are left [s]
+      real(wp) :: most = 0.0_wp                  !! maximum change of the function in a step, 0: any [any]
+      real(wp) :: left = 0.0_wp                  !! where the stretches start that are left [s]
       real(wp) :: right(deepest) = 0.0_wp        !! (deepest) their ends, the first one on top [s]
       integer :: depth = 0                       !! how many
       type(stretch_t) :: ahead(n_ahead)          !! stretches found, the present one first
@@ -53,12 +53,12 @@ module rate_scan
 
 contains
 
-   !> Begin a search over a range.
+   !> Start a search over a range.
    subroutine new_rate_scan(f, first, last, most, scan)
       type(expression_t), intent(in) :: f      !! the function
-      real(wp), intent(in) :: first            !! beginning of the range [s]
+      real(wp), intent(in) :: first            !! start of the range [s]
       real(wp), intent(in) :: last             !! its end [s]
-      real(wp), intent(in) :: most             !! greatest change of the function in a step, 0: any [any]
+      real(wp), intent(in) :: most             !! maximum change of the function in a step, 0: any [any]
       type(rate_scan_t), intent(out) :: scan   !! the search
 
       real(wp) :: bend(size(f%code)), jet(2, 3), range(2, size(f%code))
@@ -76,10 +76,10 @@ contains
       scan%depth = merge(0, 1, scan%is_calm)
    end subroutine new_rate_scan
 
-   !> Where a step that begins at a time must end at the latest.
+   !> Where a step that starts at a time must end at the latest.
    subroutine rate_scan_stop_after(self, t, stop)
       class(rate_scan_t), intent(inout) :: self  !! the search; times must not fall from call to call
-      real(wp), intent(in) :: t                  !! beginning of the step [s]
+      real(wp), intent(in) :: t                  !! start of the step [s]
       real(wp), intent(out) :: stop              !! its latest end; beyond all numbers if nothing limits it [s]
 
       integer :: k
@@ -114,9 +114,9 @@ contains
       end do
    end subroutine rate_scan_stop_after
 
-   !> The shortest pace and where it is; the search is at its end afterwards.
+   !> The shortest characteristic rate and where it is; the search is at its end afterwards.
    subroutine rate_scan_shortest(self, pace, at)
-      class(rate_scan_t), intent(inout) :: self  !! the search, just begun
+      class(rate_scan_t), intent(inout) :: self  !! the search, just started
       real(wp), intent(out) :: pace              !! longest step there; beyond all numbers if nothing limits it [s]
       real(wp), intent(out) :: at                !! middle of the stretch [s]
 
@@ -161,7 +161,7 @@ contains
    !> Longest step that the bends allow.
    pure real(wp) function pace_of(self, bend, range, jet, width) result(pace)
       class(rate_scan_t), intent(in) :: self  !! the search
-      real(wp), intent(in) :: bend(:)         !! (operations) greatest second derivatives [any]
+      real(wp), intent(in) :: bend(:)         !! (operations) maximum second derivatives [any]
       real(wp), intent(in) :: range(:, :)     !! (2, operations) bounds of the results [any]
       real(wp), intent(in) :: jet(2, 3)       !! (2, 3) bounds of the function and its derivatives [any]
       real(wp), intent(in) :: width           !! length of the stretch, 0: an instant [s]
@@ -183,7 +183,7 @@ contains
    !> Whether a function bends as much as its bounds say in all parts of a stretch.
    logical function bends_all_over(self, a, b, pace)
       class(rate_scan_t), intent(in) :: self  !! the search
-      real(wp), intent(in) :: a               !! beginning of the stretch [s]
+      real(wp), intent(in) :: a               !! start of the stretch [s]
       real(wp), intent(in) :: b               !! its end [s]
       real(wp), intent(in) :: pace            !! by the bounds [s]
 

@@ -1,7 +1,7 @@
 !> The places where a function of one variable changes its branch, one after the other from the left.
 !>
 !> An interval is dropped if bounds of the function exclude a change; it is monotone, or has one extremum, if bounds of the
-!> derivatives say so, and then signs at its ends tell; else it is halved. A place is halved down to two neighbouring numbers
+!> derivatives say so, and then signs at its ends report; else it is halved. A place is halved down to two neighbouring numbers
 !> on which the function has both signs. Intervals to be looked at are a stack, so that places are found as they
 !> are asked for: thousands of them cost no memory.
 !>
@@ -32,7 +32,7 @@ module root_scan
    !> A search.
    type :: root_scan_t
       type(switch_t) :: switch                  !! the function
-      real(wp) :: left = 0.0_wp                 !! where the intervals begin that are left [any]
+      real(wp) :: left = 0.0_wp                 !! where the intervals start that are left [any]
       real(wp) :: right(deepest) = 0.0_wp       !! (deepest) their ends, the first one on top [any]
       integer :: depth = 0                      !! how many
       integer :: n_undecided = 0                !! intervals left undecided one after the other
@@ -45,10 +45,10 @@ module root_scan
 
 contains
 
-   !> Begin a search over a range.
+   !> Start a search over a range.
    subroutine new_root_scan(switch, first, last, scan)
       type(switch_t), intent(in) :: switch      !! the function
-      real(wp), intent(in) :: first             !! beginning of the range [any]
+      real(wp), intent(in) :: first             !! start of the range [any]
       real(wp), intent(in) :: last              !! its end [any]
       type(root_scan_t), intent(out) :: scan    !! the search
 
@@ -146,7 +146,7 @@ contains
       !> A place where the function touches zero, at its extremum or at an end of the interval.
       subroutine look_for_touch(g, first, last, turn_low, turn_high)
          type(expression_t), intent(in) :: g   !! the function
-         real(wp), intent(in) :: first         !! beginning of the interval [any]
+         real(wp), intent(in) :: first         !! start of the interval [any]
          real(wp), intent(in) :: last          !! its end [any]
          real(wp), intent(in) :: turn_low      !! last number before the extremum [any]
          real(wp), intent(in) :: turn_high     !! first number behind it [any]
@@ -176,7 +176,7 @@ contains
    !> The extremum of a function that has one at most, between two neighbouring numbers; the ends where it has none.
    subroutine find_turn(g, a, b, low, high)
       type(expression_t), intent(in) :: g  !! the function
-      real(wp), intent(in) :: a            !! beginning of the interval [any]
+      real(wp), intent(in) :: a            !! start of the interval [any]
       real(wp), intent(in) :: b            !! its end [any]
       real(wp), intent(out) :: low         !! last number before the extremum [any]
       real(wp), intent(out) :: high        !! first number behind it [any]

@@ -1,6 +1,6 @@
 !> The stretch of time on which all functions of time are smooth, and the times at which they are evaluated.
 !>
-!> At an instant where a function jumps or bends, a step that ends there needs the value before it, one that begins there
+!> At an instant where a function jumps or bends, a step that ends there needs the value before it, one that starts there
 !> the value behind it. So that each evaluation is on the right side, times are brought into the stretch: what lies outside,
 !> by a last digit, becomes the nearest number inside.
 module smooth_segment

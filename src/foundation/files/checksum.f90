@@ -80,7 +80,7 @@ module checksum
 
 contains
 
-   !> Go on with a sum by rows; it does not depend on how rows come together.
+   !> Continue with a sum by rows; it does not depend on how rows come together.
    subroutine add_rows(sum, bytes, width)
       integer(i8), intent(inout) :: sum             !! so far
       integer(c_int8_t), intent(in) :: bytes(:)     !! (n width) the rows

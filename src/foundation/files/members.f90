@@ -1,6 +1,6 @@
 !> Members: copies of this process that work on a task of their own and hand back what they found, from member_calls.c.
 !>
-!> A copy begins with all that was read and built before. What it does to its memory, and how it ends, do not touch this
+!> A copy starts with all that was read and built before. What it does to its memory, and how it ends, do not touch this
 !> process; it ends with it. No file of HDF5 may be open when one is made.
 module members
    use, intrinsic :: iso_c_binding, only: c_associated, c_char, c_double, c_f_pointer, c_int, c_int64_t, c_null_char, c_ptr
@@ -46,14 +46,14 @@ module members
          implicit none (type, external)
          character(kind=c_char), intent(in) :: path(*)   !! (n) the file
          character(kind=c_char), intent(out) :: text(*)  !! (capacity) by what it is known
-         integer(c_int), value :: capacity               !! characters there is room for
+         integer(c_int), value :: capacity               !! characters there is storage for
       end subroutine c_stamp
 
       subroutine c_build_id(text, capacity) bind(c, name="gudgeon_build_id")
          import :: c_char, c_int
          implicit none (type, external)
          character(kind=c_char), intent(out) :: text(*)  !! (capacity) hexadecimal digits
-         integer(c_int), value :: capacity               !! characters there is room for
+         integer(c_int), value :: capacity               !! characters there is storage for
       end subroutine c_build_id
 
       subroutine c_free(bytes) bind(c, name="free")
@@ -123,7 +123,7 @@ contains
       stamp = from_c(text)
    end function stamp_of
 
-   !> By what this program is known: its content where the linker tells of it, else the file that it is.
+   !> By what this program is known: its content where the linker reports of it, else the file that it is.
    function program_identity() result(identity)
       character(:), allocatable :: identity    !! one line
 

@@ -1,6 +1,6 @@
 !> Rows of numbers in a text file, one line after the other: a Fortran unit takes ten times as long to read them.
 !>
-!> Lines that are blank or begin with `#` are passed over.
+!> Lines that are blank or start with `#` are passed over.
 module number_rows
    use, intrinsic :: iso_c_binding, only: c_associated, c_char, c_double, c_int, c_null_char, c_null_ptr, c_ptr
    use kinds, only: wp
@@ -29,7 +29,7 @@ module number_rows
          import :: c_double, c_int, c_ptr
          implicit none (type, external)
          type(c_ptr), value :: handle                    !! of the open file
-         integer(c_int), value :: n                      !! numbers that are wanted
+         integer(c_int), value :: n                      !! numbers that are requested
          real(c_double), intent(inout) :: row(*)         !! (n) the numbers [any]
       end function c_next_row
 

@@ -27,7 +27,7 @@ module output_directory
       character(:), allocatable :: path                     !! the directory as named, without a slash at its end
       type(text_t), allocatable :: warnings(:)              !! (n) what was kept, and why
       character(:), allocatable, private :: place           !! the directory behind links
-      type(marker_t), allocatable, private :: older         !! that of an older run that goes on
+      type(marker_t), allocatable, private :: older         !! that of an older run that continues
       integer, private :: descriptor = -1                   !! of the locked marker, -1: not open
    contains
       procedure :: open => open_directory
@@ -38,12 +38,12 @@ module output_directory
 
 contains
 
-   !> Make the directory of a run empty and ours; or go on in that of an older run of the same, whose files stay.
+   !> Make the directory of a run empty and ours; or continue in that of an older run of the same, whose files stay.
    subroutine open_directory(self, path, error, goes_on)
       class(output_directory_t), intent(inout) :: self   !! the directory
       character(*), intent(in) :: path                   !! where it is to be
       type(error_t), allocatable, intent(out) :: error   !! it cannot be made, or is not free
-      logical, intent(in), optional :: goes_on           !! an older run there is gone on with, not moved away
+      logical, intent(in), optional :: goes_on           !! an older run there is continued with, not moved away
 
       integer :: attempt
       logical :: keeps
@@ -88,7 +88,7 @@ contains
       self%descriptor = -1
    end subroutine open_directory
 
-   !> Take the directory of an earlier run of ours as it is, to go on with that.
+   !> Take the directory of an earlier run of ours as it is, to continue with that.
    subroutine open_directory_again(self, path, error)
       class(output_directory_t), intent(inout) :: self   !! the directory
       character(*), intent(in) :: path                   !! where it is
@@ -167,7 +167,7 @@ contains
    !> process was faster, there is no error and the directory is not open yet: once more.
    subroutine enter(self, keeps, error)
       type(output_directory_t), intent(inout) :: self    !! the directory; `descriptor` is set once it is ours
-      logical, intent(in) :: keeps                       !! an older run there is gone on with
+      logical, intent(in) :: keeps                       !! an older run there is continued with
       type(error_t), allocatable, intent(out) :: error   !! it is not free, or not ours
 
       type(marker_t) :: marker
@@ -196,7 +196,7 @@ contains
       call lock_marker(self%place, .false., "write to "//self%path, file, error)
       if (file < 0) return
       call read_marker(self%place, marker)
-      if (size(names) == 1 .and. marker%is_empty) then  ! left by a run that could not even begin
+      if (size(names) == 1 .and. marker%is_empty) then  ! left by a run that could not even start
          call take_new(self, file)
          return
       end if
@@ -272,7 +272,7 @@ contains
    subroutine lock_marker(place, make, action, file, error)
       character(*), intent(in) :: place                  !! the directory
       logical, intent(in) :: make                        !! whether a marker is made if there is none
-      character(*), intent(in) :: action                 !! what it is wanted for, as `write to DIRECTORY`
+      character(*), intent(in) :: action                 !! what it is requested for, as `write to DIRECTORY`
       integer, intent(out) :: file                       !! descriptor; -1 without an error: there is no marker
       type(error_t), allocatable, intent(out) :: error   !! another run has it, or it is no file
 

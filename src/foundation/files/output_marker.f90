@@ -22,7 +22,7 @@ module output_marker
    character(*), parameter :: first_line = "gudgeon output directory, format 2"  !! by which it is known
    character(*), parameter :: older_line = "gudgeon output directory, format 1"  !! one that does not say which files they are
    character(*), parameter :: files_line = "files:"                        !! after it come the paths
-   character(*), parameter :: made_word = "= "                             !! begins the line of a file that was made
+   character(*), parameter :: made_word = "= "                             !! starts the line of a file that was made
    character(*), parameter :: last_line = "ended"                          !! the run closed the directory
    integer(i8), parameter :: largest_marker = 1000000000_i8                !! bytes
 
@@ -55,8 +55,8 @@ contains
 
    !> Say in a marker whose directory this is, and which files are in it already.
    integer function begin_marker(directory, older) result(code)
-      character(*), intent(in) :: directory           !! as all paths of its files begin
-      type(marker_t), intent(in), optional :: older   !! that of an earlier run that goes on; absent: a new one
+      character(*), intent(in) :: directory           !! as all paths of its files start
+      type(marker_t), intent(in), optional :: older   !! that of an earlier run that continues; absent: a new one
 
       type(buffer_t) :: lines
       character(:), allocatable :: name
@@ -172,7 +172,7 @@ contains
       if (code == 0) here%length = here%length + lines%length()
    end function append
 
-   !> Make room for more names.
+   !> Make storage for more names.
    subroutine grow()
       type(text_t), allocatable :: larger(:)
       logical, allocatable :: own(:)

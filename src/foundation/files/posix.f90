@@ -192,14 +192,15 @@ contains
       code = c_write_open(standard_output, printable(text), len(text, i8))
    end function write_output
 
-   !> Write text to the standard error, control characters made visible; if nobody reads it or it is full, there is nobody to tell.
+   !> Write text to the standard error, control characters made visible; if nobody reads it or it is full, there is nobody to
+   !> report.
    subroutine write_error(text)
       character(*), intent(in) :: text  !! what to write
 
       call draw_error(printable(text))
    end subroutine write_error
 
-   !> Write what the program itself draws on the standard error, as it is: a bar that goes back to the beginning of its line.
+   !> Write what the program itself draws on the standard error, as it is: a bar that goes back to the start of its line.
    subroutine draw_error(text)
       character(*), intent(in) :: text  !! what to write, nothing of a deck or a file in it
 
@@ -285,7 +286,7 @@ contains
       n_processors = c_processors()
    end function n_processors
 
-   !> The file that this process runs, blank if the system does not tell.
+   !> The file that this process runs, blank if the system does not report.
    function own_path() result(path)
       character(:), allocatable :: path   !! absolute
 

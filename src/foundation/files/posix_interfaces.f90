@@ -26,7 +26,7 @@ module posix_interfaces
          implicit none (type, external)
          character(kind=c_char), intent(in) :: path(*)   !! (n) any path
          character(kind=c_char), intent(out) :: real(*)  !! (capacity) the path behind links
-         integer(c_int), value :: capacity               !! characters there is room for
+         integer(c_int), value :: capacity               !! characters there is storage for
       end subroutine c_real_path
 
       integer(c_int) function c_remove_file(path) bind(c, name="gudgeon_remove_file")
@@ -53,7 +53,7 @@ module posix_interfaces
          implicit none (type, external)
          character(kind=c_char), intent(in) :: directory(*)  !! (n) the directory
          character(kind=c_char), intent(out) :: names(*)     !! (capacity) names, each with its null character
-         integer(c_int64_t), value :: capacity               !! characters there is room for
+         integer(c_int64_t), value :: capacity               !! characters there is storage for
          integer(c_int64_t), intent(out) :: n                !! characters of all names
       end function c_list
 
@@ -150,14 +150,14 @@ module posix_interfaces
          import :: c_char, c_int
          implicit none (type, external)
          character(kind=c_char), intent(out) :: text(*)  !! (capacity) the time
-         integer(c_int), value :: capacity               !! characters there is room for
+         integer(c_int), value :: capacity               !! characters there is storage for
       end subroutine c_utc_time
 
       subroutine c_host_name(name, capacity) bind(c, name="gudgeon_host_name")
          import :: c_char, c_int
          implicit none (type, external)
          character(kind=c_char), intent(out) :: name(*)  !! (capacity) name of this machine
-         integer(c_int), value :: capacity               !! characters there is room for
+         integer(c_int), value :: capacity               !! characters there is storage for
       end subroutine c_host_name
 
       integer(c_int) function c_processors() bind(c, name="gudgeon_processors")
@@ -169,7 +169,7 @@ module posix_interfaces
          import :: c_char, c_int
          implicit none (type, external)
          character(kind=c_char), intent(out) :: path(*)  !! (capacity) the file
-         integer(c_int), value :: capacity               !! characters there is room for
+         integer(c_int), value :: capacity               !! characters there is storage for
       end subroutine c_own_path
 
       integer(c_int) function c_isatty(file) bind(c, name="isatty")

@@ -1,4 +1,4 @@
-!> How the program begins and ends, and the programs that it starts, from process_calls.c.
+!> How the program starts and ends, and the programs that it starts, from process_calls.c.
 !>
 !> Functions return 0 or the system's error number. No function starts a shell.
 module processes

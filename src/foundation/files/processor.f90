@@ -5,7 +5,7 @@ module processor
    private
    public :: processor_name
 
-   character(*), parameter :: list = "/proc/cpuinfo"     !! where Linux tells it
+   character(*), parameter :: list = "/proc/cpuinfo"     !! where Linux reports it
    character(*), parameter :: key = "model name"         !! before the name
 
 contains

@@ -34,7 +34,7 @@ module progress
 
 contains
 
-   !> Begin.
+   !> Start.
    subroutine start_progress(self, is_on)
       class(progress_t), intent(inout) :: self  !! the display
       logical, intent(in) :: is_on              !! .false.: show nothing

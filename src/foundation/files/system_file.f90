@@ -1,7 +1,7 @@
-!> Whole files and streams as bytes, and the system's error numbers in words.
+!> Whole files and streams as bytes, and the system's error numbers as text.
 !>
 !> Fortran cannot say what kind of file a path names before it opens it, and opening a pipe that nobody writes to waits for
-!> ever; nor does it tell how many bytes the last part of a stream has.
+!> ever; nor does it report how many bytes the last part of a stream has.
 module system_file
    use, intrinsic :: iso_c_binding, only: c_associated, c_char, c_f_pointer, c_int, c_int64_t, c_null_char, c_ptr
    use kinds, only: i8
@@ -11,8 +11,8 @@ module system_file
    public :: read_file, system_message
 
    integer(c_int), parameter :: is_directory = -1   !! a directory
-   integer(c_int), parameter :: is_no_file = -2     !! a device, or a pipe where a file is wanted
-   integer(c_int), parameter :: is_too_large = -3   !! more bytes than wanted
+   integer(c_int), parameter :: is_no_file = -2     !! a device, or a pipe where a file is requested
+   integer(c_int), parameter :: is_too_large = -3   !! more bytes than requested
    integer(c_int), parameter :: no_entry = 2        !! ENOENT, the same on every Unix
 
    ! allow(assumed-size, assumed-size-character-intent)
@@ -33,7 +33,7 @@ module system_file
          implicit none (type, external)
          integer(c_int), value :: code                   !! error number
          character(kind=c_char), intent(out) :: text(*)  !! (capacity) what it means
-         integer(c_int), value :: capacity               !! characters there is room for
+         integer(c_int), value :: capacity               !! characters there is storage for
       end subroutine c_error_text
 
       subroutine c_free(bytes) bind(c, name="free")
@@ -90,7 +90,7 @@ contains
       if (.not. allocated(bytes)) bytes = ""
    end subroutine read_file
 
-   !> An error number in words.
+   !> An error number as text.
    function system_message(code) result(message)
       integer, intent(in) :: code            !! error number
       character(:), allocatable :: message   !! what it means

@@ -55,7 +55,7 @@ contains
       self%length = self%length + len(text, i8)
    end subroutine append_to_file
 
-   !> Go on with a file that an earlier run has left behind: what it wrote behind some length is dropped.
+   !> Continue with a file that an earlier run has left behind: what it wrote behind some length is dropped.
    subroutine go_on_with_file(self, length, error)
       class(text_file_t), intent(inout) :: self          !! the file
       integer(i8), intent(in) :: length                  !! bytes that stay

@@ -6,7 +6,7 @@
 !> Batches are doubled in length as long as neighbouring ones go together or against each other (first autocorrelation beyond
 !> 2/sqrt(n_b)) and enough of them are left. Of increments of something that also swings, weights 6 s (1 - s) over the place s in a
 !> batch leave the swing out: so the mean of a batch is the slope of the line of least squares. The effective number of values is
-!> s^2/(s_b^2/n_b), s^2 their own variance: so many independent ones would tell as much.
+!> s^2/(s_b^2/n_b), s^2 their own variance: so many independent ones would report as much.
 !>
 !> Source: A. M. Law, W. D. Kelton, Simulation Modeling and Analysis, 3rd ed. (2000), section 9.5.3; Student's t: M. Abramowitz,
 !> I. A. Stegun, Handbook of Mathematical Functions (1964), eq. 26.7.5.
@@ -74,7 +74,7 @@ contains
       estimate%half = student(size(means) - 1)*sqrt(sum((means - estimate%value)**2)/((n - 1.0_wp)*n))
    end function mean_of_batches
 
-   !> Means of batches of equal length; what is left over of the series is left out at its begin.
+   !> Means of batches of equal length; what is left over of the series is omitted at its start.
    pure function means_of_batches(x, n_batch, is_increment) result(means)
       real(wp), intent(in) :: x(:)                   !! (n) values in their order [any]
       integer, intent(in) :: n_batch                 !! batches, not more than values

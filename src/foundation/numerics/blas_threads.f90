@@ -1,8 +1,8 @@
 !> Keeps BLAS to one thread: the matrices of a mechanism are small, and repeats must be bitwise equal.
 !>
-!> OpenBLAS is asked by its own call, looked up at run time, so that any other LAPACK links as well. It begins with a thread for
+!> OpenBLAS is asked by its own call, looked up at run time, so that any other LAPACK links as well. It starts with a thread for
 !> each processor, and each of them, like the first call of the program itself, asks the system for a buffer again and again,
-!> for ever if there is no room for it. So where room is short the program begins anew with one thread from the start, and
+!> for ever if there is no storage for it. So where room is short the program starts anew with one thread from the start, and
 !> where it does not suffice for the one buffer it ends.
 module blas_threads
    use, intrinsic :: iso_c_binding, only: c_associated, c_char, c_f_pointer, c_f_procpointer, c_funptr, c_int, &
@@ -33,7 +33,7 @@ module blas_threads
       integer(c_int) function c_has_capacity(bytes) bind(c, name="gudgeon_has_room")
          import :: c_int, c_int64_t
          implicit none (type, external)
-         integer(c_int64_t), value :: bytes  !! that are wanted at once
+         integer(c_int64_t), value :: bytes  !! that are requested at once
       end function c_has_capacity
 
       integer(c_int) function c_is_limited() bind(c, name="gudgeon_is_limited")
@@ -86,7 +86,7 @@ contains
 
    !> One thread from here on, if the BLAS is OpenBLAS; others are left alone.
    subroutine use_one_blas_thread(error)
-      type(error_t), allocatable, intent(out) :: error  !! there is no room for its buffer
+      type(error_t), allocatable, intent(out) :: error  !! there is no storage for its buffer
 
       procedure(set_threads_interface), pointer :: set_threads
       type(c_funptr) :: address
@@ -131,7 +131,7 @@ contains
       end do
    end function blas_kernels
 
-   !> Begin the program anew with one thread; returns if that is not possible.
+   !> Start the program anew with one thread; returns if that is not possible.
    subroutine begin_anew()
       type(buffer_t) :: list
       character(:), allocatable :: argument
@@ -147,7 +147,7 @@ contains
       call c_start_again(threads_variable//c_null_char, "1"//c_null_char, int(command_argument_count() + 1, c_int), list%get())
    end subroutine begin_anew
 
-   !> Let OpenBLAS take its buffer while there is room for it.
+   !> Let OpenBLAS take its buffer while there is storage for it.
    subroutine take_buffer()
       procedure(allocate_interface), pointer :: allocate_buffer
       procedure(free_interface), pointer :: free_buffer

@@ -25,7 +25,7 @@ module envelope
 
 contains
 
-   !> Room for a matrix with the given envelope.
+   !> Storage for a matrix with the given envelope.
    subroutine new_envelope(first, matrix)
       integer, intent(in) :: first(:)           !! (n) first column of each row
       type(envelope_t), intent(out) :: matrix   !! the matrix, zero
@@ -52,7 +52,7 @@ contains
       integer, intent(in) :: n_entry              !! entries of the envelope
       integer, intent(in) :: first(n)             !! (n) first column of each row
       integer, intent(in) :: start(n)             !! (n) place of entry (i, j) is start(i) + j
-      real(wp), intent(in) :: threshold           !! least pivot, as a part of the diagonal it came from [1]
+      real(wp), intent(in) :: threshold           !! minimum pivot, as a part of the diagonal it came from [1]
       real(wp), intent(inout) :: a(n_entry)       !! (entries) matrix, then its factors [any]
       real(wp), intent(inout) :: row(n)           !! (n) scratch [any]
       real(wp), intent(inout) :: x(n)             !! (n) right-hand side, then z of L D z = b, then solution [any]
@@ -93,7 +93,7 @@ contains
 
    !> Factorise a semi-definite matrix in place; rows that depend on earlier ones are set aside.
    pure subroutine factorise_semidefinite(threshold, matrix, is_dependent)
-      real(wp), intent(in) :: threshold          !! least pivot, as a part of the diagonal it came from [1]
+      real(wp), intent(in) :: threshold          !! minimum pivot, as a part of the diagonal it came from [1]
       type(envelope_t), intent(inout) :: matrix  !! the matrix, then its factors, for `solve_factored`
       logical, intent(out) :: is_dependent(:)    !! (n) rows set aside
 

@@ -35,7 +35,7 @@ module klu
       integer(c_int) :: singular_col = 0            !! column with a zero pivot, from 0
       integer(c_int) :: noffdiag = 0                !! statistics
       real(c_double) :: flops = 0.0_c_double        !! statistics [1]
-      real(c_double) :: rcond = 0.0_c_double        !! least over greatest pivot [1]
+      real(c_double) :: rcond = 0.0_c_double        !! minimum over maximum pivot [1]
       real(c_double) :: condest = 0.0_c_double      !! statistics [1]
       real(c_double) :: rgrowth = 0.0_c_double      !! statistics [1]
       real(c_double) :: work = 0.0_c_double         !! statistics [1]
@@ -95,7 +95,7 @@ module klu
          type(klu_common_t), intent(inout) :: common  !! parameters
       end function klu_solve
 
-      !> Ratio of the least to the greatest pivot, into common%rcond.
+      !> Ratio of the minimum to the maximum pivot, into common%rcond.
       integer(c_int) function klu_rcond(symbolic, numeric, common) bind(C)
          import :: c_int, c_ptr, klu_common_t
          implicit none (type, external)

@@ -173,7 +173,7 @@ module lapack
          real(wp), intent(in) :: a(lda, *)                   !! (lda, k) reflections as the factorisation left them [any]
          real(wp), intent(in) :: tau(*)                      !! (k) factors of these [1]
          real(wp), intent(inout) :: c(ldc, *)                !! (ldc, n) matrix, then the product [any]
-         real(wp), intent(inout) :: work(*)                  !! (lwork) room [any]
+         real(wp), intent(inout) :: work(*)                  !! (lwork) workspace [any]
          integer, intent(out) :: info                        !! 0: done
       end subroutine dormqr
 

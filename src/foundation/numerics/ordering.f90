@@ -13,7 +13,7 @@ contains
    !> Order of the rows; the graph is given by the neighbours of each row.
    subroutine reverse_cuthill_mckee(start, neighbour, order)
       integer, intent(in) :: start(:)                !! (n + 1) place of the first neighbour of each row, then one after the last
-      integer, intent(in) :: neighbour(:)            !! (any) neighbours of all rows, itself left out
+      integer, intent(in) :: neighbour(:)            !! (any) neighbours of all rows, itself omitted
       integer, allocatable, intent(out) :: order(:)  !! (n) rows in their new order
 
       logical, allocatable :: is_placed(:)

@@ -43,7 +43,7 @@ contains
       a(3, 3) = 1.0_wp - x(1) - y(2)
    end function rotation_of_parameters
 
-   !> Euler parameters of a rotation matrix, of length one, the greatest of them positive.
+   !> Euler parameters of a rotation matrix, of length one, the maximum of them positive.
    pure function euler_parameters_of(a) result(p)
       real(wp), intent(in) :: a(3, 3)  !! (3, 3) rotation [1]
       real(wp) :: p(4)                 !! (4) Euler parameters [1]
@@ -162,7 +162,7 @@ contains
    !> Rotation about an axis.
    pure function rotation_about(axis, angle) result(a)
       real(wp), intent(in) :: axis(3)   !! (3) axis, of any length but zero [1]
-      real(wp), intent(in) :: angle     !! angle, counter-clockwise seen from its tip [rad]
+      real(wp), intent(in) :: angle     !! angle, counter-clockwise observed from its tip [rad]
       real(wp) :: a(3, 3)               !! (3, 3) the rotation [1]
 
       a = rotation_of_parameters([cos(0.5_wp*angle), sin(0.5_wp*angle)*axis/norm2(axis)])

@@ -19,7 +19,7 @@ module time_queue
 
 contains
 
-   !> Empty the queue, and make room.
+   !> Empty the queue, and make storage.
    subroutine queue_start(self, capacity)
       class(time_queue_t), intent(inout) :: self   !! the queue, emptied
       integer, intent(in) :: capacity              !! most entries at a time

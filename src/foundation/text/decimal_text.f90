@@ -15,11 +15,11 @@ module decimal_text
    integer, parameter :: decimal_width = 25                       !! characters of a number, with the blank after it
    character(*), parameter :: plain_format = "(es24.16e3, 1x)"    !! the same by the run-time library
    integer, parameter :: digits_after = 16                        !! after the first digit
-   integer, parameter :: most = 300                               !! greatest power of ten in the table
+   integer, parameter :: most = 300                               !! maximum power of ten in the table
    real(wp), parameter :: maximum = 1.0e280_wp, minimum = 1.0e-280_wp  !! beyond them products may leave the range [any]
    integer(i8), parameter :: upper_half = -134217728_i8           !! bits of sign, exponent and the first 26 of the digits
    real(wp), parameter :: doubt = 1.0e-6_wp                       !! fractions so near one half are not decided here
-   integer(i8), parameter :: whole = 10_i8**digits_after          !! least number of 17 digits
+   integer(i8), parameter :: whole = 10_i8**digits_after          !! minimum number of 17 digits
 
    real(wp) :: high(-most:most), low(-most:most)                  !! 10^k as a sum of two numbers
    logical :: is_made = .false.                                   !! whether they are known

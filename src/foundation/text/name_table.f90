@@ -21,7 +21,7 @@ module name_table
 
 contains
 
-   !> Empty the table and make room for some number of names; it grows by doubling if more come.
+   !> Empty the table and make storage for some number of names; it grows by doubling if more come.
    subroutine start(self, capacity)
       class(name_table_t), intent(inout) :: self  !! the table, emptied
       integer, intent(in) :: capacity             !! names that will be entered
@@ -32,7 +32,7 @@ contains
       call make_slots(self)
    end subroutine start
 
-   !> Make slots for as many names as there is room for, and put those that are there into them.
+   !> Make slots for as many names as there is storage for, and put those that are there into them.
    subroutine make_slots(table)
       class(name_table_t), intent(inout) :: table  !! the table
 

@@ -16,7 +16,7 @@ module numbers
 
 contains
 
-   !> Number of characters of the number with which a string begins; 0 if there is none.
+   !> Number of characters of the number with which a string starts; 0 if there is none.
    pure integer function number_length(string)
       character(*), intent(in) :: string  !! any string
 
@@ -46,7 +46,7 @@ contains
       if (n > 0) number_length = at + n
    end function number_length
 
-   !> Number of digits with which a string begins.
+   !> Number of digits with which a string starts.
    pure integer function count_digits(string)
       character(*), intent(in) :: string  !! any string
 

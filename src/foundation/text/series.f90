@@ -12,17 +12,17 @@ module series
       character(:), allocatable :: unit   !! SI; blank: not known
       real(wp), allocatable :: x(:)       !! (n) values; NaN: none [any]
       logical :: is_state = .false.       !! one of a few whole numbers, which it keeps until it changes
-      real(wp), allocatable :: extreme(:)     !! (2) least and greatest value of the run; unallocated: those of the rows [any]
+      real(wp), allocatable :: extreme(:)     !! (2) minimum and maximum value of the run; unallocated: those of the rows [any]
       real(wp), allocatable :: extreme_at(:)  !! (2) when, between rows too [s]
       real(wp) :: turn = 0.0_wp           !! what it jumps by, as an angle from -pi to pi does; 0: it does not [any]
    end type series_t
 
-   !> A contact that began.
+   !> A contact that started.
    type :: impact_t
       character(:), allocatable :: item   !! joint, and label of the contact
       real(wp) :: time = 0.0_wp           !! of the onset [s]
       real(wp) :: speed = 0.0_wp          !! of the impact; NaN: not known [m/s]
-      real(wp) :: force = 0.0_wp          !! greatest normal force; NaN: not known [N]
+      real(wp) :: force = 0.0_wp          !! maximum normal force; NaN: not known [N]
    end type impact_t
 
    !> What a run left.

@@ -54,7 +54,7 @@ contains
       nearest = nearest_of_list(word, split_blank(candidates))
    end function nearest_of_blank
 
-   !> Damerau-Levenshtein distance: letters inserted, left out, changed, or two neighbours swapped.
+   !> Damerau-Levenshtein distance: letters inserted, omitted, changed, or two neighbours swapped.
    pure integer function edit_distance(a, b)
       character(*), intent(in) :: a  !! one word
       character(*), intent(in) :: b  !! the other

@@ -334,10 +334,10 @@ contains
       end do
    end function printable
 
-   !> Whether a string begins with another.
+   !> Whether a string starts with another.
    pure logical function starts_with(string, start)
       character(*), intent(in) :: string  !! any string
-      character(*), intent(in) :: start   !! its supposed beginning
+      character(*), intent(in) :: start   !! its supposed start
 
       starts_with = .false.
       if (len(start) <= len(string)) starts_with = string(1:len(start)) == start

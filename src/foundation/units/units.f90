@@ -301,7 +301,7 @@ contains
 
    contains
 
-      !> Whether a unit in the place of the name gives the dimension that is wanted.
+      !> Whether a unit in the place of the name gives the dimension that is requested.
       recursive logical function fits(candidate)
          character(*), intent(in) :: candidate  !! known
 

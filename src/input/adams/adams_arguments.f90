@@ -1,6 +1,6 @@
 !> Arguments of the statements that a deck has words for; what else a statement says is named.
 !>
-!> Names may be abbreviated, down to one letter: a name that is the beginning of a known one is taken for that.
+!> Names may be abbreviated, down to one letter: a name that is the start of a known one is taken for that.
 !> Source: the public descriptions of the statements of Adams/Solver.
 module adams_arguments
    use adams_model, only: adams_model_t, leave_out
@@ -12,7 +12,7 @@ module adams_arguments
 
 contains
 
-   !> Put arguments that nothing reads on the list of what is left out.
+   !> Put arguments that nothing reads on the list of what is omitted.
    subroutine name_unknown_arguments(model, statement)
       type(adams_model_t), intent(inout) :: model      !! the dataset
       type(statement_t), intent(in) :: statement       !! one of its statements, with its name in full
@@ -31,7 +31,7 @@ contains
       end do
    end subroutine name_unknown_arguments
 
-   !> Tell of degrees in expressions that may be meant as exponents of Fortran: `1D-3` is a degree less 3.
+   !> Report of degrees in expressions that may be meant as exponents of Fortran: `1D-3` is a degree less 3.
    subroutine name_small_degrees(model, statement)
       type(adams_model_t), intent(inout) :: model      !! the dataset
       type(statement_t), intent(in) :: statement       !! one of its statements, with its name in full

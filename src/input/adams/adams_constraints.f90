@@ -3,7 +3,7 @@
 !> FUNCTION = a DM(I, J) + b, and a sum, difference, product or quotient of numbers that comes to that:
 !> `joint.distance` of length -b/a, i the marker J, j the marker I.
 !>
-!> Source: the public descriptions of the statements of Adams/Solver. Limits: any other function is left out.
+!> Source: the public descriptions of the statements of Adams/Solver. Limits: any other function is omitted.
 module adams_constraints
    use adams_expression, only: node_add, node_call, node_divide, node_multiply, node_negate, node_number, node_subtract, &
       parse_tree, tree_t

@@ -119,7 +119,7 @@ contains
                    "a statement is a name with a slash, as PART/2, MASS = 1; a deck needs no import: gudgeon run DECK")
    end subroutine name_foreign
 
-   !> Statements of what gudgeon does not model are mistakes: without them the dataset is of another mechanism.
+   !> Statements of what gudgeon does not model are errors: without them the dataset is of another mechanism.
    subroutine name_refused(statements, mistakes)
       type(statement_t), intent(in) :: statements(:)       !! (n) statements, their names in full
       type(diagnostics_t), intent(inout) :: mistakes       !! collects what is wrong
@@ -134,7 +134,7 @@ contains
       end do
    end subroutine name_refused
 
-   !> Two statements of one name and number are a mistake: nobody can say which of them is meant.
+   !> Two statements of one name and number are an error: nobody can say which of them is meant.
    subroutine name_doubles(statements, mistakes)
       type(statement_t), intent(in) :: statements(:)       !! (n) statements, their names in full
       type(diagnostics_t), intent(inout) :: mistakes       !! collects what is wrong
@@ -154,11 +154,11 @@ contains
       end do
    end subroutine name_doubles
 
-   !> Title, what is left out, gravity, parameters.
+   !> Title, what is omitted, gravity, parameters.
    subroutine write_head(model, file, imported, buffer, mistakes)
       type(adams_model_t), intent(in) :: model             !! the dataset
       character(*), intent(in) :: file                     !! its name
-      type(imported_t), intent(in) :: imported             !! what is left out
+      type(imported_t), intent(in) :: imported             !! what is omitted
       type(buffer_t), intent(inout) :: buffer              !! the deck
       type(diagnostics_t), intent(inout) :: mistakes       !! collects what is wrong
 

@@ -219,7 +219,7 @@ contains
       end if
    end subroutine add_single
 
-   !> Where a law stores least, so that what it stores is counted from there: looked for from the start on, as far as a length
+   !> Where a law stores minimum, so that what it stores is counted from there: searched from the start on, as far as a length
    !> goes to
    !> zero and to three times itself, and an angle half a turn.
    function rest_of(functions, law, start, unit, turns) result(rest)

@@ -93,7 +93,7 @@ contains
       end do
    end function first_word
 
-   !> Markers I and J of a statement, as places in the list; one that is not there is a mistake.
+   !> Markers I and J of a statement, as places in the list; one that is not there is an error.
    subroutine two_markers(model, statement, marker, mistakes)
       type(adams_model_t), intent(in) :: model           !! the dataset
       type(statement_t), intent(in) :: statement         !! the statement

@@ -7,7 +7,7 @@
 !> | `VX VY VZ (i, j, r, s)` | `velocity` as the part of s sees it; r is on that part, or s on the ground |
 !> | `WX WY WZ (i, j, r)`, r on the ground | `angular_velocity` of the parts |
 !>
-!> A marker that is left out is the global frame. Source: the public descriptions of the functions of Adams/Solver.
+!> A marker that is omitted is the global frame. Source: the public descriptions of the functions of Adams/Solver.
 !> Limits: other measures, and other axes, have no words.
 module adams_measures
    use adams_expression, only: is_measure, node_call, node_number, tree_t
@@ -150,7 +150,7 @@ contains
       words = "("//words//")"
    end subroutine name_component
 
-   !> The row that tells how marker I moves against J.
+   !> The row that reports how marker I moves against J.
    subroutine name_row(model, draft, marker, frame, is_true, name, message)
       type(adams_model_t), intent(inout) :: model               !! the dataset
       type(deck_draft_t), intent(inout) :: draft                !! the deck

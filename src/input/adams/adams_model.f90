@@ -56,7 +56,7 @@ contains
    !> Say that something is not in the deck.
    subroutine leave_out(model, statement, reason, at)
       type(adams_model_t), intent(inout) :: model       !! the dataset
-      type(statement_t), intent(in) :: statement        !! what is left out
+      type(statement_t), intent(in) :: statement        !! what is omitted
       character(*), intent(in) :: reason                !! why
       type(location_t), intent(in), optional :: at      !! where, if not all of it is meant
 

@@ -142,7 +142,7 @@ contains
             direction_cell(body_axis(model, marker(2), axis))//tab//"{"//text//"*"//model%units%length_text()//"}")
    end subroutine add_way
 
-   !> What a motion asks for as a function of time, a plain number in the units of the dataset; blank: it is left out.
+   !> What a motion asks for as a function of time, a plain number in the units of the dataset; blank: it is omitted.
    !> Length: displacement, velocity and acceleration differ in a line or two each.
    subroutine motion_text(model, draft, statement, start, turns, text, is_speed, mistakes)
       type(adams_model_t), intent(inout) :: model           !! the dataset

@@ -15,7 +15,7 @@ module adams_numbers
 
 contains
 
-   !> A mistake of the dataset.
+   !> An error of the dataset.
    subroutine mistake(mistakes, at, message, help)
       type(diagnostics_t), intent(inout) :: mistakes   !! the collection
       type(location_t), intent(in) :: at               !! where it is
@@ -32,7 +32,7 @@ contains
       real(wp), allocatable, intent(out) :: numbers(:)      !! (n) none: there is no such argument [any]
       type(diagnostics_t), intent(inout) :: mistakes        !! collects what is no number
       integer, intent(in), optional :: minimum                !! letters that do for the name
-      integer, intent(in), optional :: wanted               !! how many there must be; left out: any number
+      integer, intent(in), optional :: wanted               !! how many there must be; omitted: any number
 
       character(*), parameter :: counts(3) = [character(5) :: "one", "two", "three"]
       character(:), allocatable :: word

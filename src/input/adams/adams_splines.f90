@@ -5,7 +5,7 @@
 !> | `CUBSPL(x, 0, id)` | the cubic spline through the samples of SPLINE/id, `ends = fmm`, which is the one that Adams names |
 !> | `AKISPL(x, 0, id)` | Akima's curve through them, `curve = akima` |
 !>
-!> Beyond the samples the deck's curve goes on straight with LINEAR_EXTRAPOLATE, and does not exist without, where Adams goes on
+!> Beyond the samples the deck's curve continues straight with LINEAR_EXTRAPOLATE, and does not exist without, where Adams continues
 !> along the last pieces: the list says so. Source: the public descriptions of the functions of Adams/Solver; `spline` and `akima`.
 !> Limits: curves of one argument, whose samples stand in the dataset; no derivatives.
 module adams_splines
@@ -91,7 +91,7 @@ contains
       end associate
    end subroutine name_one
 
-   !> Put a spline that nothing of the deck takes on the list of what is left out.
+   !> Put a spline that nothing of the deck takes on the list of what is omitted.
    subroutine name_idle_splines(model, draft, statement)
       type(adams_model_t), intent(inout) :: model      !! the dataset
       type(deck_draft_t), intent(in) :: draft          !! the deck

@@ -1,7 +1,7 @@
-!> How the joints of an Adams dataset begin: displacements and speeds of IC, ICROT and ICTRAN.
+!> How the joints of an Adams dataset start: displacements and speeds of IC, ICROT and ICTRAN.
 !>
 !> A speed of a turn is a row of `[initial.speed]`. A speed of a slide becomes the velocity of the body that slides, if the other
-!> one is the ground. Displacements are looked at only: bodies begin where the dataset puts them.
+!> one is the ground. Displacements are looked at only: bodies start where the dataset puts them.
 !>
 !> Source: the public descriptions of the statements of Adams/Solver. Limits: bodies that slide on bodies that move.
 module adams_starts
@@ -75,7 +75,7 @@ contains
       end if
    end subroutine initial_conditions
 
-   !> The velocity with which a part begins to slide in a joint that says so.
+   !> The velocity with which a part starts to slide in a joint that says so.
    subroutine sliding_velocity(model, part, velocity, is_given, mistakes)
       type(adams_model_t), intent(in) :: model           !! the dataset
       integer, intent(in) :: part                        !! number of the part in the list
@@ -135,7 +135,7 @@ contains
       velocity = merge(1.0_wp, -1.0_wp, k == 1)*way(2)*a(:, 3)
    end subroutine slide_of
 
-   !> Whether a part says how fast it begins.
+   !> Whether a part says how fast it starts.
    pure logical function has_own_velocity(statement)
       type(statement_t), intent(in) :: statement   !! the part
 

@@ -80,7 +80,7 @@ contains
       if (has_word(statement, "NONE")) message = "UNITS is empty"
    end subroutine read_units
 
-   !> A unit by its name, or by the beginning of it.
+   !> A unit by its name, or by the start of it.
    subroutine take(list, argument, factor, message)
       type(named_t), intent(in) :: list(:)                    !! units that are known
       type(argument_t), intent(in) :: argument                !! with the name

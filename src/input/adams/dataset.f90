@@ -1,8 +1,8 @@
 !> The text of an Adams dataset cut into statements.
 !>
 !> The first line is the title, `END` the end. A statement is a name, a slash, a number (most of them), and arguments: words,
-!> `NAME = value, value ...`, or `NAME = expression`. A backslash ends an expression that is not the last argument. How lines go on
-!> is for `dataset_lines` to say.
+!> `NAME = value, value ...`, or `NAME = expression`. A backslash ends an expression that is not the last argument. How lines
+!> continue is for `dataset_lines` to say.
 !>
 !> Source: the public descriptions of the statements of Adams/Solver. Limits: no nested datasets, no commands.
 module dataset
@@ -102,7 +102,7 @@ contains
    !> Cut the arguments of a statement.
    subroutine cut_arguments(now, begin, arguments)
       type(gathered_t), intent(in) :: now                             !! the statement
-      integer, intent(in) :: begin                                    !! where they begin in its text
+      integer, intent(in) :: begin                                    !! where they start in its text
       type(argument_t), allocatable, intent(out) :: arguments(:)      !! (n) the arguments
 
       type(cutting_t) :: cutting
@@ -130,7 +130,7 @@ contains
    subroutine take_segment(segment, now, place, cutting)
       character(*), intent(in) :: segment              !! without blanks around it
       type(gathered_t), intent(in) :: now            !! the statement
-      integer, intent(in) :: place                   !! where it begins in its text
+      integer, intent(in) :: place                   !! where it starts in its text
       type(cutting_t), intent(inout) :: cutting      !! changed or appended to
 
       integer :: at
@@ -149,12 +149,12 @@ contains
       end if
    end subroutine take_segment
 
-   !> Begin an argument.
+   !> Start an argument.
    subroutine begin_argument(cutting, name, now, place)
       type(cutting_t), intent(inout) :: cutting      !! one more
       character(*), intent(in) :: name               !! of the argument
       type(gathered_t), intent(in) :: now            !! the statement
-      integer, intent(in) :: place                   !! where the name begins in its text
+      integer, intent(in) :: place                   !! where the name starts in its text
 
       type(argument_t), allocatable :: more(:)
 
@@ -181,7 +181,7 @@ contains
    pure integer function find_argument(statement, name, minimum) result(k)
       type(statement_t), intent(in) :: statement   !! the statement
       character(*), intent(in) :: name             !! in capitals, in full
-      integer, intent(in), optional :: minimum       !! letters that do for it; left out: all
+      integer, intent(in), optional :: minimum       !! letters that do for it; omitted: all
 
       integer :: i, n
 
@@ -200,7 +200,7 @@ contains
    pure function expression_of(statement, name, minimum) result(text)
       type(statement_t), intent(in) :: statement   !! the statement
       character(*), intent(in) :: name             !! in capitals, in full
-      integer, intent(in), optional :: minimum       !! letters that do for it; left out: all
+      integer, intent(in), optional :: minimum       !! letters that do for it; omitted: all
       character(:), allocatable :: text            !! as written
 
       integer :: k
@@ -215,12 +215,12 @@ contains
    pure logical function has_word(statement, name, minimum)
       type(statement_t), intent(in) :: statement   !! the statement
       character(*), intent(in) :: name             !! in capitals, in full
-      integer, intent(in), optional :: minimum       !! letters that do for it; left out: all
+      integer, intent(in), optional :: minimum       !! letters that do for it; omitted: all
 
       has_word = find_argument(statement, name, minimum) > 0
    end function has_word
 
-   !> The beginning of what is said of a place.
+   !> The start of what is said of a place.
    pure function line_words(at) result(words)
       type(location_t), intent(in) :: at        !! the place
       character(:), allocatable :: words        !! line and column, and a colon

@@ -1,7 +1,7 @@
 !> The lines of an Adams dataset put together to statements.
 !>
-!> `!` begins a comment. A line whose first character is a comma goes on with the statement before it, and so does the line behind
-!> one that ends in `&`. `;` ends a statement. The comma that begins a line is no comma of an expression where that could not have
+!> `!` starts a comment. A line whose first character is a comma continues with the statement before it, and so does the line behind
+!> one that ends in `&`. `;` ends a statement. The comma that starts a line is no comma of an expression where that could not have
 !> one. A name that Adams/View writes in a comment before the statement (`adams_view_name='...'`) goes with it.
 !>
 !> Source: the public descriptions of the statements of Adams/Solver.
@@ -19,9 +19,9 @@ module dataset_lines
    type :: gathered_t
       character(:), allocatable :: text        !! (at least n) without comments and signs of continuation
       integer :: n = 0                         !! characters
-      integer, allocatable :: first(:)         !! (at least n_line) where in it a line begins
+      integer, allocatable :: first(:)         !! (at least n_line) where in it a line starts
       integer, allocatable :: line(:)          !! (at least n_line) number of that line
-      integer, allocatable :: column(:)        !! (at least n_line) column there of what begins in the text
+      integer, allocatable :: column(:)        !! (at least n_line) column there of what starts in the text
       integer :: n_line = 0                    !! lines
       character(:), allocatable :: view_name   !! of the comment before it
       integer, private :: depth = 0            !! parentheses that are open at its end
@@ -33,14 +33,14 @@ module dataset_lines
    !> Where reading is.
    type :: reader_t
       integer, private :: line = 0                          !! last line that was taken
-      integer, private :: column = 1                        !! where the rest of it begins
+      integer, private :: column = 1                        !! where the rest of it starts
       character(:), allocatable, private :: rest            !! of that line, behind a `;`
       character(:), allocatable, private :: view_name       !! name that the next statement has
    end type reader_t
 
 contains
 
-   !> Begin to read; the title is the first line, unless that is a statement.
+   !> Start to read; the title is the first line, unless that is a statement.
    subroutine start_reader(source, reader, title)
       type(source_t), intent(in) :: source                    !! the dataset
       type(reader_t), intent(out) :: reader                   !! before the first statement
@@ -126,7 +126,7 @@ contains
       call move_alloc(first, line)
    end subroutine split_at_end
 
-   !> Whether a text begins with a word and a slash, is `END`, or blank.
+   !> Whether a text starts with a word and a slash, is `END`, or blank.
    pure logical function begins_statement(text)
       character(*), intent(in) :: text  !! any text
 
@@ -197,7 +197,7 @@ contains
       type(gathered_t), intent(inout) :: now     !! the statement
       character(*), intent(in) :: line           !! without comment, and blanks around it
       integer, intent(in) :: number              !! of the line
-      integer, intent(in) :: column              !! where it begins there
+      integer, intent(in) :: column              !! where it starts there
 
       character(:), allocatable :: part
       integer, allocatable :: more(:)
@@ -250,7 +250,7 @@ contains
       now%n = now%n + len(part)
    end subroutine append
 
-   !> What stands between two lines: a comma, unless the first ends in a sign, or in an expression that goes on with one.
+   !> What stands between two lines: a comma, unless the first ends in a sign, or in an expression that continues with one.
    subroutine join(now, next)
       type(gathered_t), intent(inout) :: now     !! the statement
       character(*), intent(in) :: next           !! the line behind its comma
@@ -261,7 +261,7 @@ contains
       first = " "
       if (len(next) > 0) first = next
       last = now%text(now%n:now%n)
-      if (last == "\") then      ! the end of an expression, or a line that goes on
+      if (last == "\") then      ! the end of an expression, or a line that continues
          now%n = len_trim(now%text(:now%n - 1))
          if (now%n == 0 .or. now%depth > 0) return
          if (scan(now%text(now%n:now%n), signs) == 0) call append(now, ",")

@@ -33,7 +33,7 @@ module deck_draft
       type(name_table_t) :: points                   !! names of points
       type(name_table_t) :: names                    !! names of what has channels
       type(symbols_t) :: functions                   !! that expressions may call
-      type(text_list_t) :: asked                     !! what rows of requests tell
+      type(text_list_t) :: asked                     !! what rows of requests report
       type(text_list_t) :: answers                   !! names of these rows
    contains
       procedure :: put => put_row
@@ -84,10 +84,10 @@ contains
       end do
    end subroutine new_name
 
-   !> The row of a request, by what it tells; its name has a place in expressions.
+   !> The row of a request, by what it reports; its name has a place in expressions.
    subroutine row_of(self, key, name, is_new)
       class(deck_draft_t), intent(inout) :: self           !! the deck
-      character(*), intent(in) :: key                      !! what it tells
+      character(*), intent(in) :: key                      !! what it reports
       character(:), allocatable, intent(out) :: name       !! of the row
       logical, intent(out) :: is_new                       !! whether it is to be written
 
@@ -104,10 +104,10 @@ contains
       call self%answers%add(name)
    end subroutine row_of
 
-   !> Place among the rows so far of the one that tells something; 0: there is none.
+   !> Place among the rows so far of the one that reports something; 0: there is none.
    integer function place_of_row(self, key) result(k)
       class(deck_draft_t), intent(in) :: self   !! the deck
-      character(*), intent(in) :: key           !! what it tells
+      character(*), intent(in) :: key           !! what it reports
 
       character(:), allocatable :: asked
 
@@ -138,7 +138,7 @@ contains
    !> The first letters of a name.
    pure function wanted_part(name, n) result(part)
       character(*), intent(in) :: name     !! a name
-      integer, intent(in) :: n             !! letters wanted
+      integer, intent(in) :: n             !! letters requested
       character(:), allocatable :: part    !! the first of them
 
       part = name(:n)

@@ -22,7 +22,7 @@ module deck_table
 
 contains
 
-   !> Begin a table.
+   !> Start a table.
    subroutine start_table(self, name, header)
       class(deck_table_t), intent(out) :: self   !! the table
       character(*), intent(in) :: name           !! of the kind
@@ -58,7 +58,7 @@ contains
       self%n_row = self%n_row + 1
    end subroutine add_row
 
-   !> Write a table that has rows; columns that have none but defaults are left out.
+   !> Write a table that has rows; columns that have none but defaults are omitted.
    subroutine write_table(self, buffer)
       class(deck_table_t), intent(in) :: self     !! the table
       type(buffer_t), intent(inout) :: buffer     !! the deck
@@ -96,7 +96,7 @@ contains
    !> A number as a cell; zero is the default.
    pure function number_cell(x, scale) result(cell)
       real(wp), intent(in) :: x                !! the number, SI [any]
-      real(wp), intent(in) :: scale            !! what is left out as round-off, times 1e-13; 0: nothing [any]
+      real(wp), intent(in) :: scale            !! what is omitted as round-off, times 1e-13; 0: nothing [any]
       character(:), allocatable :: cell        !! its digits; blank: zero
 
       cell = ""

@@ -124,7 +124,7 @@ contains
    !> A text with a piece of it replaced.
    pure function replaced(text, first, last, segment) result(whole)
       character(*), intent(in) :: text        !! the text
-      integer, intent(in) :: first            !! where the piece begins
+      integer, intent(in) :: first            !! where the piece starts
       integer, intent(in) :: last             !! where it ends
       character(*), intent(in) :: segment       !! what takes its place
       character(:), allocatable :: whole      !! the new text
@@ -133,7 +133,7 @@ contains
    end function replaced
 
    !> Add the terms of a sum to the parts of a force.
-   !> Length: sums, products with a constant, and what is a term are told apart in one place.
+   !> Length: sums, products with a constant, and what is a term are reported apart in one place.
    recursive subroutine add_terms(tree, node, factor, own, turns, words, parts)
       type(tree_t), intent(in) :: tree                 !! the expression
       integer, intent(in) :: node                      !! number of the node

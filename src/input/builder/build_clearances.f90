@@ -1,7 +1,7 @@
 !> Joints with clearance of a scene: loose ones sorted into sets that share geometry and laws, ideal ones as ideal joints.
 !>
-!> Rows that say `level = ideal`, or all of them in the ideal twin, become the joint that their geometry is without
-!> clearance; a geometry that is none keeps its contact.
+!> Rows that say `level = ideal`, or all of them in the reference run with ideal joints, become the joint that their geometry is
+!> without clearance; a geometry that is none keeps its contact.
 module build_clearances
    use bearing_films, only: bearing_films_t, new_bearing_films
    use clearance_registry, only: n_clearance_kinds, new_clearance_set
@@ -27,7 +27,7 @@ module build_clearances
    public :: add_clearances, has_ideal, is_ideal, levels_as_written, levels_ideal, levels_clearance_joints
 
    integer, parameter :: levels_as_written = 0  !! every joint with clearance as its row says
-   integer, parameter :: levels_ideal = 1       !! every one ideal: the ideal twin
+   integer, parameter :: levels_ideal = 1       !! every one ideal: the reference run with ideal joints
    integer, parameter :: levels_clearance_joints = 2       !! every one loose: all that a deck can have words for
 
 contains
@@ -164,7 +164,7 @@ contains
       end do
    end function count_clearances
 
-   !> One set of loose joints with its laws, fitted to the surfaces.
+   !> One set of clearance joints with its laws, fitted to the surfaces.
    subroutine add_clearance_set(scene, kind, items, is_driven, slot, system)
       type(scene_t), intent(in) :: scene              !! the scene
       integer, intent(in) :: kind                     !! number of the geometry

@@ -1,6 +1,6 @@
 !> The bodies of a scene with its ideal joints and drivers, and the solver of their equations.
 !>
-!> Bodies whose motion is a known function of time are left out of the unknowns, with the rows that fix them.
+!> Bodies whose motion is a known function of time are omitted of the unknowns, with the rows that fix them.
 !> Planar: or spatial, here the coordinates are chosen.
 module build_linkage
    use augmented_schur, only: schur_is_cheap
@@ -85,8 +85,8 @@ contains
       n_segment = (n + items_of_set - 1)/items_of_set
    end function n_segment
 
-   !> Ideal joints and drivers that are solved for, or those that fix known bodies: one set per kind that has such rows. Of solved
-   !> ones that are many, one for each `items_of_set`.
+   !> Ideal joints and drivers that are solved for, or those that fix prescribed bodies: one set per kind that has such rows. Of
+   !> solved ones that are many, one for each `items_of_set`.
    subroutine add_joints(scene, choices, is_taken, is_solved, linkage)
       type(scene_t), intent(in) :: scene                      !! the scene
       type(choice_t), intent(in) :: choices(n_joint_kinds)    !! (kinds) which rows of each table leave the equations
@@ -174,7 +174,7 @@ contains
       end do
    end subroutine take_joints
 
-   !> Room for all constraint rows, and their bodies.
+   !> Storage for all constraint rows, and their bodies.
    subroutine declare_rows(linkage)
       type(linkage_t), intent(inout) :: linkage  !! rows are set
 
@@ -201,7 +201,7 @@ contains
    !> The solver the deck asks for; `auto` is the cheaper of the Schur complement and the sparse matrix.
    subroutine choose_solver(scene, way, linkage)
       type(scene_t), intent(in) :: scene              !! the scene
-      character(*), intent(in) :: way                 !! word of the way of holding the constraints
+      character(*), intent(in) :: way                 !! word of the stabilisation method
       type(linkage_t), intent(inout) :: linkage       !! the solver is set
 
       character(:), allocatable :: word

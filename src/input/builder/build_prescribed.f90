@@ -1,4 +1,4 @@
-!> Which bodies of a scene are left out of the unknowns, wholly or but for one coordinate, and how they move.
+!> Which bodies of a scene are omitted of the unknowns, wholly or but for one coordinate, and how they move.
 !>
 !> Bodies whose motion is a known function of time leave the unknowns, with the rows that fix them; a body that one joint leaves a
 !> single freedom against these or the ground keeps one coordinate, and the rows of its joint leave the equations. The plane and
@@ -35,10 +35,10 @@ module build_prescribed
 
    !> What leaves the unknowns and the equations.
    type :: reduction_t
-      type(link_t), allocatable :: links(:)        !! (known bodies) how they are fixed
-      type(guide_t), allocatable :: guides(:)      !! (guided bodies) how they are held
+      type(link_t), allocatable :: links(:)        !! (prescribed bodies) how they are fixed
+      type(guide_t), allocatable :: guides(:)      !! (bodies with one degree of freedom) how they are held
       type(choice_t) :: choices(n_joint_kinds)     !! (kinds) which rows of each table leave the equations
-      logical, allocatable :: is_driven(:)         !! (bodies) whether drivers alone say how they move, left out or not
+      logical, allocatable :: is_driven(:)         !! (bodies) whether drivers alone say how they move, omitted or not
    end type reduction_t
 
 contains
@@ -52,7 +52,7 @@ contains
       angle(1:) = scene%bodies%angle
    end function start_angles
 
-   !> The bodies that leave the unknowns, unless the deck wants all coordinates, and the rows that leave the equations.
+   !> The bodies that leave the unknowns, unless the deck needs all coordinates, and the rows that leave the equations.
    !> Only an integration has unknowns: elsewhere all bodies stay together; so do bodies that rows hold at the start only, and
    !> those of a method that holds the constraints by itself, or needs the sparse form of it, keep all their coordinates.
    subroutine choose_bodies(scene, levels, with_start_rows, reduction)
@@ -102,12 +102,12 @@ contains
       end associate
    end subroutine choose_bodies
 
-   !> How the known bodies are moved, and which rows fix them.
+   !> How the prescribed bodies are moved, and which rows fix them.
    subroutine set_prescribed(scene, links, choices, linkage)
       type(scene_t), intent(in) :: scene                      !! the scene
-      type(link_t), intent(in) :: links(:)                    !! (known bodies) how they are fixed
+      type(link_t), intent(in) :: links(:)                    !! (prescribed bodies) how they are fixed
       type(choice_t), intent(in) :: choices(n_joint_kinds)    !! (kinds) which rows of each table leave the equations
-      type(linkage_t), intent(inout) :: linkage               !! known bodies are set; joints are there
+      type(linkage_t), intent(inout) :: linkage               !! prescribed bodies are set; joints are there
 
       class(prescribed_bodies_t), allocatable :: known
       real(wp) :: rise, speed, x(size(links))
@@ -140,7 +140,7 @@ contains
          do k = 1, known%n
             associate (held => known%held(k))
                if (held%slot > 0) call linkage%joints(held%slot)%set%prescription(held%item, 0.0_wp, x(k), speed, rise)
-               if (.not. ieee_is_finite(x(k))) x(k) = 0.0_wp  ! which the start will tell
+               if (.not. ieee_is_finite(x(k))) x(k) = 0.0_wp  ! which the start will report
             end associate
          end do
          known%item = [(spatial_link(linkage%joints(slot(k))%set, item(k), known%held(k), x(k), linkage%motion%spatial%p), &
@@ -154,12 +154,13 @@ contains
       end do
    end subroutine set_prescribed
 
-   !> How the guided bodies move, and which rows hold them.
+   !> How the bodies with one degree of freedom move, and which rows hold them.
    subroutine set_one_dof(scene, guides, choices, linkage)
       type(scene_t), intent(in) :: scene                      !! the scene
-      type(guide_t), intent(in) :: guides(:)                  !! (guided bodies) how they are held, those that turn first
+      type(guide_t), intent(in) :: guides(:)  !! (bodies with one degree of freedom) how they are held, those that turn first
       type(choice_t), intent(in) :: choices(n_joint_kinds)    !! (kinds) which rows of each table leave the equations
-      type(linkage_t), intent(inout) :: linkage               !! guided bodies are set; joints and known bodies are there
+      type(linkage_t), intent(inout) :: linkage  !! bodies with one degree of freedom are set; joints and prescribed bodies are
+                                                 !! there
 
       class(one_dof_bodies_t), allocatable :: one_dof
       integer :: item(size(guides)), k, slot(size(guides))
@@ -200,7 +201,7 @@ contains
       call take_rows(set, item, held%row(:set%n_row_item))
    end subroutine take_held
 
-   !> What acts on known bodies besides the rows that fix them, and the bodies that move with them.
+   !> What acts on prescribed bodies besides the rows that fix them, and the bodies that move with them.
    subroutine list_carried(linkage)
       type(linkage_t), intent(inout) :: linkage   !! the bodies and their rows, sides listed
 
@@ -223,7 +224,7 @@ contains
       end associate
    end subroutine list_carried
 
-   !> Rows of an item, as many as there is room for.
+   !> Rows of an item, as many as there is storage for.
    subroutine take_rows(set, item, row)
       class(joint_set_t), intent(in) :: set   !! the set
       integer, intent(in) :: item             !! its item

@@ -96,7 +96,7 @@ contains
 
    !> The blocks of event functions that the contacts have.
    subroutine add_event_functions(system)
-      type(mechanism_t), intent(inout) :: system  !! the system, its contacts and grips counted
+      type(mechanism_t), intent(inout) :: system  !! the system, its contacts and stick-slip states counted
 
       integer :: k
 
@@ -120,7 +120,7 @@ contains
       if (allocated(set%laws%films)) has_transition = set%laws%films%fades()
    end function has_transition
 
-   !> Room for friction that remembers: a state for each contact with bristles.
+   !> Storage for friction that remembers: a state for each contact with bristles.
    subroutine count_stick_slips(system)
       type(mechanism_t), intent(inout) :: system  !! the system, all else counted
 
@@ -149,7 +149,7 @@ contains
    subroutine add_loads(scene, n_v, n_clearance_joint, motion, loading)
       type(scene_t), intent(in) :: scene              !! the scene
       integer, intent(in) :: n_v                      !! rates of a body
-      integer, intent(in) :: n_clearance_joint                  !! loose joints
+      integer, intent(in) :: n_clearance_joint                  !! clearance joints
       type(motion_t), intent(in) :: motion            !! bodies where the deck puts them
       type(loading_t), intent(inout) :: loading       !! gravity and forces are set
 
@@ -177,7 +177,7 @@ contains
       end do
    end subroutine add_loads
 
-   !> The way of holding the constraints that the deck asks for. `auto` is projection, which leaves neither violations nor the
+   !> The stabilisation method that the deck asks for. `auto` is projection, which leaves neither violations nor the
    !> traces of gains in the motion; nothing where there is nothing to hold or the integrator holds by itself; Baumgarte's
    !> stabilisation where a driver jumps, because a jump cannot be projected.
    subroutine choose_stabilisation(scene, system)

@@ -14,7 +14,7 @@ module find_one_dof
    private
    public :: find_one_dof_bodies, guide_t
 
-   !> How a guided body is held.
+   !> How a body with one degree of freedom is held.
    type :: guide_t
       integer :: body = 0   !! the body
       integer :: kind = 0   !! kind of the joint
@@ -23,12 +23,12 @@ module find_one_dof
 
 contains
 
-   !> The guided bodies, those that turn first.
+   !> The bodies with one degree of freedom, those that turn first.
    subroutine find_one_dof_bodies(scene, is_known, levels, guides)
       type(scene_t), intent(in) :: scene                    !! the scene
       logical, intent(in) :: is_known(0:)                   !! (0:bodies) bodies of known motion, the ground among them
       integer, intent(in) :: levels                         !! how joints with clearance are taken
-      type(guide_t), allocatable, intent(out) :: guides(:)  !! (guided bodies) how they are held
+      type(guide_t), allocatable, intent(out) :: guides(:)  !! (bodies with one degree of freedom) how they are held
 
       integer, parameter :: leaves(2) = [leaves_turn, leaves_way]
       integer :: body(2), i, k, n, n_joint(0:scene%bodies%n), pass

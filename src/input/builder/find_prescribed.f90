@@ -2,7 +2,7 @@
 !>
 !> Starting from the ground: a revolute joint with a driver, or a rigid joint, makes the body on its other side known.
 !> Where rows tie such bodies to one another a second time, they are redundant or contradict: then no body is known, so that
-!> the solvers tell which, and share the reactions.
+!> the solvers report which, and share the reactions.
 module find_prescribed
    use clearance_registry, only: n_clearance_kinds
    use item, only: find_place, item_t
@@ -15,9 +15,9 @@ module find_prescribed
    private
    public :: find_prescribed_bodies, has_smooth_cells, joint_bodies, link_t, has_friction, takes_work
 
-   !> How a known body is fixed: a revolute joint with its driver, or a rigid joint.
+   !> How a prescribed body is fixed: a revolute joint with its driver, or a rigid joint.
    type :: link_t
-      integer :: body = 0      !! the known body
+      integer :: body = 0      !! the prescribed body
       integer :: kind = 0      !! kind of the joint
       integer :: item = 0      !! its row in the table of the kind
       integer :: driver = 0    !! kind of the driver, 0: rigid
@@ -26,10 +26,10 @@ module find_prescribed
 
 contains
 
-   !> The links of all known bodies, each after the link of the body that it is tied to.
+   !> The links of all prescribed bodies, each after the link of the body that it is tied to.
    subroutine find_prescribed_bodies(scene, links)
       type(scene_t), intent(in) :: scene                    !! the scene
-      type(link_t), allocatable, intent(out) :: links(:)    !! (known bodies) how they are fixed
+      type(link_t), allocatable, intent(out) :: links(:)    !! (prescribed bodies) how they are fixed
 
       logical :: is_known(0:scene%bodies%n)
       integer :: n
@@ -46,11 +46,11 @@ contains
       if (are_tied_twice(scene, is_known, links)) links = links(:0)
    end subroutine find_prescribed_bodies
 
-   !> Whether any row but those of the links lies between known bodies; joints with clearance count, in case they are ideal.
+   !> Whether any row but those of the links lies between prescribed bodies; joints with clearance count, in case they are ideal.
    pure logical function are_tied_twice(scene, is_known, links) result(are_tied)
       type(scene_t), intent(in) :: scene      !! the scene
       logical, intent(in) :: is_known(0:)     !! (0:bodies) which bodies are known
-      type(link_t), intent(in) :: links(:)    !! (known bodies) how they are fixed
+      type(link_t), intent(in) :: links(:)    !! (prescribed bodies) how they are fixed
 
       type(tie_t) :: tie
       integer :: i, k, n
@@ -159,7 +159,7 @@ contains
       is_known(body) = .true.
    end subroutine add_if_new
 
-   !> Whether an ideal joint rubs: then its reactions are part of the equations of motion.
+   !> Whether an ideal joint has friction: then its reactions are part of the equations of motion.
    pure logical function has_friction(scene, item)
       type(scene_t), intent(in) :: scene   !! the scene
       type(item_t), intent(in) :: item     !! row of the joint

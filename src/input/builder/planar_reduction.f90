@@ -1,4 +1,4 @@
-!> What the kernels of known and guided bodies of the plane take of joints.
+!> What the kernels of known and bodies with one degree of freedom of the plane take of joints.
 !> Planar: the kernels are of the plane.
 module planar_reduction
    use driver_speed, only: driver_speed_t
@@ -13,7 +13,7 @@ module planar_reduction
 
 contains
 
-   !> A known body, held by a revolute joint with its driver, or by a rigid joint.
+   !> A prescribed body, held by a revolute joint with its driver, or by a rigid joint.
    pure function planar_link(set, k, held, angle) result(link)
       class(joint_set_t), intent(in) :: set   !! the joint's set
       integer, intent(in) :: k                !! its item
@@ -33,7 +33,7 @@ contains
       end if
    end function planar_link
 
-   !> The driver of a known body: what one of constant speed says is kept with the body.
+   !> The driver of a prescribed body: what one of constant speed says is kept with the body.
    pure subroutine take_driver(set, link)
       class(joint_set_t), intent(in) :: set      !! the driver's set
       type(planar_link_t), intent(inout) :: link !! what the kernel needs, its driver known
@@ -46,7 +46,7 @@ contains
       end select
    end subroutine take_driver
 
-   !> A guided body, held by a revolute or a translational joint.
+   !> A body with one degree of freedom, held by a revolute or a translational joint.
    pure function planar_guide(set, k, held, slides, angle, mass) result(guide)
       class(joint_set_t), intent(in) :: set   !! the joint's set
       integer, intent(in) :: k                !! its item

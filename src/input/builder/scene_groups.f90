@@ -73,7 +73,7 @@ contains
    !> Bodies of groups all of whose bodies are known functions of time, some of them by a driver that works.
    function driven_alone(scene, links) result(is_alone)
       type(scene_t), intent(in) :: scene      !! the scene
-      type(link_t), intent(in) :: links(:)    !! (known bodies) how they are fixed
+      type(link_t), intent(in) :: links(:)    !! (prescribed bodies) how they are fixed
       logical :: is_alone(scene%bodies%n)     !! (bodies)
 
       logical :: is_driven(scene%bodies%n), moves(scene%bodies%n)
@@ -311,7 +311,7 @@ contains
       type(scene_t), intent(in) :: scene        !! the scene
       type(groups_t), intent(inout) :: groups   !! its groups; scratch is used
       integer, intent(in) :: group              !! one of them
-      type(scene_t), intent(inout) :: one       !! begun; its bodies, points and rows become those of the group
+      type(scene_t), intent(inout) :: one       !! started; its bodies, points and rows become those of the group
 
       integer :: k, n_point, points(scene%points%n)
 

@@ -1,4 +1,4 @@
-!> What the kernels of known and guided bodies of space take of joints.
+!> What the kernels of known and bodies with one degree of freedom of space take of joints.
 !>
 !> With F the frame of a joint in a body (axis z), the rotation of a body against its base is F_base R_z(x) F_body^T, x the turn of
 !> the body about z: that of j against i, with its sign changed where the body is i.
@@ -15,7 +15,7 @@ module spatial_reduction
    private
    public :: spatial_guide, spatial_link
 
-   !> A joint as seen from the body that it holds.
+   !> A joint as observed from the body that it holds.
    type :: observed_joint_t
       real(wp) :: in_body(3, 3)   !! (3, 3) its axes as columns, frame of the body [1]
       real(wp) :: in_base(3, 3)   !! (3, 3) the same, frame of the base [1]
@@ -27,7 +27,7 @@ module spatial_reduction
 
 contains
 
-   !> A known body, held by a revolute joint with its driver, or by a rigid joint.
+   !> A prescribed body, held by a revolute joint with its driver, or by a rigid joint.
    function spatial_link(set, k, held, x, p) result(link)
       class(joint_set_t), intent(in) :: set   !! the joint's set
       integer, intent(in) :: k                !! its item
@@ -50,7 +50,7 @@ contains
       link%axis = sense*seen%in_body(:, 3)
    end function spatial_link
 
-   !> A guided body, held by a revolute or a translational joint.
+   !> A body with one degree of freedom, held by a revolute or a translational joint.
    function spatial_guide(set, k, held, slides, mass, p) result(guide)
       class(joint_set_t), intent(in) :: set   !! the joint's set
       integer, intent(in) :: k                !! its item
@@ -64,7 +64,7 @@ contains
       real(wp) :: sign
 
       seen = observed_from(set, k, held%side)
-      sign = sign_of(seen%q_0, p(:, held%base), p(:, held%body))  ! the coordinate begins within half a turn of zero
+      sign = sign_of(seen%q_0, p(:, held%base), p(:, held%body))  ! the coordinate starts within half a turn of zero
       guide%mass = mass
       guide%q_0 = sign*seen%q_0
       if (slides) then
@@ -80,7 +80,7 @@ contains
       end if
    end function spatial_guide
 
-   !> The sign of a turn against the base with which the body's Euler parameters begin on the side where the deck has them.
+   !> The sign of a turn against the base with which the body's Euler parameters start on the side where the deck has them.
    pure real(wp) function sign_of(q, p_base, p)
       real(wp), intent(in) :: q(4)        !! (4) Euler parameters of the turn [1]
       real(wp), intent(in) :: p_base(4)   !! (4) those of the base [1]
@@ -89,7 +89,7 @@ contains
       sign_of = merge(-1.0_wp, 1.0_wp, dot_product(product_of(p_base, q), p) < 0.0_wp)
    end function sign_of
 
-   !> A joint as seen from one of its bodies.
+   !> A joint as observed from one of its bodies.
    function observed_from(set, k, side) result(seen)
       class(joint_set_t), intent(in) :: set   !! the joint's set
       integer, intent(in) :: k                !! its item

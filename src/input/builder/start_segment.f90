@@ -1,4 +1,4 @@
-!> The stretch of time in which a motion begins: functions of time take their right side at t = 0.
+!> The stretch of time in which a motion starts: functions of time take their right side at t = 0.
 module start_segment
    use, intrinsic :: ieee_exceptions, only: ieee_get_status, ieee_set_halting_mode, ieee_set_status, ieee_status_type, ieee_usual
    use expression_switches, only: find_switches, switch_t

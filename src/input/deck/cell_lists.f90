@@ -22,9 +22,9 @@ contains
       type(deck_t), intent(in) :: deck                      !! the deck
       character(*), intent(in) :: place                     !! as `in column i of joint.revolute`
       type(token_t), intent(in) :: token                    !! the cell
-      character(:), allocatable, intent(out) :: word        !! the word; empty if a mistake was reported
+      character(:), allocatable, intent(out) :: word        !! the word; empty if an error was reported
       type(diagnostics_t), intent(inout) :: mistakes        !! collects what is wrong
-      logical, intent(in), optional :: not_empty            !! whether nothing in quotes is a mistake
+      logical, intent(in), optional :: not_empty            !! whether nothing in quotes is an error
 
       type(expression_t) :: compiled
       type(quantity_t) :: quantity

@@ -1,11 +1,11 @@
 !> Reads a deck with all its includes: version, sections, lines of cells, overrides, parameters.
 !>
-!> What is in it is asked for section by section; every call goes on after mistakes, so that several are reported in one go:
+!> What is in it is asked for section by section; every call continues after errors, so that several are reported in one go:
 !>
-!>     call read_deck(path, overrides, deck, mistakes)             here
-!>     call check_sections(deck, kinds, is_spatial, mistakes)      settings
-!>     call read_settings(deck, info, item, is_present, mistakes)  settings
-!>     call read_items(deck, info, items, mistakes)                tables
+!>     call read_deck(path, overrides, deck, errors)             here
+!>     call check_sections(deck, kinds, is_spatial, errors)      settings
+!>     call read_settings(deck, info, item, is_present, errors)  settings
+!>     call read_items(deck, info, items, errors)                tables
 !>     call mistakes%add(location, summary, note, help)            diagnostics
 !>     call mistakes%to_error(deck%sources, error)                 diagnostics
 module deck_file
@@ -42,7 +42,7 @@ module deck_file
 
 contains
 
-   !> Read a deck. Mistakes are collected; `deck` may be used even then.
+   !> Read a deck. Errors are collected; `deck` may be used even then.
    subroutine read_deck(path, overrides, deck, mistakes)
       character(*), intent(in) :: path                !! of the deck
       type(text_t), intent(in) :: overrides(:)        !! (n) `NAME=VALUE` of the command line

@@ -160,7 +160,7 @@ contains
    pure integer function find_section(deck, name, start)
       type(deck_t), intent(in) :: deck           !! the deck
       character(*), intent(in) :: name           !! of the section
-      integer, intent(in), optional :: start     !! number of the section to begin with
+      integer, intent(in), optional :: start     !! number of the section to start with
 
       integer :: i, k
 
@@ -188,7 +188,7 @@ contains
    pure type(location_t) function place_of_part(deck, place, part)
       type(deck_t), intent(in) :: deck          !! the deck
       type(location_t), intent(in) :: place     !! the stretch
-      character(*), intent(in) :: part          !! what is looked for; blank: nothing
+      character(*), intent(in) :: part          !! what is searched; blank: nothing
 
       character(*), parameter :: of_words = "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789_-.*"
       integer :: at, next

@@ -1,4 +1,4 @@
-!> The mistakes of a deck, collected and shown with the text they stand in.
+!> The errors of a deck, collected and shown with the text they stand in.
 !>
 !>     error: unknown column 'clearence' in table clearance.revolute
 !>       --> inputs/slider_crank_dry.deck:50:30
@@ -18,11 +18,11 @@ module diagnostics
    private
    public :: diagnostics_t
 
-   integer, parameter :: most_shown = 20     !! mistakes that are written out
-   integer, parameter :: most_kept = 5000    !! mistakes that are remembered; more are only counted
+   integer, parameter :: most_shown = 20     !! errors that are written out
+   integer, parameter :: most_kept = 5000    !! errors that are remembered; more are only counted
    integer, parameter :: widest_line = 120   !! characters of a deck line that are shown
 
-   !> One mistake.
+   !> One error.
    type :: mistake_t
       type(location_t) :: location          !! where
       character(:), allocatable :: summary  !! what
@@ -30,12 +30,12 @@ module diagnostics
       character(:), allocatable :: help     !! what to do, may be empty
    end type mistake_t
 
-   !> All mistakes found so far.
+   !> All errors found so far.
    type :: diagnostics_t
       private
       type(mistake_t), allocatable :: mistakes(:)  !! (capacity)
-      integer :: n_kept = 0                        !! mistakes in the list
-      integer :: n_all = 0                         !! mistakes found
+      integer :: n_kept = 0                        !! errors in the list
+      integer :: n_all = 0                         !! errors found
    contains
       procedure :: add
       procedure :: count => count_mistakes
@@ -44,7 +44,7 @@ module diagnostics
 
 contains
 
-   !> Add a mistake.
+   !> Add an error.
    subroutine add(self, location, summary, note, help)
       class(diagnostics_t), intent(inout) :: self  !! the collection
       type(location_t), intent(in) :: location     !! where it stands
@@ -71,14 +71,14 @@ contains
       if (present(help)) self%mistakes(n)%help = help
    end subroutine add
 
-   !> Number of mistakes found.
+   !> Number of errors found.
    pure integer function count_mistakes(self)
       class(diagnostics_t), intent(in) :: self  !! the collection
 
       count_mistakes = self%n_all
    end function count_mistakes
 
-   !> Turn the mistakes into an error with the exit code of decks; unallocated if there are none.
+   !> Turn the errors into an error with the exit code of decks; unallocated if there are none.
    subroutine to_error(self, sources, error)
       class(diagnostics_t), intent(in) :: self          !! the collection
       type(source_t), intent(in) :: sources(:)          !! (n) texts that the locations point to
@@ -104,9 +104,9 @@ contains
       call set_error(error, exit_deck, buffer%get())
    end subroutine to_error
 
-   !> Write one mistake, without the end of its last line.
+   !> Write one error, without the end of its last line.
    subroutine render(mistake, sources, buffer)
-      type(mistake_t), intent(in) :: mistake    !! the mistake
+      type(mistake_t), intent(in) :: mistake    !! the error
       type(source_t), intent(in) :: sources(:)  !! (n) texts
       type(buffer_t), intent(inout) :: buffer   !! where it is written
 
@@ -196,10 +196,10 @@ contains
       is_continuation = iachar(byte) >= 128 .and. iachar(byte) < 192
    end function is_continuation
 
-   !> Order of the mistakes by file, line and column; equal ones keep their order.
+   !> Order of the errors by file, line and column; equal ones keep their order.
    pure subroutine sort(self, order)
       class(diagnostics_t), intent(in) :: self  !! the collection
-      integer, intent(out) :: order(:)          !! (n_kept) numbers of the mistakes in order
+      integer, intent(out) :: order(:)          !! (n_kept) numbers of the errors in order
 
       integer :: i, k, n_sorted
 
@@ -242,7 +242,7 @@ contains
       same_place = a%file == b%file .and. a%line == b%line .and. a%first == b%first .and. a%last == b%last
    end function same_place
 
-   !> Make room for more.
+   !> Make storage for more.
    subroutine grow(self)
       class(diagnostics_t), intent(inout) :: self  !! the collection
 

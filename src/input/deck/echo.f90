@@ -1,7 +1,7 @@
 !> A deck written back: in SI, with every default, so that it reads to exactly the same values.
 !>
 !> Numbers are written with as many digits as needed. Expressions in the time keep their braces, with the
-!> values of parameters put in; so the parameters themselves may be left out, or written for the record.
+!> values of parameters put in; so the parameters themselves may be omitted, or written for the record.
 module echo
    use deck_file, only: deck_version
    use deck_types, only: deck_t
@@ -127,11 +127,11 @@ contains
       s = buffer%get()
    end function echo_settings
 
-   !> The values of a row in words, as `coefficient 0.1, speed 0.01 m/s`.
+   !> The values of a row as text, as `coefficient 0.1, speed 0.01 m/s`.
    function item_words(info, item) result(words)
       type(kind_info_t), intent(in) :: info   !! the kind
       type(item_t), intent(in) :: item        !! its row
-      character(:), allocatable :: words      !! columns, values and units; what is left open is not told
+      character(:), allocatable :: words      !! columns, values and units; what is left open is not reported
 
       integer :: k
 

@@ -74,9 +74,9 @@ contains
       end select
    end function plain_sign
 
-   !> Whether a word begins a comment of another program.
+   !> Whether a word starts a comment of another program.
    pure logical function find_foreign_comment(rest) result(is_comment)
-      character(*), intent(in) :: rest  !! a line from the begin of a word on
+      character(*), intent(in) :: rest  !! a line from the start of a word on
 
       is_comment = scan(rest(1:1), "!%;") == 1 .or. starts_with(rest, "//") .or. starts_with(rest, "/*")
    end function find_foreign_comment

@@ -3,7 +3,7 @@
 !>     "0 10 20 30 ms"        numbers and one unit; a number may have its own, glued to it
 !>
 !>     t[ms]   lift[mm]       the first line of a file with content: two names with their units
-!>     0       0              then two numbers a line; # begins a comment
+!>     0       0              then two numbers a line; # starts a comment
 module number_lists
    use deck_types, only: add_source, deck_t, text_of
    use diagnostics, only: diagnostics_t
@@ -186,7 +186,7 @@ contains
       integer, intent(in) :: line                     !! number of the line
       type(token_t), intent(out) :: pair(2)           !! (2) its cells
       logical, intent(out) :: is_there                !! .false.: nothing but blanks and a comment
-      logical, intent(out) :: is_good                 !! .false.: a mistake was reported
+      logical, intent(out) :: is_good                 !! .false.: an error was reported
       type(diagnostics_t), intent(inout) :: mistakes  !! collects what is wrong
 
       integer :: first, n
@@ -213,7 +213,7 @@ contains
       type(token_t), intent(in) :: pair(2)            !! (2) the cells
       type(unit_t), intent(out) :: units(2)           !! (2) their units
       character(*), intent(in) :: place               !! as `in column file of function.samples`
-      logical, intent(out) :: is_good                 !! .false.: a mistake was reported
+      logical, intent(out) :: is_good                 !! .false.: an error was reported
       type(diagnostics_t), intent(inout) :: mistakes  !! collects what is wrong
 
       character(:), allocatable :: head
@@ -245,7 +245,7 @@ contains
       type(unit_t), intent(in) :: units(2)            !! (2) units of the columns
       character(*), intent(in) :: place               !! as `in column file of function.samples`
       real(wp), intent(out) :: row(2)                 !! (2) the numbers, SI [any]
-      logical, intent(out) :: is_good                 !! .false.: a mistake was reported
+      logical, intent(out) :: is_good                 !! .false.: an error was reported
       type(diagnostics_t), intent(inout) :: mistakes  !! collects what is wrong
 
       character(:), allocatable :: word

@@ -16,7 +16,7 @@ contains
 
    !> Give the parameters the values of another command line, and say which sections may mean something else now: those with a
    !> line that has a brace and the name of a parameter whose value is another. Without success the deck must be read anew: the
-   !> command line has a mistake, sets more or fewer parameters than the one before, or a word. Functions stay as they are.
+   !> command line has an error, sets more or fewer parameters than the one before, or a word. Functions stay as they are.
    subroutine change_parameters(deck, overrides, is_touched, is_done)
       type(deck_t), intent(inout) :: deck                    !! the deck, of use only after success
       type(text_t), intent(in) :: overrides(:)               !! (n) `NAME=VALUE` of the command line

@@ -1,4 +1,4 @@
-!> Numbers of a deck: from cells to SI, with every mistake reported at its place.
+!> Numbers of a deck: from cells to SI, with every error reported at its place.
 !>
 !> A number is bare, has its unit glued to it, or has it beside it (settings); or it is an expression in
 !> braces, which carries its own dimension.
@@ -29,12 +29,12 @@ module quantities
       type(dim_t) :: dimension = dim_none  !! of the value
       logical :: is_soft = .false.         !! its radians may be taken or left
       logical :: has_unit = .false.        !! a unit or a brace gave the dimension
-      logical :: is_good = .false.         !! .false.: a mistake was reported
+      logical :: is_good = .false.         !! .false.: an error was reported
    end type quantity_t
 
 contains
 
-   !> Whether a word is meant to be a number: it begins like one.
+   !> Whether a word is meant to be a number: it starts like one.
    pure logical function is_numeric(word)
       character(*), intent(in) :: word  !! a cell
 
@@ -60,13 +60,13 @@ contains
       end select
    end function is_not_finite
 
-   !> Read a unit; mistakes are reported.
+   !> Read a unit; errors are reported.
    subroutine read_unit(string, location, place, unit, is_good, mistakes, wanted)
       character(*), intent(in) :: string              !! the unit
       type(location_t), intent(in) :: location        !! of the unit
       character(*), intent(in) :: place               !! as `in column mass of bodies`
       type(unit_t), intent(out) :: unit               !! the unit
-      logical, intent(out) :: is_good                 !! .false.: a mistake was reported
+      logical, intent(out) :: is_good                 !! .false.: an error was reported
       type(diagnostics_t), intent(inout) :: mistakes  !! collects what is wrong
       type(dim_t), intent(in), optional :: wanted     !! dimension of the place, for what is suggested
 
@@ -87,7 +87,7 @@ contains
       call mistakes%add(at, message//" "//place, "", help)
    end subroutine read_unit
 
-   !> Read a word that begins like a number; `beside` is its unit if that stands beside it.
+   !> Read a word that starts like a number; `beside` is its unit if that stands beside it.
    subroutine read_bare(word, location, place, quantity, mistakes, beside, wanted)
       character(*), intent(in) :: word                !! number, with or without a glued unit
       type(location_t), intent(in) :: location        !! of the word
@@ -123,7 +123,7 @@ contains
                                                     "the limit is "//to_text(largest_quantity)//" in SI units")
    end subroutine read_bare
 
-   !> Report a word where a number is wanted.
+   !> Report a word where a number is requested.
    subroutine report_not_a_number(word, location, place, mistakes, deck)
       character(*), intent(in) :: word                !! as written
       type(location_t), intent(in) :: location        !! of the word
@@ -216,7 +216,7 @@ contains
       if (deck%symbols%list(i)%kind == symbol_word) word = deck%symbols%list(i)%word
    end subroutine word_in_brace
 
-   !> Report a number whose dimension is not what is wanted; nothing happens if it agrees.
+   !> Report a number whose dimension is not what is requested; nothing happens if it agrees.
    subroutine report_dimension(quantity, wanted, location, place, mistakes)
       type(quantity_t), intent(inout) :: quantity     !! the number; not good on return if it disagrees
       type(dim_t), intent(in) :: wanted               !! dimension of the column

@@ -15,7 +15,7 @@ module settings
    private
    public :: check_sections, has_section, read_settings
 
-   integer, parameter :: most_helped = 1000  !! mistakes with a hint of what was meant; far more than are shown
+   integer, parameter :: most_helped = 1000  !! errors with a hint of what was meant; far more than are shown
 
 contains
 
@@ -24,7 +24,7 @@ contains
    subroutine read_settings(deck, info, item, is_present, mistakes)
       type(deck_t), intent(inout) :: deck             !! the deck
       type(kind_info_t), intent(in) :: info           !! the kind
-      type(item_t), intent(out) :: item               !! the settings; some are empty after mistakes
+      type(item_t), intent(out) :: item               !! the settings; some are empty after errors
       logical, intent(out) :: is_present              !! whether the deck has the section
       type(diagnostics_t), intent(inout) :: mistakes  !! collects what is wrong
 
@@ -213,7 +213,7 @@ contains
       end do
    end subroutine check_sections
 
-   !> A space in words.
+   !> A space as text.
    pure function words_of(is_spatial) result(words)
       logical, intent(in) :: is_spatial      !! space, not the plane
       character(:), allocatable :: words     !! what it is called

@@ -104,7 +104,7 @@ contains
       end do
    end subroutine cut_lines
 
-   !> Whether a text begins with the byte order mark of UTF-8.
+   !> Whether a text starts with the byte order mark of UTF-8.
    pure logical function starts_with_mark(string)
       character(*), intent(in) :: string  !! any text
 

@@ -2,7 +2,7 @@
 !>
 !> The first line names the parameters, with the unit of bare numbers in brackets: `c[mm], speed[rpm], law`. Commas, semicolons or
 !> tabs stand between the cells, whichever the line has first of these; else blanks. A cell in double quotes is taken as it is, `#`
-!> begins a comment.
+!> starts a comment.
 module sweep_table
    use deck_types, only: add_source, deck_t
    use diagnostics, only: diagnostics_t
@@ -48,7 +48,7 @@ contains
    subroutine read_sweep_table(deck, value, parameters, mistakes)
       type(deck_t), intent(inout) :: deck                          !! the deck; the file is added to its sources
       type(value_t), intent(in) :: value                           !! the key with the path
-      type(swept_t), allocatable, intent(out) :: parameters(:)     !! (columns) what is swept; none after a mistake
+      type(swept_t), allocatable, intent(out) :: parameters(:)     !! (columns) what is swept; none after an error
       type(diagnostics_t), intent(inout) :: mistakes               !! collects what is wrong
 
       type(cell_t), allocatable :: cells(:)
@@ -137,7 +137,7 @@ contains
       character, intent(in) :: separator              !! between cells; a blank: any number of blanks
       integer, intent(in) :: file                     !! number of the source
       integer, intent(in) :: line                     !! number of the line
-      integer, intent(inout) :: at                    !! where the cell begins; behind its separator on return
+      integer, intent(inout) :: at                    !! where the cell starts; behind its separator on return
       type(cell_t), intent(out) :: cell               !! the cell
       type(diagnostics_t), intent(inout) :: mistakes  !! collects what is wrong
 

@@ -1,7 +1,7 @@
 !> What a sweep goes through: parameters, their values, and which of them make a case.
 !>
-!> Cases are numbered from 1. Parameters of a file go on together, row by row; further ones make a grid with these rows, whose last
-!> parameter changes fastest, unless all go on together.
+!> Cases are numbered from 1. Parameters of a file continue together, row by row; further ones make a grid with these rows, whose
+!> last parameter changes fastest, unless all continue together.
 module swept
    use item, only: location_t
    use kinds, only: wp
@@ -24,9 +24,9 @@ module swept
    !> A whole sweep.
    type :: sweep_t
       logical :: is_present = .false.              !! the deck has the section
-      logical :: is_paired = .false.               !! all parameters go on together
+      logical :: is_paired = .false.               !! all parameters continue together
       logical :: keeps_channels = .false.          !! channels of the runs are kept
-      integer :: n_together = 1                    !! parameters, the first of all, that go on together: those of a file
+      integer :: n_together = 1                    !! parameters, the first of all, that continue together: those of a file
       type(swept_t), allocatable :: parameters(:)  !! (n) what is swept
    contains
       procedure :: n_cases

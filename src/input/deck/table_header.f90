@@ -15,7 +15,7 @@ module table_header
    public :: column_index, column_list, header_t, is_broken, is_name_column, read_table_header
 
    integer, parameter :: is_name_column = 0  !! the column holds the name
-   integer, parameter :: is_broken = -1      !! a mistake was reported, cells are skipped
+   integer, parameter :: is_broken = -1      !! an error was reported, cells are skipped
 
    !> A column as it stands in the deck.
    type :: header_t

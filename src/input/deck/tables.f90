@@ -36,7 +36,7 @@ contains
    subroutine read_items(deck, info, items, mistakes)
       type(deck_t), intent(inout) :: deck                    !! the deck
       type(kind_info_t), intent(in) :: info                  !! the kind
-      type(item_t), allocatable, intent(out) :: items(:)     !! (n) rows; some values are empty after mistakes
+      type(item_t), allocatable, intent(out) :: items(:)     !! (n) rows; some values are empty after errors
       type(diagnostics_t), intent(inout) :: mistakes         !! collects what is wrong
 
       type(header_t), allocatable :: headers(:)

@@ -34,7 +34,7 @@ module tokens
 
 contains
 
-   !> Whether a line has anything but blanks and a comment; `first` is where that begins.
+   !> Whether a line has anything but blanks and a comment; `first` is where that starts.
    pure subroutine has_content(line, first)
       character(*), intent(in) :: line  !! one line
       integer, intent(out) :: first     !! first character, 0 if there is none
@@ -97,7 +97,7 @@ contains
       end do
    end subroutine lex_line
 
-   !> Kind and end of the token that begins at a character.
+   !> Kind and end of the token that starts at a character.
    pure subroutine measure(line, at, kind, last)
       character(*), intent(in) :: line  !! one line
       integer, intent(in) :: at         !! first character
@@ -144,7 +144,7 @@ contains
 
    !> Report a quote or brace that does not end.
    subroutine complain(sign, location, mistakes)
-      character, intent(in) :: sign                   !! with which it begins
+      character, intent(in) :: sign                   !! with which it starts
       type(location_t), intent(in) :: location        !! where
       type(diagnostics_t), intent(inout) :: mistakes  !! collects what is wrong
 

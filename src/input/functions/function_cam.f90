@@ -32,7 +32,7 @@ module function_cam
 
 contains
 
-   !> What the kind says of itself.
+   !> Description of the kind.
    function cam_info() result(info)
       type(kind_info_t) :: info  !! name and columns
 
@@ -52,7 +52,7 @@ contains
    !> The curve of a row.
    subroutine cam_make(item, made)
       type(item_t), intent(inout) :: item  !! the row
-      type(made_t), intent(out) :: made    !! the curve, or the first mistake
+      type(made_t), intent(out) :: made    !! the curve, or the first error
 
       character(:), allocatable :: word
       real(wp) :: begin, total
@@ -83,7 +83,7 @@ contains
    !> Whether lengths are of one dimension and fit together.
    subroutine check_row(item, made)
       type(item_t), intent(in) :: item     !! the row
-      type(made_t), intent(inout) :: made  !! receives a mistake
+      type(made_t), intent(inout) :: made  !! receives an error
 
       real(wp) :: total
       integer :: k
@@ -120,7 +120,7 @@ contains
 
    contains
 
-      !> Note a mistake.
+      !> Note an error.
       subroutine complain(column, message)
          character(*), intent(in) :: column   !! where it is
          character(*), intent(in) :: message  !! what is wrong

@@ -23,7 +23,7 @@ module function_harmonic
 
 contains
 
-   !> What the kind says of itself.
+   !> Description of the kind.
    function harmonic_info() result(info)
       type(kind_info_t) :: info  !! name and columns
 
@@ -39,7 +39,7 @@ contains
    !> The curve of a row.
    subroutine harmonic_make(item, made)
       type(item_t), intent(inout) :: item  !! the row
-      type(made_t), intent(out) :: made    !! the curve, or the first mistake
+      type(made_t), intent(out) :: made    !! the curve, or the first error
 
       associate (amplitude => item%values(place_of(item, "amplitude")), offset => item%values(place_of(item, "offset")))
          made%argument = dim_time

@@ -7,13 +7,13 @@ module function_kind
    private
    public :: function_kind_t, made_t
 
-   !> What a row gives: a curve, or a mistake.
+   !> What a row gives: a curve, or an error.
    type :: made_t
       type(curve_t) :: curve                  !! the function
       type(dim_t) :: dimension = dim_none     !! of its value
       type(dim_t) :: argument = dim_none      !! of what it takes
-      integer :: column = 0                   !! column with a mistake, 0: all is well
-      integer :: place = 0                    !! number of the list's entry with the mistake, 0: all of the cell
+      integer :: column = 0                   !! column with an error, 0: all is well
+      integer :: place = 0                    !! number of the list's entry with the error, 0: all of the cell
       character(:), allocatable :: message    !! what is wrong
       character(:), allocatable :: help       !! what to do
    end type made_t
@@ -26,7 +26,7 @@ module function_kind
    end type function_kind_t
 
    abstract interface
-      !> What the kind says of itself.
+      !> Description of the kind.
       function info_interface() result(info)
          import :: kind_info_t
          implicit none (type, external)
@@ -38,7 +38,7 @@ module function_kind
          import :: item_t, made_t
          implicit none (type, external)
          type(item_t), intent(inout) :: item  !! the row
-         type(made_t), intent(out) :: made    !! the curve, or the first mistake
+         type(made_t), intent(out) :: made    !! the curve, or the first error
       end subroutine make_interface
    end interface
 

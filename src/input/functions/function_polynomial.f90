@@ -3,7 +3,7 @@
 !> f(t) = sum_k c_k (t - origin)^k,   k = 0 to 7
 !>
 !> With an `end` it reaches from the origin to there; `beyond` says what is before and after: hold (the value of the end),
-!> linear (the tangent of the end) or error (nothing). Without one it goes on for ever.
+!> linear (the tangent of the end) or error (nothing). Without one it continues for ever.
 !>
 !> Each coefficient has the dimension of the function over a time to its power. Source: Flores et al. (2008),
 !> section 2.2 (driver functions). Limits: degree 7.
@@ -20,7 +20,7 @@ module function_polynomial
    private
    public :: function_polynomial_t
 
-   integer, parameter :: degree = 7            !! greatest power
+   integer, parameter :: degree = 7            !! maximum power
 
    !> The kind.
    type, extends(function_kind_t) :: function_polynomial_t
@@ -31,7 +31,7 @@ module function_polynomial
 
 contains
 
-   !> What the kind says of itself.
+   !> Description of the kind.
    function polynomial_info() result(info)
       type(kind_info_t) :: info  !! name and columns
 
@@ -53,7 +53,7 @@ contains
    !> The curve of a row.
    subroutine polynomial_make(item, made)
       type(item_t), intent(inout) :: item  !! the row
-      type(made_t), intent(out) :: made    !! the curve, or the first mistake
+      type(made_t), intent(out) :: made    !! the curve, or the first error
 
       type(dim_t) :: dimension
       integer :: column, first, k
@@ -87,7 +87,7 @@ contains
    !> A polynomial that reaches from its origin to an end.
    subroutine take_end(item, made)
       type(item_t), intent(in) :: item     !! the row
-      type(made_t), intent(inout) :: made  !! the curve, or a mistake
+      type(made_t), intent(inout) :: made  !! the curve, or an error
 
       associate (origin => item%number("origin"), end => item%number("end"))
          if (end <= origin) then

@@ -26,7 +26,7 @@ module function_samples
    public :: function_samples_t
 
    character(5), parameter :: lists(2) = [character(5) :: "at", "value"]  !! columns of lists, in the order of a file's columns
-   real(wp), parameter :: closed = 1.0e-9_wp  !! difference of the ends of a period, of the greatest value [1]
+   real(wp), parameter :: closed = 1.0e-9_wp  !! difference of the ends of a period, of the maximum value [1]
 
    !> The kind.
    type, extends(function_kind_t) :: function_samples_t
@@ -37,7 +37,7 @@ module function_samples
 
 contains
 
-   !> What the kind says of itself.
+   !> Description of the kind.
    function samples_info() result(info)
       type(kind_info_t) :: info  !! name and columns
 
@@ -58,7 +58,7 @@ contains
    !> The curve of a row.
    subroutine samples_make(item, made)
       type(item_t), intent(inout) :: item  !! the row; samples of a file become lists
-      type(made_t), intent(out) :: made    !! the curve, or the first mistake
+      type(made_t), intent(out) :: made    !! the curve, or the first error
 
       call take_file(item, made)
       if (made%column > 0) return
@@ -78,7 +78,7 @@ contains
    !> Samples of a file become the lists of the row.
    subroutine take_file(item, made)
       type(item_t), intent(inout) :: item  !! the row
-      type(made_t), intent(inout) :: made  !! receives a mistake
+      type(made_t), intent(inout) :: made  !! receives an error
 
       integer :: column, k
 
@@ -107,7 +107,7 @@ contains
    !> Whether there are enough samples, in order, and closed if they repeat.
    subroutine check_samples(item, made)
       type(item_t), intent(in) :: item     !! the row
-      type(made_t), intent(inout) :: made  !! receives a mistake
+      type(made_t), intent(inout) :: made  !! receives an error
 
       integer :: k, n, places, values
 
@@ -147,7 +147,7 @@ contains
 
    contains
 
-      !> Note a mistake.
+      !> Note an error.
       subroutine complain(column, message)
          character(*), intent(in) :: column   !! where it is
          character(*), intent(in) :: message  !! what is wrong

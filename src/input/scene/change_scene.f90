@@ -21,7 +21,7 @@ module change_scene
 contains
 
    !> Bring a scene up to date. Names and words are those of before. Without success the deck must be read anew: something has
-   !> changed beyond the tables of bodies, joints, forces, clearances, laws and films, or there are mistakes.
+   !> changed beyond the tables of bodies, joints, forces, clearances, laws and films, or there are errors.
    subroutine scene_with_changes(deck, is_touched, scene, is_done)
       type(deck_t), intent(inout) :: deck           !! the deck with other numbers (`change_parameters`)
       logical, intent(in) :: is_touched(:)          !! (sections) whether they may mean something else

@@ -17,7 +17,7 @@ module figure_list
 
    character(*), parameter :: figure_joiners = "+ against in from to"  !! words that belong to the figure before them
    character(*), parameter :: lone_words = "mechanism strip animation"  !! figures of one word without a channel
-   character(*), parameter :: panels_word = "panels("                  !! how a figure of several panels begins
+   character(*), parameter :: panels_word = "panels("                  !! how a figure of several panels starts
 
 contains
 

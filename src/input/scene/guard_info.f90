@@ -1,4 +1,4 @@
-!> The section [guards]: what ends a run before its end, or is told of it.
+!> The section [guards]: what ends a run before its end, or is reported of it.
 module guard_info
    use kind_info, only: add_condition, add_number, add_word, dim_none, dim_speed, kind_info_t
    use kinds, only: wp

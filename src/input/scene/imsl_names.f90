@@ -30,7 +30,7 @@ contains
    subroutine fold_imsl_names(info, item, diagnostics)
       type(kind_info_t), intent(in) :: info               !! kind of the settings
       type(item_t), intent(inout) :: item                 !! the settings
-      type(diagnostics_t), intent(inout) :: diagnostics   !! mistakes found
+      type(diagnostics_t), intent(inout) :: diagnostics   !! errors found
 
       integer :: k
 

@@ -42,7 +42,7 @@ module kind_list
 
 contains
 
-   !> What kind number k of joints and drivers says of itself.
+   !> What kind number k of joints and drivers describes.
    function joint_info(k) result(info)
       integer, intent(in) :: k            !! number in the registry
       type(kind_info_t), pointer :: info  !! the kind
@@ -51,7 +51,7 @@ contains
       info => known(before_joints + k)
    end function joint_info
 
-   !> What kind number k of force elements says of itself.
+   !> What kind number k of force elements describes.
    function force_info(k) result(info)
       integer, intent(in) :: k            !! number in the registry
       type(kind_info_t), pointer :: info  !! the kind
@@ -60,7 +60,7 @@ contains
       info => known(before_forces + k)
    end function force_info
 
-   !> What kind number k of named functions says of itself.
+   !> What kind number k of named functions describes.
    function function_info(k) result(info)
       integer, intent(in) :: k            !! number in the registry
       type(kind_info_t), pointer :: info  !! the kind
@@ -69,7 +69,7 @@ contains
       info => known(before_functions + k)
    end function function_info
 
-   !> What geometry number k says of itself.
+   !> What geometry number k describes.
    function clearance_info(k) result(info)
       integer, intent(in) :: k            !! number in the registry
       type(kind_info_t), pointer :: info  !! the kind
@@ -78,7 +78,7 @@ contains
       info => known(before_clearances + k)
    end function clearance_info
 
-   !> What normal law number k says of itself.
+   !> What normal law number k describes.
    function law_info(k) result(info)
       integer, intent(in) :: k            !! number in the registry
       type(kind_info_t), pointer :: info  !! the kind
@@ -87,7 +87,7 @@ contains
       info => known(before_laws + k)
    end function law_info
 
-   !> What friction law number k says of itself.
+   !> What friction law number k describes.
    function friction_info(k) result(info)
       integer, intent(in) :: k            !! number in the registry
       type(kind_info_t), pointer :: info  !! the kind
@@ -96,7 +96,7 @@ contains
       info => known(before_frictions + k)
    end function friction_info
 
-   !> What film number k says of itself.
+   !> What film number k describes.
    function film_info(k) result(info)
       integer, intent(in) :: k            !! number in the registry
       type(kind_info_t), pointer :: info  !! the kind

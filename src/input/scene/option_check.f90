@@ -19,7 +19,7 @@ contains
       type(value_t), intent(in) :: value                  !! the word and its options
       character(*), intent(in) :: words                   !! words of the key; options of another one are left alone
       character(*), intent(in) :: known                   !! options of any word; others have been reported
-      type(diagnostics_t), intent(inout) :: diagnostics   !! mistakes found
+      type(diagnostics_t), intent(inout) :: diagnostics   !! errors found
 
       integer :: k
 
@@ -36,7 +36,7 @@ contains
       character(*), intent(in) :: key                     !! the key
       character(*), intent(in) :: word                    !! the word before it
       type(kind_info_t), intent(in) :: taken              !! options that the word takes, as columns
-      type(diagnostics_t), intent(inout) :: diagnostics   !! mistakes found
+      type(diagnostics_t), intent(inout) :: diagnostics   !! errors found
 
       character(:), allocatable :: help, place
       type(quantity_t) :: quantity

@@ -1,7 +1,7 @@
 !> The section [precision], and the words by which it names settings of an integration.
 !>
-!> A word is `METHOD`, `METHOD.WAY` or `METHOD.WAY.SOLVER`: an integrator, a way of holding the constraints, a solver of the
-!> augmented equations, as in [analysis.dynamic]; `*` stands for all of them but `auto`. What a word leaves out is as the deck
+!> A word is `METHOD`, `METHOD.WAY` or `METHOD.WAY.SOLVER`: an integrator, a stabilisation method, a solver of the
+!> augmented equations, as in [analysis.dynamic]; `*` stands for all of them but `auto`. What a word omits is as the deck
 !> has it.
 module precision_info
    use columns, only: column_of
@@ -17,7 +17,7 @@ module precision_info
    public :: check_precision, check_setting_word, precision_section, setting_t, settings_of
 
    character(*), parameter :: keys(3) = [character(9) :: "method", "stabilise", "solver"]      !! of [analysis.dynamic]
-   character(*), parameter :: sorts(3) = [character(30) :: "method", "stabilisation method", "solver"]  !! in words
+   character(*), parameter :: sorts(3) = [character(30) :: "method", "stabilisation method", "solver"]  !! as text
 
    !> How an integration is set. What is blank is as the deck has it.
    type :: setting_t
@@ -103,7 +103,7 @@ contains
    !> What is wrong with the section.
    subroutine check_precision(item, diagnostics)
       type(item_t), intent(in) :: item                    !! the section
-      type(diagnostics_t), intent(inout) :: diagnostics   !! mistakes found
+      type(diagnostics_t), intent(inout) :: diagnostics   !! errors found
 
       character(:), allocatable :: hint, message
       integer :: k

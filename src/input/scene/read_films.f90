@@ -22,7 +22,7 @@ contains
       type(deck_t), intent(inout) :: deck                 !! the deck
       type(scene_t), intent(inout) :: scene               !! films are set
       type(directory_t), intent(inout) :: directory       !! names of the films are set
-      type(diagnostics_t), intent(inout) :: diagnostics   !! mistakes found
+      type(diagnostics_t), intent(inout) :: diagnostics   !! errors found
 
       integer :: before, k, n
 
@@ -45,9 +45,9 @@ contains
    subroutine make_films(kind, items, has_mistakes, films, diagnostics)
       integer, intent(in) :: kind                         !! number in the registry
       type(item_t), intent(in) :: items(:)                !! (n) rows
-      logical, intent(in) :: has_mistakes                 !! no film is made of rows with mistakes
+      logical, intent(in) :: has_mistakes                 !! no film is made of rows with errors
       type(film_slot_t), intent(inout) :: films(:)        !! (n or more) the films
-      type(diagnostics_t), intent(inout) :: diagnostics   !! mistakes found
+      type(diagnostics_t), intent(inout) :: diagnostics   !! errors found
 
       integer :: i
       logical :: is_broken
@@ -65,7 +65,7 @@ contains
    !> Rows of lubricants as a whole.
    subroutine check_lubricants(scene, diagnostics)
       type(scene_t), intent(in) :: scene                  !! tables
-      type(diagnostics_t), intent(inout) :: diagnostics   !! mistakes found
+      type(diagnostics_t), intent(inout) :: diagnostics   !! errors found
 
       character(:), allocatable :: help, message
       integer :: column, i

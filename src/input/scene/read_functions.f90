@@ -19,7 +19,7 @@ contains
    subroutine functions_from_deck(deck, scene, diagnostics)
       type(deck_t), intent(inout) :: deck                !! the deck; its functions are set
       type(scene_t), intent(inout) :: scene              !! tables are set
-      type(diagnostics_t), intent(inout) :: diagnostics  !! mistakes found
+      type(diagnostics_t), intent(inout) :: diagnostics  !! errors found
 
       class(function_kind_t), allocatable :: kind
       type(symbol_t) :: symbol
@@ -49,8 +49,8 @@ contains
       class(function_kind_t), intent(in) :: kind         !! its kind
       type(item_t), intent(inout) :: item                !! the row
       type(symbol_t), intent(out) :: symbol              !! the function
-      logical, intent(in) :: is_readable                 !! .false.: some row has a mistake, none is made
-      type(diagnostics_t), intent(inout) :: diagnostics  !! mistakes found
+      logical, intent(in) :: is_readable                 !! .false.: some row has an error, none is made
+      type(diagnostics_t), intent(inout) :: diagnostics  !! errors found
 
       type(location_t) :: at
       type(made_t) :: made
@@ -75,7 +75,7 @@ contains
    subroutine check_name(deck, item, diagnostics)
       type(deck_t), intent(in) :: deck                   !! the deck, with its parameters and the functions before
       type(item_t), intent(in) :: item                   !! its row
-      type(diagnostics_t), intent(inout) :: diagnostics  !! mistakes found
+      type(diagnostics_t), intent(inout) :: diagnostics  !! errors found
 
       character(:), allocatable :: message
       integer :: k

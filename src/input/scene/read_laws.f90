@@ -21,7 +21,7 @@ contains
       type(deck_t), intent(inout) :: deck                 !! the deck
       type(scene_t), intent(inout) :: scene               !! laws are set
       type(directory_t), intent(inout) :: directory       !! names of the laws are set
-      type(diagnostics_t), intent(inout) :: diagnostics   !! mistakes found
+      type(diagnostics_t), intent(inout) :: diagnostics   !! errors found
 
       integer :: before, k, n
 
@@ -60,9 +60,9 @@ contains
    subroutine make_laws(kind, items, has_mistakes, laws, diagnostics)
       integer, intent(in) :: kind                         !! number in the registry
       type(item_t), intent(in) :: items(:)                !! (n) rows
-      logical, intent(in) :: has_mistakes                 !! no law is made of rows with mistakes
+      logical, intent(in) :: has_mistakes                 !! no law is made of rows with errors
       type(law_slot_t), intent(inout) :: laws(:)          !! (n or more) the laws
-      type(diagnostics_t), intent(inout) :: diagnostics   !! mistakes found
+      type(diagnostics_t), intent(inout) :: diagnostics   !! errors found
 
       integer :: i
       logical :: is_broken
@@ -81,9 +81,9 @@ contains
    subroutine make_frictions(kind, items, has_mistakes, laws, diagnostics)
       integer, intent(in) :: kind                         !! number in the registry
       type(item_t), intent(in) :: items(:)                !! (n) rows
-      logical, intent(in) :: has_mistakes                 !! no law is made of rows with mistakes
+      logical, intent(in) :: has_mistakes                 !! no law is made of rows with errors
       type(friction_slot_t), intent(inout) :: laws(:)     !! (n or more) the laws
-      type(diagnostics_t), intent(inout) :: diagnostics   !! mistakes found
+      type(diagnostics_t), intent(inout) :: diagnostics   !! errors found
 
       integer :: i
       logical :: is_broken

@@ -29,7 +29,7 @@ contains
       type(deck_t), intent(inout) :: deck                 !! the deck
       type(directory_t), intent(in) :: directory          !! names of bodies and points
       type(scene_t), intent(inout) :: scene               !! tables are set
-      type(diagnostics_t), intent(inout) :: diagnostics   !! mistakes found
+      type(diagnostics_t), intent(inout) :: diagnostics   !! errors found
 
       integer :: k
 
@@ -47,7 +47,7 @@ contains
    !> Requests of a scene whose points are placed; expressions over channels wait until these are known.
    subroutine make_requests(scene, diagnostics)
       type(scene_t), intent(inout) :: scene               !! requests are set; those of before are gone
-      type(diagnostics_t), intent(inout) :: diagnostics   !! mistakes found
+      type(diagnostics_t), intent(inout) :: diagnostics   !! errors found
 
       integer :: k
 
@@ -108,7 +108,7 @@ contains
    subroutine check_joint(scene, item, diagnostics)
       type(scene_t), intent(in) :: scene                  !! the scene
       type(item_t), intent(in) :: item                    !! the row of the reaction
-      type(diagnostics_t), intent(inout) :: diagnostics   !! mistakes found
+      type(diagnostics_t), intent(inout) :: diagnostics   !! errors found
 
       type(text_t), allocatable :: names(:)
       type(name_table_t) :: table
@@ -186,7 +186,7 @@ contains
    !> Find what the expressions of loads see.
    subroutine place_observables(scene, diagnostics)
       type(scene_t), intent(inout) :: scene               !! expressions of loads are completed
-      type(diagnostics_t), intent(inout) :: diagnostics   !! mistakes found
+      type(diagnostics_t), intent(inout) :: diagnostics   !! errors found
 
       integer :: c, i, k, m
 
@@ -210,7 +210,7 @@ contains
       type(scene_t), intent(in) :: scene                  !! the scene
       type(location_t), intent(in) :: location            !! of the expression, its brace included
       type(observable_t), intent(inout) :: observable               !! its place is set
-      type(diagnostics_t), intent(inout) :: diagnostics   !! mistakes found
+      type(diagnostics_t), intent(inout) :: diagnostics   !! errors found
 
       character(:), allocatable :: help, ignored, item, message, near, quantity
       type(location_t) :: at

@@ -35,11 +35,11 @@ module read_scene
 
 contains
 
-   !> Read and validate a scene. Mistakes are collected; the scene is of use only if there are none.
+   !> Read and validate a scene. Errors are collected; the scene is of use only if there are none.
    subroutine scene_from_deck(deck, scene, diagnostics)
       type(deck_t), intent(inout) :: deck                 !! the deck
       type(scene_t), intent(out) :: scene                 !! what it means
-      type(diagnostics_t), intent(inout) :: diagnostics   !! mistakes found
+      type(diagnostics_t), intent(inout) :: diagnostics   !! errors found
 
       type(directory_t) :: directory
 
@@ -72,11 +72,11 @@ contains
       call finish_scene(deck, scene, diagnostics)
    end subroutine scene_from_deck
 
-   !> From tables without mistakes, their references resolved, to what they mean.
+   !> From tables without errors, their references resolved, to what they mean.
    subroutine finish_scene(deck, scene, diagnostics)
       type(deck_t), intent(inout) :: deck                 !! the deck; defaults that follow from values are noted
       type(scene_t), intent(inout) :: scene               !! sections, tables, laws and films are set
-      type(diagnostics_t), intent(inout) :: diagnostics   !! mistakes found
+      type(diagnostics_t), intent(inout) :: diagnostics   !! errors found
 
       integer :: k
 
@@ -104,7 +104,7 @@ contains
       type(deck_t), intent(inout) :: deck                 !! the deck
       type(kind_info_t), intent(in), pointer :: info      !! keys of the section
       type(section_t), intent(out) :: section             !! what it sets
-      type(diagnostics_t), intent(inout) :: diagnostics   !! mistakes found
+      type(diagnostics_t), intent(inout) :: diagnostics   !! errors found
 
       section%info => info
       call read_settings(deck, section%info, section%item_t, section%is_present, diagnostics)
@@ -115,7 +115,7 @@ contains
    subroutine read_analyses(deck, sections, diagnostics)
       type(deck_t), intent(inout) :: deck                 !! the deck
       type(settings_t), intent(inout) :: sections         !! those of the analyses are set
-      type(diagnostics_t), intent(inout) :: diagnostics   !! mistakes found
+      type(diagnostics_t), intent(inout) :: diagnostics   !! errors found
 
       type(kind_info_t), pointer :: info
       integer :: k
@@ -151,7 +151,7 @@ contains
    subroutine read_studies(deck, sections, diagnostics)
       type(deck_t), intent(inout) :: deck                 !! the deck
       type(settings_t), intent(inout) :: sections         !! those of studies are set
-      type(diagnostics_t), intent(inout) :: diagnostics   !! mistakes found
+      type(diagnostics_t), intent(inout) :: diagnostics   !! errors found
 
       call read_if_there(kind_named("statistics", .false.), sections%statistics)
       call read_if_there(kind_named("ensemble", .false.), sections%ensemble)
@@ -175,7 +175,7 @@ contains
    subroutine read_tables(deck, scene, diagnostics)
       type(deck_t), intent(inout) :: deck                 !! the deck
       type(scene_t), intent(inout) :: scene               !! tables are set
-      type(diagnostics_t), intent(inout) :: diagnostics   !! mistakes found
+      type(diagnostics_t), intent(inout) :: diagnostics   !! errors found
 
       integer :: k
 
@@ -220,7 +220,7 @@ contains
    !> What a row of bodies or shapes, or the direction of gravity, must be in the plane or in space.
    subroutine check_space(scene, diagnostics)
       type(scene_t), intent(in) :: scene                  !! tables, references resolved
-      type(diagnostics_t), intent(inout) :: diagnostics   !! mistakes found
+      type(diagnostics_t), intent(inout) :: diagnostics   !! errors found
 
       integer :: k
 
@@ -284,7 +284,7 @@ contains
    subroutine resolve_tables(directory, scene, diagnostics)
       type(directory_t), intent(in) :: directory          !! names known
       type(scene_t), intent(inout) :: scene               !! tables, indices are set
-      type(diagnostics_t), intent(inout) :: diagnostics   !! mistakes found
+      type(diagnostics_t), intent(inout) :: diagnostics   !! errors found
 
       integer :: k
 

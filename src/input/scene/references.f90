@@ -51,7 +51,7 @@ contains
       type(directory_t), intent(in) :: directory           !! names known
       type(kind_info_t), intent(in) :: info                !! the kind
       type(item_t), intent(inout) :: items(:)              !! its rows; indices are set
-      type(diagnostics_t), intent(inout) :: diagnostics    !! mistakes found
+      type(diagnostics_t), intent(inout) :: diagnostics    !! errors found
 
       integer :: c
 

@@ -30,7 +30,7 @@ module scene
    integer, parameter :: n_base = 5           !! base tables
 
    integer, parameter :: table_formulas = 1   !! requests: expressions over channels
-   integer, parameter :: table_motions = 2    !! requests: points as seen from elsewhere
+   integer, parameter :: table_motions = 2    !! requests: points as observed from elsewhere
    integer, parameter :: table_reactions = 3  !! requests: reactions at points
    integer, parameter :: n_requests = 3       !! tables of requests
 
@@ -74,7 +74,7 @@ module scene
       type(section_t) :: precision                    !! settings of an integration to be compared
    end type settings_t
 
-   !> Tables that became something else when they were read: kept for the echo, and for what is told of them.
+   !> Tables that became something else when they were read: kept for the echo, and for what is reported of them.
    type :: tables_t
       type(table_t) :: base(n_base)                    !! (kinds) bodies, points, materials, lubricants, shapes
       type(table_t) :: functions(n_function_kinds)     !! (kinds) named functions

@@ -34,7 +34,7 @@ contains
    subroutine report_doubled(items, names, diagnostics)
       type(item_t), intent(in) :: items(:)                !! rows
       type(text_t), intent(in) :: names(:)                !! names taken
-      type(diagnostics_t), intent(inout) :: diagnostics   !! mistakes found
+      type(diagnostics_t), intent(inout) :: diagnostics   !! errors found
 
       type(name_table_t) :: table
       integer :: k
@@ -51,7 +51,7 @@ contains
    !> Names must be unique among everything that has channels, and must not be reserved words.
    subroutine check_names(scene, diagnostics)
       type(scene_t), intent(in) :: scene                  !! tables
-      type(diagnostics_t), intent(inout) :: diagnostics   !! mistakes found
+      type(diagnostics_t), intent(inout) :: diagnostics   !! errors found
 
       type(text_t), allocatable :: names(:)
       integer :: k
@@ -104,7 +104,7 @@ contains
    subroutine check_meaning(deck, scene, diagnostics)
       type(deck_t), intent(inout) :: deck                 !! the deck; lengths of the start are noted as defaults
       type(scene_t), intent(in) :: scene                  !! the scene
-      type(diagnostics_t), intent(inout) :: diagnostics   !! mistakes found
+      type(diagnostics_t), intent(inout) :: diagnostics   !! errors found
 
       class(clearance_set_t), allocatable :: set
       character(:), allocatable :: help, message
@@ -206,7 +206,7 @@ contains
          end do
       end subroutine check_references
 
-      !> A length that is left out is the distance of the points at the start, which must not coincide.
+      !> A length that is omitted is the distance of the points at the start, which must not coincide.
       subroutine check_start_length(info, item)
          type(kind_info_t), intent(in) :: info  !! the kind
          type(item_t), intent(in) :: item       !! the row
@@ -285,7 +285,7 @@ contains
 
    end subroutine check_meaning
 
-   !> The normal law of a loose joint must fit its surfaces.
+   !> The normal law of a clearance joint must fit its surfaces.
    subroutine check_law(scene, info, item, set, column, message, help)
       type(scene_t), intent(in) :: scene                  !! the scene
       type(kind_info_t), intent(in) :: info               !! the geometry
@@ -324,7 +324,7 @@ contains
       if (message /= "") column = column_of(info, "face_law")
    end subroutine check_law
 
-   !> The film of a loose joint must fit its bearing.
+   !> The film of a clearance joint must fit its bearing.
    subroutine check_film(scene, info, item, column, message, help)
       type(scene_t), intent(in) :: scene                    !! the scene
       type(kind_info_t), intent(in) :: info                 !! the geometry

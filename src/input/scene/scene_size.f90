@@ -11,7 +11,7 @@ module scene_size
 
 contains
 
-   !> Size of the bodies: the greatest distance of a point from its body's centre of mass; the greatest radius of gyration
+   !> Size of the bodies: the maximum distance of a point from its body's centre of mass; the maximum radius of gyration
    !> if all points are there. It does not depend on where the mechanism stands. A group of bodies is measured by the whole.
    pure real(wp) function size_of_bodies(scene) result(length)
       type(scene_t), intent(in) :: scene  !! the scene

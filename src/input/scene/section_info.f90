@@ -76,7 +76,7 @@ contains
       call add_control_columns(info)
    end function dynamic_info
 
-   !> The options that a word of a key takes: of a way of holding the constraints, or of meeting an onset.
+   !> The options that a word of a key takes: of a stabilisation method, or of meeting an onset.
    function word_options(key, word) result(info)
       character(*), intent(in) :: key    !! `stabilise` or `contact_onset`
       character(*), intent(in) :: word   !! as in `stabilise = word`
@@ -133,7 +133,7 @@ contains
                     choices="auto "//join(words, " "))
    end subroutine add_solvers
 
-   !> The ways of holding the constraints: their words, what they do, the options of them all.
+   !> The stabilisation methods: their words, what they do, the options of them all.
    subroutine add_ways(info)
       type(kind_info_t), intent(inout) :: info  !! settings of an analysis
 

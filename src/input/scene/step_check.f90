@@ -16,7 +16,7 @@ contains
    !> its steps must not be given any.
    subroutine check_steps(scene, diagnostics)
       type(scene_t), intent(in) :: scene                  !! the scene
-      type(diagnostics_t), intent(inout) :: diagnostics   !! mistakes found
+      type(diagnostics_t), intent(inout) :: diagnostics   !! errors found
 
       class(integrator_t), allocatable :: method
 

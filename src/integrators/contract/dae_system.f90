@@ -4,7 +4,7 @@
 !>
 !> with J = Phi_q and W = M^{-1}, so that mu, the multiplier that keeps the positions on the
 !> constraints, is an impulse; it vanishes for the exact solution. The state y = (q, v, others, z) is that
-!> of the ordinary form, to which the same system answers as `evaluate`. Of rows that depend on others where an integration begins
+!> of the ordinary form, to which the same system answers as `evaluate`. Of rows that depend on others where an integration starts
 !> the system leaves some out, so that the others are independent: their equations are lambda = 0 and mu = 0.
 !>
 !> Source: C. W. Gear, B. Leimkuhler and G. K. Gupta, Automatic integration of Euler-Lagrange
@@ -31,14 +31,14 @@ module dae_system
    end type dae_system_t
 
    abstract interface
-      !> An integration begins at the state of the last evaluation: choose the rows that are left out.
+      !> An integration starts at the state of the last evaluation: choose the rows that are omitted.
       subroutine begin_interface(self)
          import :: dae_system_t
          implicit none (type, external)
          class(dae_system_t), intent(inout) :: self   !! the system
       end subroutine begin_interface
 
-      !> Whether it leaves out any.
+      !> Whether it omits any.
       pure logical function leaves_interface(self) result(does)
          import :: dae_system_t
          implicit none (type, external)

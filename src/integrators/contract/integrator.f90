@@ -35,7 +35,7 @@ module integrator
 
    !> Event functions along a step.
    type :: event_values_t
-      real(wp) :: look = huge(1.0_wp)           !! farthest that places of a step are apart at which events are looked for [s]
+      real(wp) :: look = huge(1.0_wp)           !! farthest that places of a step are apart at which events are searched [s]
       real(wp), allocatable :: g0(:), rate0(:)  !! (n_event) event functions and rates at the start of the last step [any]
       real(wp), allocatable :: g1(:), rate1(:)  !! (n_event) at the present state [any]
       real(wp), allocatable :: g(:), rate(:)    !! (n_event) elsewhere [any]
@@ -47,15 +47,15 @@ module integrator
       integer :: n_happened = 0                 !! how many
    end type event_values_t
 
-   !> Contacts that began and ended within a step and were passed over.
+   !> Contacts that started and ended within a step and were passed over.
    type :: passed_onsets_t
       integer, allocatable :: n(:)              !! (n_event) how many
       real(wp), allocatable :: first(:)         !! (n_event) when the first of them was deepest [s]
-      real(wp), allocatable :: deepest(:)       !! (n_event) greatest value that the event function had in one [any]
+      real(wp), allocatable :: deepest(:)       !! (n_event) maximum value that the event function had in one [any]
       real(wp), allocatable :: at(:)            !! (n_event) when it had that [s]
       real(wp), allocatable :: gap(:), rate(:)  !! (n_event) scratch: event functions and rates at a place of a step [any]
       real(wp), allocatable :: rate_before(:)   !! (n_event) scratch: rates at the place before [any]
-      real(wp), allocatable :: top(:), top_at(:)  !! (n_event) scratch: greatest value since it is positive, and when [any, s]
+      real(wp), allocatable :: top(:), top_at(:)  !! (n_event) scratch: maximum value since it is positive, and when [any, s]
    end type passed_onsets_t
 
    !> Event functions of onsets that are not located.
@@ -64,7 +64,7 @@ module integrator
       real(wp), allocatable :: rate(:)          !! (n_event) their rates [any]
       real(wp), allocatable :: end_gap(:)       !! (n_event) at the end of the step in hand [any]
       real(wp), allocatable :: end_rate(:)      !! (n_event) their rates there [any]
-      logical, allocatable :: is_waiting(:)     !! (n_event) began above zero, no event before below
+      logical, allocatable :: is_waiting(:)     !! (n_event) started above zero, no event before below
       type(passed_onsets_t) :: passed           !! contacts that were passed over
    end type onset_values_t
 
@@ -83,7 +83,7 @@ module integrator
       real(wp) :: t = 0.0_wp                    !! present time [s]
       real(wp), allocatable :: trial(:)         !! (n) state at the end of a trial step [any]
       real(wp), allocatable :: scale(:)         !! (n) error scales [any]
-      real(wp), allocatable :: scratch(:)       !! (n) room for one state [any]
+      real(wp), allocatable :: scratch(:)       !! (n) storage for one state [any]
       type(event_values_t) :: events            !! event functions
       type(onset_values_t) :: onset             !! those of onsets, if they are not located
       type(step_count_t) :: count               !! steps and evaluations
@@ -110,14 +110,14 @@ module integrator
    end type integrator_t
 
    abstract interface
-      !> What the method says of itself.
+      !> Description of the method.
       function info_interface() result(info)
          import :: kind_info_t
          implicit none (type, external)
          type(kind_info_t) :: info  !! name and help
       end function info_interface
 
-      !> Begin at a state.
+      !> Start at a state.
       subroutine start_interface(self, system, t, y, t_end, status)
          import :: integrator_t, ode_system_t, wp
          implicit none (type, external)
@@ -145,7 +145,7 @@ module integrator
          implicit none (type, external)
          class(integrator_t), intent(inout) :: self    !! the integrator
          class(ode_system_t), intent(inout) :: system  !! the system
-         real(wp), intent(in) :: step_hint             !! step that suits what begins now; 0: as before it began [s]
+         real(wp), intent(in) :: step_hint             !! step that suits what starts now; 0: as before it started [s]
          integer, intent(out) :: status                !! advance_step, or a failure
       end subroutine restart_interface
 
@@ -218,7 +218,7 @@ module integrator
 contains
 
    !> Evaluate the right-hand side at the inner places of the last step, so that `state_at` gains two orders: for the whole step
-   !> with quadratures, or without: these are not fitted later on, so who wants them asks before who does not.
+   !> with quadratures, or without: these are not fitted later on, so who needs them asks before who does not.
    subroutine integrator_prepare_output(self, system, status)
       class(integrator_t), intent(inout) :: self    !! the integrator
       class(ode_system_t), intent(inout) :: system  !! the system
@@ -254,7 +254,7 @@ contains
       end if
    end subroutine integrator_state_at
 
-   !> The same as rows tell it: by interpolation too, as good as it gets; what cannot be evaluated between is interpolated without
+   !> The same as rows report it: by interpolation too, as good as it gets; what cannot be evaluated between is interpolated without
    !> it. A method whose interpolation is not good enough for stiff forces overrides this.
    subroutine integrator_reach(self, system, t, y)
       class(integrator_t), intent(inout) :: self    !! the integrator
@@ -268,7 +268,7 @@ contains
       call self%state_at(system, t, y)
    end subroutine integrator_reach
 
-   !> State at a place of the last step, by interpolation; quadratures that nobody wants are left alone.
+   !> State at a place of the last step, by interpolation; quadratures that nobody needs are left alone.
    subroutine integrator_within(self, system, s, y)
       class(integrator_t), intent(in) :: self    !! the integrator
       class(ode_system_t), intent(in) :: system  !! the system
@@ -294,12 +294,12 @@ contains
       steps = steps_any
    end function integrator_steps
 
-   !> Whether a method that takes back what it remembers begins anew, as its history is not saved: most have none.
+   !> Whether a method that takes back what it remembers starts anew, as its history is not saved: most have none.
    pure logical function integrator_begins_anew() result(begins_anew)
       begins_anew = .false.
    end function integrator_begins_anew
 
-   !> Room for states and event functions, made once.
+   !> Storage for states and event functions, made once.
    subroutine make_storage(self, system)
       class(integrator_t), intent(inout) :: self  !! the integrator
       class(ode_system_t), intent(in) :: system   !! the system

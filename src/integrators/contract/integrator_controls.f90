@@ -13,16 +13,16 @@ module integrator_controls
    public :: norm_absolute, norm_euclidean, norm_mixed, norm_relative, norm_scaled
    public :: onset_interpolate, onset_located, onset_reject, onset_uncontrolled
 
-   integer, parameter :: norm_mixed = 0       !! IMSL INORM = 0: |e| / max(|y|, 1), greatest entry
-   integer, parameter :: norm_absolute = 1    !! IMSL INORM = 1: |e|, greatest entry
-   integer, parameter :: norm_relative = 2    !! IMSL INORM = 2: |e| / max(|y|, FLOOR), greatest entry
+   integer, parameter :: norm_mixed = 0       !! IMSL INORM = 0: |e| / max(|y|, 1), maximum entry
+   integer, parameter :: norm_absolute = 1    !! IMSL INORM = 1: |e|, maximum entry
+   integer, parameter :: norm_relative = 2    !! IMSL INORM = 2: |e| / max(|y|, FLOOR), maximum entry
    integer, parameter :: norm_euclidean = 3   !! IMSL INORM = 3: root of the sum of squares of |e| / max(|y|, 1)
-   integer, parameter :: norm_scaled = -1     !! |e| over the natural scale of the entry, greatest entry
+   integer, parameter :: norm_scaled = -1     !! |e| over the natural scale of the entry, maximum entry
 
    integer, parameter :: onset_located = 0       !! onsets of contacts are located, as all events
    integer, parameter :: onset_interpolate = 1   !! linear interpolation back to the onset
    integer, parameter :: onset_reject = 2        !! steps that penetrate more than a limit are halved
-   integer, parameter :: onset_uncontrolled = 3  !! a contact begins where the step ends that finds it
+   integer, parameter :: onset_uncontrolled = 3  !! a contact starts where the step ends that finds it
 
    real(wp), parameter :: default_limit = 1.0e-7_wp  !! penetration at an onset found by rejection [m]
 
@@ -31,14 +31,14 @@ module integrator_controls
       real(wp) :: tolerance = 1.0e-8_wp        !! TOL: local error allowed in the norm [1]
       real(wp) :: fixed_step = 0.0_wp          !! length of fixed steps, 0: variable steps [s]
       real(wp) :: initial_step = 0.0_wp        !! HINIT: first step tried, 0: chosen [s]
-      real(wp) :: minimum_step = 0.0_wp        !! HMIN: least step, 0: what arithmetic allows [s]
-      real(wp) :: maximum_step = 0.0_wp        !! HMAX: greatest step, 0: no limit [s]
+      real(wp) :: minimum_step = 0.0_wp        !! HMIN: minimum step, 0: what arithmetic allows [s]
+      real(wp) :: maximum_step = 0.0_wp        !! HMAX: maximum step, 0: no limit [s]
       integer(i8) :: maximum_steps = 0         !! MXSTEP: accepted steps allowed, 0: no limit
       integer(i8) :: maximum_evaluations = 0   !! MXFCN: evaluations allowed, 0: no limit
       integer :: norm = norm_scaled            !! INORM: error norm, one of the above
       real(wp) :: floor = 1.0_wp               !! FLOOR: of the relative norm [any]
       integer :: onset = onset_located         !! how onsets of contacts are met, one of the above
-      real(wp) :: onset_limit = default_limit  !! greatest penetration at an onset with `onset_reject` [m]
+      real(wp) :: onset_limit = default_limit  !! maximum penetration at an onset with `onset_reject` [m]
    end type controls_t
 
    real(wp), parameter :: most_counted = 9.0e18_wp  !! steps or evaluations that can be counted [1]

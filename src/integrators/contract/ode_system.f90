@@ -8,7 +8,7 @@
 !> An event function is negative before its event and becomes positive at it. Its last digits are noise: `event_noise` says up to
 !> where, for systems whose event functions are small differences of large numbers.
 !>
-!> Two hooks do nothing unless a system overrides them. `set_step` tells the step about to be made
+!> Two hooks do nothing unless a system overrides them. `set_step` reports the step about to be made
 !> (the gains of some stabilisations follow it). A system that sets `holds` has its `hold` called on
 !> every state that an integrator gives out: the end of an accepted step before its derivative is
 !> taken, the states tried in search of an event, the states of `refine`. `project_state` is called on a state
@@ -16,7 +16,7 @@
 !> contacts, for integrators that meet onsets in another way (`onset_control`) or suit their steps to both (`step_control`).
 !>
 !> Local changes: small changes of a state resolved along axes that move with it, so that they stay nearly the same as the motion
-!> goes on: one displacement or turn for each rate, then the rates, then the other states; quadratures have none. `to_local` and
+!> continues: one displacement or turn for each rate, then the rates, then the other states; quadratures have none. `to_local` and
 !> `from_local` lead there and back, and `free_directions` says which of them invariants leave.
 module ode_system
    use kinds, only: wp
@@ -36,7 +36,7 @@ module ode_system
       logical :: has_films = .false.        !! whether films act, whose forces multiply what is wrong of a state
       logical :: sees_diverged = .false.  !! whether `evaluate` itself gives up derivatives that are wild, see `diverged_stages`
       logical :: contact_begins = .false.   !! whether the last event was the onset of a contact
-      logical :: with_quadratures = .true.  !! whether quadratures are wanted now: else they, or their rates, may be left
+      logical :: with_quadratures = .true.  !! whether quadratures are requested now: else they, or their rates, may be left
       real(wp), allocatable :: quadrature_scale(:)  !! (n_quadrature) scales of their errors; without, no error control [any]
    end type ode_traits_t
 
@@ -115,7 +115,7 @@ contains
       call self%events(t, y, g, rate)
    end subroutine ode_last_events
 
-   !> Leave the system at a state after events were looked for elsewhere; a system that can do that without its event functions
+   !> Leave the system at a state after events were searched elsewhere; a system that can do that without its event functions
    !> overrides this.
    subroutine ode_settle(self, t, y, g, rate)
       class(ode_system_t), intent(inout) :: self  !! the system
@@ -214,7 +214,7 @@ contains
    end subroutine ode_from_local
 
    !> Directions D of local displacements, and of local rates, that nothing hinders at a state, and how much R^T x of each a
-   !> change x has, R^T D = I. A system without invariants has all. Where there are more than room for them, only their number is
+   !> change x has, R^T D = I. A system without invariants has all. Where there are more than storage for them, only their number is
    !> found.
    subroutine ode_free_directions(self, t, y, n, direction, reading)
       class(ode_system_t), intent(inout) :: self   !! the system

@@ -1,4 +1,4 @@
-!> Whether a step, or a part of it, leaves room for an event, from the event functions at its ends.
+!> Whether a step, or a part of it, leaves storage for an event, from the event functions at its ends.
 module event_chance
    use integrator, only: integrator_t
    use kinds, only: wp
@@ -26,7 +26,7 @@ contains
       is_long = system%n_event > 0 .and. method%step%h > method%events%look
    end function is_long
 
-   !> Whether the ends of the last step leave room for a function to become positive.
+   !> Whether the ends of the last step leave storage for a function to become positive.
    pure logical function may_any_happen(system, method) result(may)
       class(ode_system_t), intent(in) :: system     !! the system
       class(integrator_t), intent(in) :: method     !! the integrator, after a step
@@ -57,8 +57,8 @@ contains
       may_happen = max(g0, g1) + 0.125_wp*curvature > 0.0_wp
    end function may_happen
 
-   !> The same of a part of a step that is searched, where it is told apart how far each end keeps the function below zero: with a
-   !> curvature up to c, g0 + r0 s + c s^2/2 < 0 from the left end on and g1 - r1 s + c s^2/2 < 0 from the right end back.
+   !> The same of a part of a step that is searched, where it is reported apart how far each end keeps the function below zero: with
+   !> a curvature up to c, g0 + r0 s + c s^2/2 < 0 from the left end on and g1 - r1 s + c s^2/2 < 0 from the right end back.
    pure logical function leaves_room(g0, r0, g1, r1)
       real(wp), intent(in) :: g0  !! value at the start [any]
       real(wp), intent(in) :: r0  !! rate at the start times the part [any]

@@ -1,16 +1,16 @@
 !> Where in a step an event function first becomes positive, from the step's interpolant.
 !>
-!> A sign change at the ends is not enough: a contact may begin and end within a step. The
-!> interpolant is searched (`event_search`) wherever the values and rates at the ends leave room for a maximum above
+!> A sign change at the ends is not enough: a contact may start and end within a step. The
+!> interpolant is searched (`event_search`) wherever the values and rates at the ends leave storage for a maximum above
 !> zero, and everywhere at least once in an interval that the caller sets (that of the output), so that no
-!> function is above zero there unseen. Where the ends leave no room, a glance at that interval says whether to search. What is
+!> function is above zero there unseen. Where the ends leave no storage, a glance at that interval says whether to search. What is
 !> found is a bracket, the same one whatever that interval is, and a place in it; the integrator goes there by its own means (a
 !> one-step method re-steps, so that the event is as accurate as the step, not as the interpolant).
 !>
 !> Noise: an event function g is known to its round-off r only (`event_noise`), the time of an event to some spacings of time. So
-!> - a function that begins a step at g_0 > -r must rise above g_0 + r, its threshold, to be at its event: one that has just had it,
+!> - a function that starts a step at g_0 > -r must rise above g_0 + r, its threshold, to be at its event: one that has just had it,
 !>   or parts from it, is at none, whatever its last digits say; all others have the threshold zero;
-!> - an event wants a rate > 0: a function found above its threshold that does not rise is at none in this step;
+!> - an event needs a rate > 0: a function found above its threshold that does not rise is at none in this step;
 !> - all functions that rise, at zero to r and to the spacing of time, are at their events together with the first one.
 module event_location
    use event_chance, only: is_long, is_worth_a_search, may_any_happen
@@ -33,7 +33,7 @@ contains
    subroutine find_first_event(system, method, near, event, low, high, place)
       class(ode_system_t), intent(inout) :: system  !! the system
       class(integrator_t), intent(inout) :: method  !! the integrator, after a step; its scratch is used
-      real(wp), intent(in) :: near                  !! how closely the event is to be told; 0: by a narrow bracket [1]
+      real(wp), intent(in) :: near                  !! how closely the event is to be reported; 0: by a narrow bracket [1]
       integer, intent(out) :: event                 !! which function, 0: none
       real(wp), intent(out) :: low                  !! place in the step before the event [1]
       real(wp), intent(out) :: high                 !! place after it [1]
@@ -59,7 +59,7 @@ contains
    subroutine dismiss_event(system, method, near, event, low, high, place)
       class(ode_system_t), intent(inout) :: system  !! the system
       class(integrator_t), intent(inout) :: method  !! the integrator, after a step; its scratch is used
-      real(wp), intent(in) :: near                  !! how closely the event is to be told; 0: by a narrow bracket [1]
+      real(wp), intent(in) :: near                  !! how closely the event is to be reported; 0: by a narrow bracket [1]
       integer, intent(inout) :: event               !! the function; then which other one, 0: none
       real(wp), intent(out) :: low                  !! place in the step before the event [1]
       real(wp), intent(out) :: high                 !! place after it [1]

@@ -1,13 +1,13 @@
-!> How far ahead the next event is, if the event functions go on as in the last step.
+!> How far ahead the next event is, if the event functions continue as in the last step.
 !>
 !> A function g at the end of a step of length h, on its way up to zero, is continued by the parabola with the curvature of the
 !> cubic of Hermite there:
 !>
 !> $$ g_1 + g_1' s + g_1'' s^2/2 = 0, \qquad g_1'' = (6 (g_0 - g_1)/h + 2 g_0' + 4 g_1')/h $$
 !>
-!> Where the motion is not smooth at an event (a contact ends, a stick begins) a step across it has an error of the order of what
+!> Where the motion is not smooth at an event (a contact ends, a stick starts) a step across it has an error of the order of what
 !> bends there, and is rejected again and again until hardly anything of it lies beyond; a step that ends a little behind the place
-!> foretold is not. What is foretold only shortens a step: whether there is an event, and where, is found in the step.
+!> predicted is not. What is predicted only shortens a step: whether there is an event, and where, is found in the step.
 !>
 !> Source: Hermite's interpolation. Limits: functions that rise at the end of the last step.
 module event_prediction
@@ -19,7 +19,7 @@ module event_prediction
 
 contains
 
-   !> Time from the end of the last step to the first event foretold; huge if there is none.
+   !> Time from the end of the last step to the first event predicted; huge if there is none.
    pure subroutine predict_event(events, h, time, event)
       type(event_values_t), intent(in) :: events  !! event functions at both ends of the last step
       real(wp), intent(in) :: h                   !! its length [s]

@@ -1,11 +1,12 @@
 !> The search for the first event of a step on its interpolant; `event_location` decides whether to search.
 !>
-!> The step is halved, down to eighths: only parts whose ends leave room for an event are looked into, the first ones first, and a
-!> part is not halved where all functions that may become positive in it only rise. Where a step is longer than events may stay
+!> The step is halved, down to eighths: only parts whose ends leave storage for an event are looked into, the first ones first, and
+!> a part is not halved where all functions that may become positive in it only rise. Where a step is longer than events may stay
 !> unseen, all eighths are looked at besides, and places in them, up to what was found.
 !>
 !> The bracket of an event is narrowed by Newton's iteration, its tangent bent as the cubic of Hermite through the place before is,
-!> and by halves where that does not close in, until the event is told as closely as the caller asks for, or the bracket is narrow.
+!> and by halves where that does not close in, until the event is reported as closely as the caller asks for, or the bracket is
+!> narrow.
 module event_search
    use event_chance, only: is_long, leaves_room, only_rises
    use integrator, only: integrator_t, kept_places
@@ -39,7 +40,7 @@ contains
    subroutine search(system, method, near, event, low, high, place)
       class(ode_system_t), intent(inout) :: system  !! the system
       class(integrator_t), intent(inout) :: method  !! the integrator, after a step
-      real(wp), intent(in) :: near                  !! how closely the event is to be told; 0: by a narrow bracket [1]
+      real(wp), intent(in) :: near                  !! how closely the event is to be reported; 0: by a narrow bracket [1]
       integer, intent(out) :: event                 !! which function, 0: none
       real(wp), intent(out) :: low                  !! place in the step before the event [1]
       real(wp), intent(out) :: high                 !! place after it [1]
@@ -67,8 +68,8 @@ contains
 
    contains
 
-      !> Look into those halves, and halves of them, that leave room for an event. What is known at the left end of a part is kept
-      !> in the first column, at its right end and those of the parts that it belongs to in the others.
+      !> Look into those halves, and halves of them, that leave storage for an event. What is known at the left end of a part is
+      !> kept in the first column, at its right end and those of the parts that it belongs to in the others.
       subroutine look_into_halves(low, high)
          real(wp), intent(out) :: low    !! place before the event, if there is one [1]
          real(wp), intent(out) :: high   !! place after it [1]
@@ -109,7 +110,7 @@ contains
          high = 1.0_wp
       end subroutine look_into_halves
 
-      !> Whether a part leaves room for an event, and whether a function that may become positive there does not only rise.
+      !> Whether a part leaves storage for an event, and whether a function that may become positive there does not only rise.
       pure subroutine judge(level, h, has_capacity, bends)
          integer, intent(in) :: level       !! halvings that led to the part
          real(wp), intent(in) :: h          !! length of the part [s]

@@ -4,13 +4,13 @@
 !>
 !> interpolate   t_c = t_- - delta_- / (delta_+ - delta_-) h and the state linearly between the ends of the step,
 !>               q_c = q_- + (q_+ - q_-) (t_c - t_-)/h, velocities and quadratures alike, brought back onto the constraints;
-!>               the contact begins there
-!> reject        the step is halved and made again until delta_+ <= limit; the contact begins at its end
-!> uncontrolled  the contact begins at the end of the step, however deep that is
+!>               the contact starts there
+!> reject        the step is halved and made again until delta_+ <= limit; the contact starts at its end
+!> uncontrolled  the contact starts at the end of the step, however deep that is
 !>
-!> and the impact speed is the rate of penetration where the contact begins. A contact that begins at a penetration
+!> and the impact speed is the rate of penetration where the contact starts. A contact that starts at a penetration
 !> gets the energy of its spring for nothing: the residual of the energy ledger shows it. Ends of contacts and all other
-!> events are located in every way. A contact that begins and ends within a step does not come about; that there was one is noted
+!> events are located in every way. A contact that starts and ends within a step does not come about; that there was one is noted
 !> (`passed_onsets`).
 !>
 !> Signs: event functions of onsets are penetrations. Source: Flores et al. (2008), section 3.5, procedures 1 and 2, eqs.
@@ -30,7 +30,7 @@ module onset_control
 
 contains
 
-   !> The integration begins, or begins anew: the event functions there are in g1 and rate1 of the integrator.
+   !> The integration starts, or starts anew: the event functions there are in g1 and rate1 of the integrator.
    subroutine begin_control(system, method)
       class(ode_system_t), intent(in) :: system      !! the system
       class(integrator_t), intent(inout) :: method   !! the integrator
@@ -54,7 +54,7 @@ contains
       call method%hide_events(method%events%g1, method%events%rate1)
    end subroutine hide
 
-   !> Whether a trial step ends with a contact that has just begun deeper than the limit.
+   !> Whether a trial step ends with a contact that has just started deeper than the limit.
    logical function is_too_deep(system, method, t, y)
       class(ode_system_t), intent(inout) :: system   !! the system, last evaluated at the end of the step
       class(integrator_t), intent(inout) :: method   !! the integrator
@@ -97,7 +97,7 @@ contains
       end do
       if (.not. any(has_begun)) then
          call note_passed(system, method, 1.0_wp)
-         if (status == advance_event) return  ! the integrator begins anew
+         if (status == advance_event) return  ! the integrator starts anew
          method%onset%gap = method%onset%end_gap
          method%onset%rate = method%onset%end_rate
          method%onset%is_waiting = method%onset%is_waiting .and. method%onset%end_gap > 0.0_wp .and. method%onset%end_rate < 0.0_wp

@@ -1,13 +1,13 @@
-!> Contacts that begin and end within a step, where onsets are looked for at the ends of steps only.
+!> Contacts that start and end within a step, where onsets are searched at the ends of steps only.
 !>
-!> The interpolant of the step is looked at wherever the gaps at its ends leave room for a contact, at eight places and at least as
-!> often as the output asks for, as located onsets are. A gap function (positive: the surfaces overlap) that rises above zero and
+!> The interpolant of the step is looked at wherever the gaps at its ends leave storage for a contact, at eight places and at least
+!> as often as the output asks for, as located onsets are. A gap function (positive: the surfaces overlap) that rises above zero and
 !> is not above it, or falls, where the step ends belongs to a contact that is passed over: it never gets a force. A function that
-!> begins the step within its round-off must rise above that, so that a contact that has just ended is none.
+!> starts the step within its round-off must rise above that, so that a contact that has just ended is none.
 !>
-!> Nothing of the motion follows from this; it is counted, and the run tells it. Signs: event functions of onsets are penetrations.
-!> Source: none, the search is that of `event_location`. Limits: what the interpolant shows at these places and at the maxima
-!> between them.
+!> Nothing of the motion follows from this; it is counted, and the run reports it. Signs: event functions of onsets are
+!> penetrations. Source: none, the search is that of `event_location`. Limits: what the interpolant shows at these places and at the
+!> maxima between them.
 module passed_onsets
    use event_chance, only: is_long, may_happen
    use event_search, only: state_at
@@ -59,7 +59,7 @@ contains
             passed%rate_before = passed%rate
             s_before = s
          end do
-         do k = 1, system%n_event  ! overlapping where the step ends, but no longer approaching: that begins no contact
+         do k = 1, system%n_event  ! overlapping where the step ends, but no longer approaching: that starts no contact
             if (last >= 1.0_wp .and. passed%top(k) > 0.0_wp .and. passed%rate(k) <= 0.0_wp) call count_one(method, k)
          end do
          call system%settle(method%step%t0 + method%step%h, method%step%y1, passed%gap, passed%rate)
@@ -67,7 +67,7 @@ contains
       end associate
    end subroutine note_passed
 
-   !> Whether the ends of the step leave room for a contact.
+   !> Whether the ends of the step leave storage for a contact.
    logical function leaves_room(system, method, k)
       class(ode_system_t), intent(in) :: system      !! the system
       class(integrator_t), intent(in) :: method      !! the integrator, after a step
@@ -137,7 +137,7 @@ contains
       end associate
    end subroutine climb
 
-   !> The greatest value of a function since it is above zero.
+   !> The maximum value of a function since it is above zero.
    subroutine raise(method, k, value, s)
       class(integrator_t), intent(inout) :: method   !! the integrator
       integer, intent(in) :: k                       !! event function

@@ -42,7 +42,7 @@ contains
       integer, intent(in) :: n_position   !! leading entries that are positions
       integer, intent(in) :: n_turning    !! bodies that turn in space, the first ones
       real(wp), intent(in) :: s           !! place in the step, 0 to 1 [1]
-      integer, intent(in) :: n            !! entries that are wanted, positions and rates among them
+      integer, intent(in) :: n            !! entries that are requested, positions and rates among them
       real(wp), intent(inout) :: y(n)     !! (n) state, set [any]
 
       integer :: body

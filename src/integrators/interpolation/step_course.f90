@@ -1,7 +1,7 @@
-!> How time goes along a step of a Runge-Kutta method: evenly, or as a square from or to a place where a force begins or ends.
+!> How time goes along a step of a Runge-Kutta method: evenly, or as a square from or to a place where a force starts or ends.
 !>
 !> A contact force goes like a half-integer power of the time since its onset, t^1.5 of Hertz's, and of the time left to its end.
-!> Velocities have t^2.5 in them, positions t^3.5, so that a step that begins there has an error of the order h^2.5, whatever the
+!> Velocities have t^2.5 in them, positions t^3.5, so that a step that starts there has an error of the order h^2.5, whatever the
 !> method. With t = t_0 + h p(s), 0 <= s <= 1, the equations are
 !>
 !> $$ dy/ds = h p'(s) f(t, y), \qquad p = s^2 \text{ from a root}, \quad p = s (2 - s) \text{ to one}, \quad p = s \text{ else} $$
@@ -18,7 +18,7 @@ module step_course
    public :: along, course_even, course_from_root, course_to_root, pace_at, parameter_of
 
    integer, parameter :: course_even = 0        !! time goes evenly
-   integer, parameter :: course_from_root = 1   !! a force begins like a root of time at the start of the step
+   integer, parameter :: course_from_root = 1   !! a force starts like a root of time at the start of the step
    integer, parameter :: course_to_root = 2     !! one ends so at its end
 
 contains

@@ -46,7 +46,7 @@ module step_nodes
 
 contains
 
-   !> Room for states.
+   !> Storage for states.
    pure subroutine nodes_open(self, n)
       class(step_nodes_t), intent(inout) :: self  !! the states
       integer, intent(in) :: n                    !! entries of a state

@@ -1,7 +1,7 @@
 !> Adams' method in Nordsieck's form, variable order 1 to 12 and variable step, by SUNDIALS' CVODE.
 !>
 !> For smooth motion and small tolerances: one or two evaluations a step. Every event costs a new
-!> beginning at order 1. Not for stiff equations: the fixed-point iteration keeps the step short.
+!> start at order 1. Not for stiff equations: the fixed-point iteration keeps the step short.
 !>
 !> Accuracy of events: the event function is zero to round-off, the time as accurate as the motion
 !> (docs/accuracy.md has the figures).
@@ -24,7 +24,7 @@ module adams
 
 contains
 
-   !> What the method says of itself.
+   !> Description of the method.
    function adams_info() result(info)
       type(kind_info_t) :: info  !! name and help
 

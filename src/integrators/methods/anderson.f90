@@ -22,14 +22,14 @@ module anderson
    !> The last steps.
    type :: anderson_t
       private
-      integer :: n_step = 0                       !! steps since the iteration began
+      integer :: n_step = 0                       !! steps since the iteration started
       real(wp), allocatable :: f(:)               !! (n) f of the last step [any]
       real(wp), allocatable :: d(:)               !! (n) the last step [any]
       real(wp), allocatable :: x_change(:, :)     !! (n, depth) X [any]
       real(wp), allocatable :: f_change(:, :)     !! (n, depth) F [any]
       real(wp), allocatable :: scaled(:, :)       !! (n, depth) F over the scales [any]
       real(wp), allocatable :: g(:)               !! (n) right side and solution [any]
-      real(wp) :: work(depth*(block + 1)) = 0.0_wp  !! (any) room [any]
+      real(wp) :: work(depth*(block + 1)) = 0.0_wp  !! (any) workspace [any]
    contains
       procedure :: open => anderson_open
       procedure :: begin
@@ -38,7 +38,7 @@ module anderson
 
 contains
 
-   !> Room for n unknowns.
+   !> Storage for n unknowns.
    subroutine anderson_open(self, n)
       class(anderson_t), intent(inout) :: self  !! the acceleration
       integer, intent(in) :: n                  !! number of unknowns
@@ -47,7 +47,7 @@ contains
                 source=0.0_wp)
    end subroutine anderson_open
 
-   !> An iteration begins.
+   !> An iteration starts.
    pure subroutine begin(self)
       class(anderson_t), intent(inout) :: self  !! the acceleration
 

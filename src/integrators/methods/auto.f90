@@ -1,4 +1,4 @@
-!> The method of integration chosen as the motion goes on: explicit, or implicit where the equations are stiff.
+!> The method of integration chosen as the motion continues: explicit, or implicit where the equations are stiff.
 !>
 !> Explicit steps are those of `dop853`, of order 8, at tolerances up to `order_8_up_to`, and of `verner`, of order 6, at looser
 !> ones: to the bit those of that method, as long as no others are made. Where stability, not accuracy, keeps them short
@@ -97,7 +97,7 @@ module auto
          real(wp), intent(inout) :: y(system%n)     !! (n) state [any]
       end subroutine auto_within
 
-      !> State at a time within the last step as rows tell it.
+      !> State at a time within the last step as rows report it.
       module subroutine auto_reach(self, system, t, y)
          implicit none (type, external)
          class(auto_t), intent(inout) :: self          !! the integrator
@@ -124,7 +124,7 @@ module auto
    end interface
 
    interface
-      !> The implicit part gets what every integrator keeps; it is made when it is wanted first.
+      !> The implicit part gets what every integrator keeps; it is made when it is requested first.
       module subroutine lend_state(self, system, status)
          implicit none (type, external)
          class(auto_t), intent(inout) :: self       !! the integrator
@@ -193,7 +193,7 @@ module auto
 
 contains
 
-   !> What the method says of itself.
+   !> Description of the method.
    function auto_info() result(info)
       type(kind_info_t) :: info  !! name and help
 
@@ -217,7 +217,7 @@ contains
       may_change = self%controls%fixed_step <= 0.0_wp .and. self%controls%onset == onset_located
    end function may_change
 
-   !> Room for the stages of the explicit method that the tolerance asks for.
+   !> Storage for the stages of the explicit method that the tolerance asks for.
    subroutine auto_prepare(self, n)
       class(auto_t), intent(inout) :: self  !! the integrator
       integer, intent(in) :: n              !! entries of the state
@@ -282,7 +282,7 @@ contains
       end if
    end function auto_fastest_rate
 
-   !> One accepted step, of the method that was chosen after the last one. Where the implicit one fails, the explicit one goes on.
+   !> One accepted step, of the method that was chosen after the last one. Where the implicit one fails, the explicit one continues.
    subroutine auto_advance(self, system, t_stop, status)
       class(auto_t), intent(inout) :: self          !! the integrator
       class(ode_system_t), intent(inout) :: system  !! the system
@@ -365,7 +365,7 @@ contains
       call self%choice%note_step(self%step%h)
    end subroutine advance_implicit
 
-   !> The explicit method goes on from the present state.
+   !> The explicit method continues from the present state.
    subroutine leave_implicit(self, system, status)
       class(auto_t), intent(inout) :: self          !! the integrator
       class(ode_system_t), intent(inout) :: system  !! the system
@@ -383,7 +383,7 @@ contains
    subroutine auto_restart(self, system, step_hint, status)
       class(auto_t), intent(inout) :: self          !! the integrator
       class(ode_system_t), intent(inout) :: system  !! the system
-      real(wp), intent(in) :: step_hint             !! step that suits what begins now; 0: as before [s]
+      real(wp), intent(in) :: step_hint             !! step that suits what starts now; 0: as before [s]
       integer, intent(out) :: status                !! advance_step, or a failure
 
       if (.not. self%is_implicit) then

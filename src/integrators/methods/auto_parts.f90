@@ -7,7 +7,7 @@ submodule(auto) auto_parts
    implicit none (type, external)
 
    real(wp), parameter :: in_films = 0.01_wp           !! tolerance of the implicit method over TOL where films act [1]
-   real(wp), parameter :: min_in_films = 1.0e-12_wp  !! least tolerance that this factor leads to [1]
+   real(wp), parameter :: min_in_films = 1.0e-12_wp  !! minimum tolerance that this factor leads to [1]
 
 contains
 
@@ -54,7 +54,7 @@ contains
       end if
    end procedure auto_within
 
-   !> State at a time within the last step as rows tell it.
+   !> State at a time within the last step as rows report it.
    module procedure auto_reach
       integer :: status
 
@@ -67,7 +67,7 @@ contains
       call take_state(self)
    end procedure auto_reach
 
-   !> The implicit part gets what every integrator keeps; it is made when it is wanted first.
+   !> The implicit part gets what every integrator keeps; it is made when it is requested first.
    module procedure lend_state
       status = advance_step
       if (.not. allocated(self%stiff)) then
@@ -113,7 +113,7 @@ contains
    end procedure take_state
 
    !> The arrays that every integrator keeps change places with those of the implicit part; those of onsets that are not located
-   !> are not wanted there.
+   !> are not requested there.
    subroutine exchange_arrays(self)
       class(auto_t), intent(inout) :: self       !! the integrator
 

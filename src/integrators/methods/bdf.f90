@@ -27,7 +27,7 @@ module bdf
 
 contains
 
-   !> What the method says of itself.
+   !> Description of the method.
    function bdf_info() result(info)
       type(kind_info_t) :: info  !! name and help
 

@@ -7,7 +7,7 @@
 !>
 !> of order 8 in the step. Output between steps is of order 7, by three more stages; until it is asked for, and for the search of
 !> events, the step is the quintic of `interpolation`. Steps and events: see `one_step`. For tight tolerances: below about 1e-6 it
-!> takes fewer evaluations than methods of order 6. Where a force of contact begins or ends time may go as a square (`step_course`):
+!> takes fewer evaluations than methods of order 6. Where a force of contact starts or ends time may go as a square (`step_course`):
 !> derivatives are those by the parameter of the step then.
 !>
 !> Source: E. Hairer, S. P. Norsett and G. Wanner, Solving Ordinary Differential Equations I, 2nd ed. (1993), section II.5 and II.6,
@@ -39,7 +39,7 @@ module dop853
 
 contains
 
-   !> What the method says of itself.
+   !> Description of the method.
    function dop853_info() result(info)
       type(kind_info_t) :: info  !! name and help
 
@@ -48,7 +48,7 @@ contains
       info%source = "Hairer, Norsett and Wanner (1993)"
    end function dop853_info
 
-   !> Room for the stages.
+   !> Storage for the stages.
    subroutine dop853_prepare(self, n)
       class(dop853_t), intent(inout) :: self  !! the integrator
       integer, intent(in) :: n                !! entries of the state

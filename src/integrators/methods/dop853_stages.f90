@@ -150,7 +150,7 @@ contains
    !> Length: a formula for each stage.
    pure subroutine add_stages(stage, n, n_all, y0, h, k, y)
       integer, intent(in) :: stage       !! the stage, 2 to 13
-      integer, intent(in) :: n           !! entries that are wanted
+      integer, intent(in) :: n           !! entries that are requested
       integer, intent(in) :: n_all       !! entries of the state
       real(wp), intent(in) :: y0(n_all)  !! (n_all) state at the start [any]
       real(wp), intent(in) :: h          !! length of the step [s]
@@ -372,7 +372,7 @@ contains
 
    !> The interpolant of order 7.
    pure subroutine sum_terms(n, n_all, u, y0, term, y)
-      integer, intent(in) :: n                     !! entries that are wanted
+      integer, intent(in) :: n                     !! entries that are requested
       integer, intent(in) :: n_all                 !! entries of the state
       real(wp), intent(in) :: u                    !! parameter of the place in the step, 0 to 1 [1]
       real(wp), intent(in) :: y0(n_all)            !! (n_all) state at its start [any]

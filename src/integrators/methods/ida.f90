@@ -3,14 +3,15 @@
 !> Positions and velocities satisfy their constraints at every step, to the error of Newton's iteration:
 !> no stabilisation is needed and none acts. A system without constraints is integrated as it is. The
 !> Jacobian by difference quotients over state and multipliers is a full matrix up to 50 bodies, beyond sparse. Newton's iteration
-!> goes on until the multipliers are found, as what they do to the velocities in a step says; the local error is that of the state.
+!> continues until the multipliers are found, as what they do to the velocities in a step says; the local error is that of the
+!> state.
 !>
 !> Accuracy of events: the event function is zero to round-off, the time as accurate as the motion
 !> (docs/accuracy.md has the figures).
 !>
 !> Source: C. W. Gear, B. Leimkuhler and G. K. Gupta, Automatic integration of Euler-Lagrange equations
 !> with constraints, J. Comput. Appl. Math. 12-13 (1985) 77-90; A. C. Hindmarsh et al. (2005).
-!> Limits: of redundant constraints some are left out, chosen where an integration begins, and anew where the step has become too
+!> Limits: of redundant constraints some are omitted, chosen where an integration starts, and anew where the step has become too
 !> small, since those that are kept have come to depend on one another. Friction in joints, which needs the multipliers
 !> of all rows, is refused there.
 module ida
@@ -31,7 +32,7 @@ module ida
 
 contains
 
-   !> What the method says of itself.
+   !> Description of the method.
    function ida_info() result(info)
       type(kind_info_t) :: info  !! name and help
 

@@ -1,7 +1,7 @@
 !> When `auto` changes from an explicit method to an implicit one, and back.
 !>
 !> The other method is tried first: some steps from the present state, which are then discarded (`method_trial`). They take n
-!> evaluations to come to a time t_1. The present method goes on from the same state. If it takes `advantage` n evaluations to
+!> evaluations to come to a time t_1. The present method continues from the same state. If it takes `advantage` n evaluations to
 !> come to t_1, or before it comes there, the other method makes the next steps. So it does where `usual_trial` evaluations show
 !> that it will take `decisive` times as many. Else the present one remains, and the next trial waits until the last one is a small
 !> part of all evaluations, each time twice as long.
@@ -32,13 +32,13 @@ module method_choice
    integer(i8), parameter :: longest_wait(2) = [2_i8**40, 80_i8]  !! (of the implicit, of the explicit method) the same, at most
 
    !> The choice, and what the next one hangs on.
-   !> Components: the comparison that is going on, and what is reported.
+   !> Components: the comparison that is continuing, and what is reported.
    type :: method_choice_t
       logical :: is_implicit = .false.          !! whether the next step is one of the implicit method
       logical :: is_at_event = .false.          !! an event has come since the last trial
       logical :: is_comparing = .false.         !! whether the present method is compared with the last trial
       type(trial_t) :: trial                    !! outcome of that
-      integer(i8), private :: n_begin = 0       !! evaluations when the comparison began
+      integer(i8), private :: n_begin = 0       !! evaluations when the comparison started
       integer(i8), private :: n_trial = 0       !! evaluations when the last trial was over
       integer(i8), private :: n_wait = 0        !! evaluations from there to the next one
       integer(i8), private :: n_regular = first_regular  !! evaluations after which the implicit method is tried in any case
@@ -48,7 +48,7 @@ module method_choice
       integer(i8) :: n_change = 0               !! changes of the method
       integer(i8) :: n_step = 0                 !! steps of the implicit method
       real(wp) :: time = 0.0_wp                 !! time that they lead through [s]
-      real(wp) :: product_now = 0.0_wp          !! step times spectral radius of the explicit method when the trial began [1]
+      real(wp) :: product_now = 0.0_wp          !! step times spectral radius of the explicit method when the trial started [1]
       real(wp) :: t_change(most_changes) = 0.0_wp  !! (change) time [s]
       real(wp) :: product(most_changes) = 0.0_wp   !! (change) step times spectral radius, 0: it is not that [1]
    contains
@@ -76,7 +76,7 @@ contains
       wants_trial = wants_trial .or. (.not. (self%is_comparing .or. self%is_implicit) .and. n_evaluation >= self%n_regular)
    end function wants_trial
 
-   !> A trial of the other method is over: the comparison begins.
+   !> A trial of the other method is over: the comparison starts.
    pure subroutine note_trial(self, trial, n_evaluation, product)
       class(method_choice_t), intent(inout) :: self !! the choice
       type(trial_t), intent(in) :: trial            !! outcome
@@ -152,7 +152,7 @@ contains
       self%time = self%time + h
    end subroutine note_step
 
-   !> The implicit method has failed: the explicit one goes on.
+   !> The implicit method has failed: the explicit one continues.
    pure subroutine give_up(self, t, n_evaluation)
       class(method_choice_t), intent(inout) :: self !! the choice
       real(wp), intent(in) :: t                     !! time [s]

@@ -15,7 +15,7 @@ module method_trial
 
    !> Outcome of a trial.
    type :: trial_t
-      real(wp) :: t_begin = 0.0_wp     !! where it began [s]
+      real(wp) :: t_begin = 0.0_wp     !! where it started [s]
       real(wp) :: t_end = 0.0_wp       !! where it ended [s]
       real(wp) :: h = 0.0_wp           !! step that the method would make next [s]
       integer(i8) :: n_evaluation = 0  !! evaluations

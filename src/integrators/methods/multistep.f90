@@ -8,14 +8,14 @@
 !> Events: a sign change at the ends of a step is not enough (the libraries' own root finders look no
 !> further), so the polynomial is searched as for every method, and the bracket halved on it to
 !> round-off. So an event function is zero to round-off at its event, and the time of the event is as
-!> accurate as the polynomial. The step ends there; the library begins anew with order 1.
+!> accurate as the polynomial. The step ends there; the library starts anew with order 1.
 !>
 !> A step that contradicts itself is not taken: if an event function becomes positive in it while its own rate says that it falls,
 !> the error of the step is more than what the event function has to go. So it is after the end of a contact that parts slowly,
 !> where the tolerance allows the first steps, of order 1, an error beyond the depth of the next contact. The step is repeated, a
-!> tenth as long, until it is too short to tell.
+!> tenth as long, until it is too short to report.
 !>
-!> Checkpoints: the history is not saved. A run that is loaded begins anew at order 1 at the saved
+!> Checkpoints: the history is not saved. A run that is loaded starts anew at order 1 at the saved
 !> state, so it agrees with the uninterrupted one to the tolerance, not to the last bit.
 module multistep
    use event_location, only: find_first_event
@@ -29,7 +29,7 @@ module multistep
    private
    public :: multistep_t
 
-   real(wp), parameter :: tiny_step = 200.0_wp    !! of the spacing of time: too short a stretch for a library to begin on [1]
+   real(wp), parameter :: tiny_step = 200.0_wp    !! of the spacing of time: too short a stretch for a library to start on [1]
    real(wp), parameter :: shorter = 0.1_wp        !! length of a step that is repeated, of the one before [1]
 
    !> The last step that a library made.
@@ -44,10 +44,10 @@ module multistep
    !> A multistep method.
    type, abstract, extends(integrator_t) :: multistep_t
       class(library_t), allocatable :: library   !! makes the steps
-      logical :: is_fresh = .true.               !! the library must begin anew
+      logical :: is_fresh = .true.               !! the library must start anew
       real(wp) :: first_step = 0.0_wp            !! first step to try when it does, 0: it chooses [s]
-      integer :: n_rejected_before = 0           !! steps rejected before the library began anew
-      logical :: projects = .false.                 !! the library cannot begin off the constraints: states between steps are mended
+      integer :: n_rejected_before = 0           !! steps rejected before the library started anew
+      logical :: projects = .false.  !! the library cannot start off the constraints: states between steps are corrected
       type(library_step_t) :: last               !! the library's last step
    contains
       procedure(make_library_interface), deferred :: make_library
@@ -65,7 +65,7 @@ module multistep
    end type multistep_t
 
    abstract interface
-      !> The library that makes the steps, not begun.
+      !> The library that makes the steps, not started.
       subroutine make_library_interface(self)
          import :: multistep_t
          implicit none (type, external)
@@ -99,7 +99,7 @@ contains
       begins_anew = .true.
    end function multistep_begins_anew
 
-   !> Begin at a state.
+   !> Start at a state.
    subroutine multistep_start(self, system, t, y, t_end, status)
       class(multistep_t), intent(inout) :: self     !! the integrator
       class(ode_system_t), intent(inout) :: system  !! the system
@@ -122,12 +122,12 @@ contains
       self%first_step = min(self%controls%initial_step, t_end - t)
    end subroutine multistep_start
 
-   !> Evaluate anew at the present state; the library begins anew with the next step. The step hint
-   !> suits a method of higher order: order 1 begins with the square root of the tolerance times it.
+   !> Evaluate anew at the present state; the library starts anew with the next step. The step hint
+   !> suits a method of higher order: order 1 starts with the square root of the tolerance times it.
    subroutine multistep_restart(self, system, step_hint, status)
       class(multistep_t), intent(inout) :: self     !! the integrator
       class(ode_system_t), intent(inout) :: system  !! the system
-      real(wp), intent(in) :: step_hint             !! step that suits what begins now; 0: not known [s]
+      real(wp), intent(in) :: step_hint             !! step that suits what starts now; 0: not known [s]
       integer, intent(out) :: status                !! advance_step, or a failure
 
       self%is_fresh = .true.
@@ -210,7 +210,7 @@ contains
       call accept(self, system, t, status)
    end subroutine try_step
 
-   !> Give up the last step: the library begins anew where it began, with a shorter one.
+   !> Give up the last step: the library starts anew where it started, with a shorter one.
    subroutine repeat_shorter(self, system, status)
       class(multistep_t), intent(inout) :: self     !! the integrator
       class(ode_system_t), intent(inout) :: system  !! the system
@@ -249,7 +249,7 @@ contains
       if (status == advance_step) then
          call system%set_step(self%library%next_step())
          call self%library%step(t_stop, t, self%trial, status)
-         ! the libraries go on without moving, and may try again what failed for good
+         ! the libraries continue without moving, and may try again what failed for good
          if (status == advance_step .and. (t <= self%t .or. self%library%problem%is_fatal)) status = self%library%failure()
          self%count%n_rejected = self%n_rejected_before + self%library%n_rejected()
       end if
@@ -292,7 +292,7 @@ contains
       if (event > 0) call go_to_event(self, system, low, high, event, status)
    end subroutine accept
 
-   !> State at a place of the last step, held or mended.
+   !> State at a place of the last step, held or corrected.
    subroutine held_state(self, system, s, y, status)
       class(multistep_t), intent(in) :: self        !! the integrator
       class(ode_system_t), intent(inout) :: system  !! the system
@@ -348,7 +348,7 @@ contains
       status = merge(advance_step, advance_failed_evaluation, status == 0)
    end subroutine multistep_refine
 
-   !> Read what the integrator remembers: the library begins anew from there.
+   !> Read what the integrator remembers: the library starts anew from there.
    subroutine multistep_load(self, row, place)
       class(multistep_t), intent(inout) :: self  !! the integrator
       real(wp), intent(in) :: row(:)             !! (any) checkpoint [any]

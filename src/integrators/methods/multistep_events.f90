@@ -31,7 +31,7 @@ contains
       status = merge(merge(advance_event, advance_step, is_found), advance_failed_evaluation, status == 0)
    end procedure go_to_event
 
-   !> Whether a shorter step may tell more of an event function: its rate is known as well as its value, and there is time to
+   !> Whether a shorter step may report more of an event function: its rate is known as well as its value, and there is time to
    !> divide.
    pure logical function can_be_repeated(self, event)
       class(multistep_t), intent(in) :: self   !! the integrator

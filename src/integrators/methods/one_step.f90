@@ -24,7 +24,7 @@ module one_step
    private
    public :: one_step_advance, one_step_load, one_step_memory_size, one_step_refine, one_step_restart, one_step_save, one_step_t
 
-   integer, parameter :: too_deep = 2             !! of a trial step: a contact that begins is beyond the limit
+   integer, parameter :: too_deep = 2             !! of a trial step: a contact that starts is beyond the limit
    real(wp), parameter :: near_event = 2.0_wp**(-10)  !! what is left of Newton's way to an event on the interpolant: beyond, its
                                                       !! square is what is missing [1]
 
@@ -51,7 +51,7 @@ module one_step
    end type one_step_t
 
    abstract interface
-      !> Room for the stages; sets `order`, `n_new_stage`, `pace%bends` if time may go as a square (`step_course`), and
+      !> Storage for the stages; sets `order`, `n_new_stage`, `pace%bends` if time may go as a square (`step_course`), and
       !> `stability%bound` of an explicit method.
       subroutine prepare_interface(self, n)
          import :: one_step_t
@@ -96,7 +96,7 @@ module one_step
 
 contains
 
-   !> Begin at a state: workspace, first derivative, first step.
+   !> Start at a state: workspace, first derivative, first step.
    subroutine one_step_start(self, system, t, y, t_end, status)
       class(one_step_t), intent(inout) :: self      !! the integrator
       class(ode_system_t), intent(inout) :: system  !! the system
@@ -142,7 +142,7 @@ contains
    subroutine one_step_restart(self, system, step_hint, status)
       class(one_step_t), intent(inout) :: self      !! the integrator
       class(ode_system_t), intent(inout) :: system  !! the system
-      real(wp), intent(in) :: step_hint             !! step that suits what begins now; 0: as before [s]
+      real(wp), intent(in) :: step_hint             !! step that suits what starts now; 0: as before [s]
       integer, intent(out) :: status                !! advance_step, or a failure
 
       call system%evaluate(self%t, self%step%y1, self%step%f1, status)
@@ -296,7 +296,7 @@ contains
       end if
    end subroutine try_step
 
-   !> Tell the system the step. A system that follows it was evaluated at the start just before, also after a step that was
+   !> Report the system the step. A system that follows it was evaluated at the start just before, also after a step that was
    !> rejected, and its derivative there is the one that belongs to the step.
    subroutine tell_step(self, system, h, status)
       class(one_step_t), intent(inout) :: self      !! the integrator

@@ -49,8 +49,8 @@ contains
    end subroutine step_by
 
    !> Newton's iteration on the length of the step towards an event, its tangent bent as the cubic of Hermite through the start of
-   !> the step is: from a place that the interpolant foretold the first correction is the last one, and so small that few stages
-   !> lead there. Where another function has clearly been above its threshold for longer, it goes on towards that one.
+   !> the step is: from a place that the interpolant predicted the first correction is the last one, and so small that few stages
+   !> lead there. Where another function has clearly been above its threshold for longer, it continues towards that one.
    subroutine close_in(self, system, event, place, h, is_found, status)
       class(one_step_t), intent(inout) :: self      !! the integrator
       class(ode_system_t), intent(inout) :: system  !! the system
@@ -110,8 +110,8 @@ contains
    end subroutine close_in
 
    !> Stages that lead from the end of a part on to where the event is: one, along the derivative, where the path does not bend so
-   !> far; four of the classical method of Runge and Kutta before a contact begins, where forces are smooth, but not with methods
-   !> for stiff ones; 0: the method itself is asked. Only of functions with known noise it can be told that they did.
+   !> far; four of the classical method of Runge and Kutta before a contact starts, where forces are smooth, but not with methods
+   !> for stiff ones; 0: the method itself is asked. Only of functions with known noise it can be reported that they did.
    integer function stages_to(self, system, event, h, h_new) result(n)
       class(one_step_t), intent(in) :: self      !! the integrator
       class(ode_system_t), intent(in) :: system  !! the system

@@ -20,9 +20,9 @@
 !> iteration ends a good deal below.
 !>
 !> Between the ends of a step: positions and rates by the quintic of `interpolation`, without evaluations within the step, which
-!> stiff forces would make worse, and in a step with a force so stiff that accelerations tell nothing (`is_stiff`), by the stages
-!> alone; other states and quadratures by the integral of the cubic through the derivatives at the start and at the stages, of
-!> order 5. A row within such a step, or where films act, is the end of a shorter step from the same start. States computed so
+!> stiff forces would make worse, and in a step with a force so stiff that accelerations carries no information (`is_stiff`), by the
+!> stages alone; other states and quadratures by the integral of the cubic through the derivatives at the start and at the stages,
+!> of order 5. A row within such a step, or where films act, is the end of a shorter step from the same start. States computed so
 !> are nodes of a polynomial, which gives the other rows of the step where its residual is small (`radau_reach`).
 !>
 !> Source: E. Hairer and G. Wanner, Solving Ordinary Differential Equations II, 2nd ed. (1996), section IV.8. Limits: where there
@@ -70,13 +70,13 @@ module radau
       type(stages_t) :: now                     !! of the step in hand, as a whole
       type(step_nodes_t) :: nodes               !! states computed within the last step
       real(wp), allocatable :: z(:, :)          !! (n, 3) changes at the stages in hand [any]
-      real(wp), allocatable :: first_z(:, :)    !! (n, 3) where an iteration begins [any]
+      real(wp), allocatable :: first_z(:, :)    !! (n, 3) where an iteration starts [any]
       real(wp), allocatable :: side(:)          !! (3 n) right side of Newton's equations [any]
       real(wp), allocatable :: change(:)        !! (3 n) their solution [any]
       real(wp), allocatable :: weight(:)        !! (3 n) error scales [any]
-      real(wp), allocatable :: y(:)             !! (all) room [any]
+      real(wp), allocatable :: y(:)             !! (all) workspace [any]
       real(wp) :: norm = 0.0_wp                 !! of the estimate over TOL' [1]
-      logical :: is_stiff = .false.             !! whether accelerations tell nothing in the step in hand
+      logical :: is_stiff = .false.             !! whether accelerations carries no information in the step in hand
       real(wp) :: contraction = 1.0_wp          !! theta/(1 - theta) of the last iteration [1]
    contains
       procedure, nopass :: info => radau_info
@@ -105,7 +105,7 @@ module radau
       !> in a part of a step at round-off; where it gets no better it has converged if it is at a hundredth of TOL'.
       module subroutine find_stages(self, system, h, is_part, is_found, status)
          implicit none (type, external)
-         class(radau_t), intent(inout) :: self                 !! the integrator; `z` is where it begins, then what it finds
+         class(radau_t), intent(inout) :: self                 !! the integrator; `z` is where it starts, then what it finds
          class(ode_system_t), intent(inout), target :: system  !! the system
          real(wp), intent(in) :: h                             !! length of the step [s]
          logical, intent(in) :: is_part                        !! of an accepted step
@@ -162,7 +162,7 @@ module radau
          integer, intent(out) :: status                !! of the evaluations
       end subroutine radau_prepare_output
 
-      !> State at a time within the last step as rows tell it: where forces are stiff by a step of that length.
+      !> State at a time within the last step as rows report it: where forces are stiff by a step of that length.
       module subroutine radau_reach(self, system, t, y)
          implicit none (type, external)
          class(radau_t), intent(inout) :: self         !! the integrator
@@ -239,7 +239,7 @@ module radau
 
 contains
 
-   !> What the method says of itself.
+   !> Description of the method.
    function radau_info() result(info)
       type(kind_info_t) :: info  !! name and help
 
@@ -255,7 +255,7 @@ contains
       radau_is_explicit = .false.
    end function radau_is_explicit
 
-   !> Room for the stages.
+   !> Storage for the stages.
    subroutine radau_prepare(self, n)
       class(radau_t), intent(inout) :: self  !! the integrator
       integer, intent(in) :: n               !! entries of the state
@@ -265,11 +265,11 @@ contains
       if (.not. allocated(self%y)) allocate (self%y(n), source=0.0_wp)
    end subroutine radau_prepare
 
-   !> Evaluate anew at the present state: stages of before no longer foretell those ahead.
+   !> Evaluate anew at the present state: stages of before no longer predict those ahead.
    subroutine radau_restart(self, system, step_hint, status)
       class(radau_t), intent(inout) :: self         !! the integrator
       class(ode_system_t), intent(inout) :: system  !! the system
-      real(wp), intent(in) :: step_hint             !! step that suits what begins now; 0: as before [s]
+      real(wp), intent(in) :: step_hint             !! step that suits what starts now; 0: as before [s]
       integer, intent(out) :: status                !! advance_step, or a failure
 
       self%now%h = 0.0_wp
@@ -279,7 +279,7 @@ contains
       if (status == advance_step) call self%open(system, status)
    end subroutine radau_restart
 
-   !> Room for the stages, the matrix and what solves without one, made once.
+   !> Storage for the stages, the matrix and what solves without one, made once.
    subroutine radau_open(self, system, status)
       class(radau_t), intent(inout) :: self         !! the integrator
       class(ode_system_t), intent(in) :: system     !! the system
@@ -302,7 +302,7 @@ contains
       status = merge(advance_step, advance_no_memory, status == 0)
    end subroutine radau_open
 
-   !> One step, by GMRES where it may be much longer than with the matrix. After a restart it begins with the derivative at the
+   !> One step, by GMRES where it may be much longer than with the matrix. After a restart it starts with the derivative at the
    !> state itself, not that behind a force that jumps there: the matrix is made of differences from it, and the estimate must see
    !> the jump, for a matrix of differences across one lets Newton's iteration seem to converge.
    subroutine radau_advance(self, system, t_stop, status)
@@ -326,7 +326,7 @@ contains
    end subroutine radau_advance
 
    !> Stages of a step of length h from the start of the present step; the end state into `trial`. Parts of an accepted step are
-   !> asked for in search of an event: there the iteration goes on to round-off, so that the state is a smooth function of the
+   !> asked for in search of an event: there the iteration continues to round-off, so that the state is a smooth function of the
    !> length; and for rows, where it need not. Where it does not converge, as beside a force that jumps, the polynomial of the
    !> whole step stands in, which is of order 3.
    subroutine radau_make_stages(self, system, h, status)
@@ -384,7 +384,7 @@ contains
       end do
    end subroutine take_end
 
-   !> A new step begins: the stages in hand become those before it.
+   !> A new step starts: the stages in hand become those before it.
    subroutine go_on(self)
       class(radau_t), intent(inout) :: self  !! the integrator
 

@@ -19,8 +19,8 @@ submodule(radau) radau_equations
    real(wp), parameter :: part_of_tolerance = 0.03_wp   !! of TOL': error left by the iteration, at most [1]
    real(wp), parameter :: part_in_rows = 0.1_wp         !! of TOL: error left in a row, at most [1]
    real(wp), parameter :: conservative = 3.0_wp         !! ratio of that, as it is estimated with the matrix, to what is left [1]
-   real(wp), parameter :: noise = 10.0_wp*eps           !! least error of the iteration, over the scales [1]
-   real(wp), parameter :: left_by_gmres(2) = [3.0e-4_wp, 1.0e-2_wp]  !! (2) of the residual of Newton's equations: least, most [1]
+   real(wp), parameter :: noise = 10.0_wp*eps           !! minimum error of the iteration, over the scales [1]
+   real(wp), parameter :: left_by_gmres(2) = [3.0e-4_wp, 1.0e-2_wp]  !! (2) of the residual of Newton's equations: minimum, most [1]
    real(wp), parameter :: left_by_filter = 0.1_wp       !! of the residual of the filter of the error [1]
 
 contains
@@ -66,10 +66,10 @@ contains
    end subroutine renew_matrix
 
    !> The iteration, with the matrix or by GMRES. Where no estimate of the error says what is enough, as with fixed steps, that
-   !> with the matrix, which gains little with each of its cheap iterations, goes on to round-off.
-   !> Length: one loop, what it begins with and what it leaves.
+   !> with the matrix, which gains little with each of its cheap iterations, continues to round-off.
+   !> Length: one loop, what it starts with and what it leaves.
    subroutine iterate(self, system, h, is_part, by_matrix, is_found, status)
-      class(radau_t), intent(inout) :: self                 !! the integrator; `z` is where it begins, then what it finds
+      class(radau_t), intent(inout) :: self                 !! the integrator; `z` is where it starts, then what it finds
       class(ode_system_t), intent(inout), target :: system  !! the system
       real(wp), intent(in) :: h                             !! length of the step [s]
       logical, intent(in) :: is_part                        !! of an accepted step
@@ -320,7 +320,7 @@ contains
 
    !> Filter of the error: change = (I - h J/u)^-1 side, of the first n entries.
    subroutine filter_side(self, system, h, status)
-      class(radau_t), intent(inout) :: self          !! the integrator, differences begun
+      class(radau_t), intent(inout) :: self          !! the integrator, differences started
       class(ode_system_t), intent(in) :: system      !! the system
       real(wp), intent(in) :: h                      !! length of the step [s]
       integer, intent(inout) :: status               !! of the evaluations

@@ -5,10 +5,10 @@
 !>
 !> $$ K = T^+ (J T - T'), \quad C = T^+ J (I - T T^+) $$
 !>
-!> are what small changes make of themselves, and what changes across T make of them, as the motion goes on: since T follows the
+!> are what small changes make of themselves, and what changes across T make of them, as the motion continues: since T follows the
 !> bodies (`to_local`), both stay good for many steps. K takes a difference of the right-hand side for each direction, and T' one
 !> of T along the motion. What holds the invariants does not act in free directions, so that C takes differences of the loads
-!> only (`evaluate_unheld`). Across T nothing is stiff, and J is left out there. With R_i what is left of the equations at stage i
+!> only (`evaluate_unheld`). Across T nothing is stiff, and J is omitted there. With R_i what is left of the equations at stage i
 !> and r = (h A)^{-1} R, resolved at each stage, Newton's equations are
 !>
 !> $$ ((h A)^{-1} \otimes I - I \otimes K) z = T^+ r + C (I - T T^+) h A r, \quad \Delta = (I - T T^+) h A r + T z $$
@@ -50,9 +50,9 @@ module radau_matrix
       complex(wp), private :: left(2, 3)                 !! (eigenvalue, stage) rows of the inverse of all three [1]
       real(wp), private :: inverse_a(3, 3) = 0.0_wp      !! (stage, stage) A^-1 [1]
       real(wp), allocatable, private :: x(:, :)          !! (local changes, 3) of each stage [any]
-      real(wp), allocatable, private :: local(:)         !! (local changes) room [any]
-      real(wp), allocatable, private :: change(:)        !! (state without quadratures) room [any]
-      real(wp), allocatable, private :: moved(:, :)      !! (all, 2) room [any]
+      real(wp), allocatable, private :: local(:)         !! (local changes) workspace [any]
+      real(wp), allocatable, private :: change(:)        !! (state without quadratures) workspace [any]
+      real(wp), allocatable, private :: moved(:, :)      !! (all, 2) workspace [any]
       real(wp), allocatable, private :: z(:, :)          !! (room, 3) in the directions, of each stage [any]
       real(wp), allocatable, private :: single(:)        !! (room) solution of the real equations [any]
       complex(wp), allocatable, private :: pair(:)       !! (room) solution of the complex equations [any]

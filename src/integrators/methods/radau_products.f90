@@ -31,8 +31,8 @@ module radau_products
       real(wp) :: h = 0.0_wp                            !! its length [s]
       real(wp) :: size = 1.0_wp                         !! of the state over the scales, at least one [1]
       real(wp), allocatable :: scale(:)                 !! (n) error scales [any]
-      real(wp), allocatable :: moved(:)                 !! (all) room [any]
-      real(wp), allocatable :: rate(:)                  !! (all) room [any]
+      real(wp), allocatable :: moved(:)                 !! (all) workspace [any]
+      real(wp), allocatable :: rate(:)                  !! (all) workspace [any]
    contains
       procedure :: derivative
    end type difference_t

@@ -15,8 +15,8 @@ module radau_stages
 
 contains
 
-   !> Where the iteration begins: on the polynomial through stages of a step that ends, or begins, where this one begins; else on
-   !> the tangent there, which friction that begins to slide has its direction from.
+   !> Where the iteration starts: on the polynomial through stages of a step that ends, or starts, where this one starts; else on
+   !> the tangent there, which friction that starts to slide has its direction from.
    pure subroutine extrapolate(stages, t, h, f0, z)
       type(stages_t), intent(in) :: stages  !! the stages
       real(wp), intent(in) :: t             !! start of the step in hand [s]

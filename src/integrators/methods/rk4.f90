@@ -4,7 +4,7 @@
 !> $$ k_1 = f(t, y_0), k_2 = f(t + h/2, y_0 + h k_1/2), k_3 = f(t + h/2, y_0 + h k_2/2), k_4 = f(t + h, y_0 + h k_3) $$
 !>
 !> It has no error estimate: the deck must give `step`. Events and stops are met by a shorter step
-!> of the same method, so that they are of order 4 too; the grid goes on from there.
+!> of the same method, so that they are of order 4 too; the grid continues from there.
 !>
 !> Source: W. Kutta, Beitrag zur naeherungsweisen Integration totaler Differentialgleichungen,
 !> Z. Math. Phys. 46 (1901) 435-453. Limits: not for stiff equations; no control of the error.
@@ -33,7 +33,7 @@ module rk4
 
 contains
 
-   !> What the method says of itself.
+   !> Description of the method.
    function rk4_info() result(info)
       type(kind_info_t) :: info  !! name and help
 
@@ -48,7 +48,7 @@ contains
       steps = steps_fixed
    end function rk4_steps
 
-   !> Room for the stages.
+   !> Storage for the stages.
    subroutine rk4_prepare(self, n)
       class(rk4_t), intent(inout) :: self  !! the integrator
       integer, intent(in) :: n             !! entries of the state

@@ -10,7 +10,7 @@
 !> was rejected (`spectral_radius`). Parts of a step, in search of an event, have the degree of the whole.
 !>
 !> Error: the combination of the last five derivatives that vanishes up to order 3. That says little of what is over early in a
-!> step: one that begins in a contact and goes on far beyond its end has all five behind it. So the part of a step that ends at an
+!> step: one that starts in a contact and continues far beyond its end has all five behind it. So the part of a step that ends at an
 !> event is tested as well, and the step is repeated, shorter, if that has too great an error.
 !> Between the ends of a step: the quintic of `interpolation`, without evaluations within the step, which stiff forces would make
 !> worse. Rows of a step in which something decays, and where films act, are reached by a step of that length from its start
@@ -70,7 +70,7 @@ module rock4
 
 contains
 
-   !> What the method says of itself.
+   !> Description of the method.
    function rock4_info() result(info)
       type(kind_info_t) :: info  !! name and help
 
@@ -87,7 +87,7 @@ contains
       rock4_is_explicit = .false.
    end function rock4_is_explicit
 
-   !> Room for the stages.
+   !> Storage for the stages.
    subroutine rock4_prepare(self, n)
       class(rock4_t), intent(inout) :: self  !! the integrator
       integer, intent(in) :: n               !! entries of the state
@@ -101,7 +101,7 @@ contains
    subroutine rock4_restart(self, system, step_hint, status)
       class(rock4_t), intent(inout) :: self         !! the integrator
       class(ode_system_t), intent(inout) :: system  !! the system
-      real(wp), intent(in) :: step_hint             !! step that suits what begins now; 0: as before [s]
+      real(wp), intent(in) :: step_hint             !! step that suits what starts now; 0: as before [s]
       integer, intent(out) :: status                !! advance_step, or a failure
 
       self%age = n_step_radius
@@ -308,8 +308,8 @@ contains
       status = 0
    end subroutine rock4_prepare_output
 
-   !> State at a time in the last step. Accelerations at its ends tell nothing of what decays within it, and films multiply what a
-   !> curve is wrong by: then by a step of that length.
+   !> State at a time in the last step. Accelerations at its ends carries no information of what decays within it, and films
+   !> multiply what a curve is wrong by: then by a step of that length.
    subroutine rock4_reach(self, system, t, y)
       class(rock4_t), intent(inout) :: self         !! the integrator
       class(ode_system_t), intent(inout) :: system  !! the system

@@ -8,7 +8,7 @@
 !>    \kappa_j = -B_j P_{j-2}/P_j $$
 !>
 !> Source: A. Abdulle, Fourth order Chebyshev methods with recurrence relation, SIAM J. Sci. Comput. 23 (2002) 2041-2054; the
-!> numbers are those of scripts/make_rock4_table. Limits: degrees up to 162. Recurrences are found when a degree is first wanted,
+!> numbers are those of scripts/make_rock4_table. Limits: degrees up to 162. Recurrences are found when a degree is first requested,
 !> and kept.
 module rock4_stages
    use kinds, only: wp
@@ -27,7 +27,7 @@ module rock4_stages
 
 contains
 
-   !> Number of the least degree that is stable for the eigenvalues between -z and 0, 0 if there is none.
+   !> Number of the minimum degree that is stable for the eigenvalues between -z and 0, 0 if there is none.
    pure integer function min_degree(z) result(k)
       real(wp), intent(in) :: z  !! step times spectral radius [1]
 
@@ -37,7 +37,7 @@ contains
       k = 0
    end function min_degree
 
-   !> Greatest step times spectral radius of all degrees.
+   !> Maximum step times spectral radius of all degrees.
    pure real(wp) function longest_stretch()
       longest_stretch = stretch(n_degree)
    end function longest_stretch

@@ -64,7 +64,7 @@ module verner
 
 contains
 
-   !> What the method says of itself.
+   !> Description of the method.
    function verner_info() result(info)
       type(kind_info_t) :: info  !! name and help
 
@@ -73,7 +73,7 @@ contains
       info%source = "Verner (1978); Hull, Enright and Jackson (1976)"
    end function verner_info
 
-   !> Room for the stages.
+   !> Storage for the stages.
    subroutine verner_prepare(self, n)
       class(verner_t), intent(inout) :: self  !! the integrator
       integer, intent(in) :: n                !! entries of the state
@@ -225,7 +225,7 @@ contains
       class(ode_system_t), intent(in) :: system  !! the system
       real(wp), intent(in) :: f0(:)              !! (n) derivative at the start of the step [any]
       real(wp), intent(in) :: scale(:)           !! (n) what the entries are measured by [any]
-      logical, intent(in) :: is_euclidean        !! the root of the sum of squares; else the greatest entry
+      logical, intent(in) :: is_euclidean        !! the root of the sum of squares; else the maximum entry
 
       norm = estimate_norm(system%n - system%n_quadrature, system%n, is_euclidean, f0, self%k, scale)
    end function stages_norm
@@ -255,7 +255,7 @@ contains
    pure real(wp) function estimate_norm(n, n_all, is_euclidean, k1, k, scale) result(norm)
       integer, intent(in) :: n                !! entries that count
       integer, intent(in) :: n_all            !! entries of the state
-      logical, intent(in) :: is_euclidean     !! the root of the sum of squares; else the greatest entry
+      logical, intent(in) :: is_euclidean     !! the root of the sum of squares; else the maximum entry
       real(wp), intent(in) :: k1(n_all)       !! (n_all) derivative of the first stage [any]
       real(wp), intent(in) :: k(n_all, 2:8)   !! (n_all, 2:8) derivatives of the other stages [any]
       real(wp), intent(in) :: scale(n_all)    !! (n_all) what the entries are measured by [any]

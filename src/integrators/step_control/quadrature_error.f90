@@ -36,7 +36,7 @@ contains
       allowed = merge(by_multistep, of_moving, norm <= idle)
    end function allowed_by_multistep
 
-   !> Greatest error over its scale and what is allowed of it. An error that is not a number is skipped: no shorter step mends it.
+   !> Maximum error over its scale and what is allowed of it. An error that is not a number is skipped: no shorter step corrects it.
    pure real(wp) function max_error(n, error, scale, allowed) result(norm)
       integer, intent(in) :: n          !! number of quadratures
       real(wp), intent(in) :: error(n)  !! (n) estimates of their errors [any]

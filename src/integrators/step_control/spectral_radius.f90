@@ -26,9 +26,9 @@ contains
       real(wp), intent(in) :: y(system%n)              !! (n) state [any]
       real(wp), intent(in) :: f(system%n)              !! (n) its derivative [any]
       real(wp), intent(in) :: scale(system%n)          !! (n) error scales [any]
-      real(wp), intent(inout) :: direction(system%n)   !! (n) where to begin, zero: along f; then the last one [any]
-      real(wp), intent(inout) :: moved(system%n)       !! (n) room [any]
-      real(wp), intent(inout) :: rate(system%n)        !! (n) room [any]
+      real(wp), intent(inout) :: direction(system%n)   !! (n) where to start, zero: along f; then the last one [any]
+      real(wp), intent(inout) :: moved(system%n)       !! (n) workspace [any]
+      real(wp), intent(inout) :: rate(system%n)        !! (n) workspace [any]
       real(wp), intent(out) :: radius                  !! the radius, with its reserve [1/s]
       integer, intent(out) :: n_evaluation             !! evaluations
       integer, intent(out) :: status                   !! of the evaluations

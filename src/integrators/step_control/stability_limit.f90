@@ -33,12 +33,12 @@ module stability_limit
       integer :: pause = look_every          !! steps until the next look
       integer :: n_near = 0                  !! looks near the bound in this stretch of steps
       integer :: n_below = 0                 !! looks below since the last of them
-      real(wp) :: t_from = 0.0_wp            !! where the stretch began [s]
+      real(wp) :: t_from = 0.0_wp            !! where the stretch started [s]
       real(wp) :: product = 0.0_wp           !! h rho at the last look [1]
       ! over the run
       integer(i8) :: n_step = 0              !! steps that stability kept short
       real(wp) :: time = 0.0_wp              !! their lengths together [s]
-      real(wp) :: t_first = -1.0_wp          !! where the first stretch of them began; negative: there was none [s]
+      real(wp) :: t_first = -1.0_wp          !! where the first stretch of them started; negative: there was none [s]
    contains
       procedure :: is_due
       procedure :: note
@@ -103,7 +103,7 @@ contains
       self%time = self%time + h
    end subroutine note
 
-   !> A new stretch begins.
+   !> A new stretch starts.
    pure subroutine forget(self)
       class(stability_limit_t), intent(inout) :: self   !! what was seen
 

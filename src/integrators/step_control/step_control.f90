@@ -1,4 +1,4 @@
-!> Length of the steps of a one-step method, from its error estimates and the events that are foretold.
+!> Length of the steps of a one-step method, from its error estimates and the events that are predicted.
 !>
 !> A step is accepted if the norm E of the error estimate over the tolerance is at most 1. With p the order of the method and E_0
 !> the norm of the step before, but at least 0.01,
@@ -6,21 +6,21 @@
 !> $$ h' = 0.93 E^{-0.8125/p} E_0^{0.25/p} h, $$
 !>
 !> at most 4 h, and no more than h right after a rejection. A step that was rejected is tried again with h' = 0.93 E^(-1/p) h, at
-!> least h/10.
+!> minimum h/10.
 !>
-!> A force like delta^1.5 that begins or ends in a step leaves an error of the order h^2.5, whatever the method. Where a step is
+!> A force like delta^1.5 that starts or ends in a step leaves an error of the order h^2.5, whatever the method. Where a step is
 !> rejected right after a restart, or across an event, 2.5 stands for p; where it is rejected again, what the two estimates show.
 !> A method that can let time go as a square (`step_course`) does so in the first step of a contact and in the last one: 4.5 then.
 !>
 !> Contacts: their first step is a part of the step that suits them, and so is the last one; from contact to contact the estimates
-!> tell how great a part. What comes before the last step ends there, and what comes after the first one is smooth: it is
+!> report how great a part. What comes before the last step ends there, and what comes after the first one is smooth: it is
 !> up to twice as long, whatever the estimate of the first.
 !>
-!> Events: a step that would go on beyond an event foretold (`event_prediction`) ends a little behind it. If it is rejected, its
-!> estimate tells from where on a step across will do; until then each step takes a part of the way to the event. An event much
+!> Events: a step that would continue beyond an event predicted (`event_prediction`) ends a little behind it. If it is rejected, its
+!> estimate reports from where on a step across will do; until then each step takes a part of the way to the event. An event much
 !> nearer than a step is long is not worth one, until such a step is rejected.
 !>
-!> After a restart with a step that suits what begins, the step of before is kept for when it has ended.
+!> After a restart with a step that suits what starts, the step of before is kept for when it has ended.
 !>
 !> Source: E. Hairer, S. P. Norsett and G. Wanner, Solving Ordinary Differential Equations I, 2nd ed. (1993), section II.4; the
 !> norm of the step before: E. Hairer and G. Wanner, Solving Ordinary Differential Equations II, 2nd ed. (1996), section IV.2.
@@ -36,8 +36,8 @@ module step_control
    real(wp), parameter :: safety = 0.93_wp     !! of the step that the estimate would allow [1]
    real(wp), parameter :: contact_rate = 0.25_wp      !! how far the step of before counts; of what that takes, three quarters [1]
    real(wp), parameter :: min_norm = 0.01_wp !! of the step before, where it counts [1]
-   real(wp), parameter :: growth = 4.0_wp      !! greatest ratio of successive steps [1]
-   real(wp), parameter :: shrinkage = 0.1_wp   !! least ratio of successive steps [1]
+   real(wp), parameter :: growth = 4.0_wp      !! maximum ratio of successive steps [1]
+   real(wp), parameter :: shrinkage = 0.1_wp   !! minimum ratio of successive steps [1]
    real(wp), parameter :: rough = 2.5_wp       !! order where the right-hand side is not smooth [1]
    real(wp), parameter :: bent = 4.5_wp        !! the same, where time goes as a square [1]
    real(wp), parameter :: after_root = 2.0_wp  !! ratio of the second step of a contact to the first, at most [1]
@@ -45,7 +45,7 @@ module step_control
    real(wp), parameter :: nearer = 0.6_wp      !! end of a step towards an event, of the way to it [1]
    real(wp), parameter :: ahead = 0.8_wp       !! last step of a contact that the one before leaves, of the longest that will do [1]
    real(wp), parameter :: longer = 2.0_wp      !! last step of a contact, of an even one there, at most [1]
-   real(wp), parameter :: worth = 0.01_wp      !! least part of a step that it is shortened to for an event [1]
+   real(wp), parameter :: worth = 0.01_wp      !! minimum part of a step that it is shortened to for an event [1]
    integer, parameter :: n_control_number = 11 !! numbers of a checkpoint
 
    !> The control.
@@ -53,15 +53,15 @@ module step_control
       real(wp) :: order = 1.0_wp                  !! p of the method [1]
       real(wp) :: h_most = huge(1.0_wp)           !! longest step that the method can make [s]
       real(wp) :: h_next = 0.0_wp                 !! step to try next [s]
-      real(wp) :: h_before = 0.0_wp               !! step before a disturbance began, 0: none [s]
-      real(wp) :: h_event = huge(1.0_wp)          !! time to the next event foretold, huge: none [s]
+      real(wp) :: h_before = 0.0_wp               !! step before a disturbance started, 0: none [s]
+      real(wp) :: h_event = huge(1.0_wp)          !! time to the next event predicted, huge: none [s]
       logical :: is_parting = .false.             !! it is the end of a contact
       logical :: bends = .false.                  !! time may go as a square
       integer :: course = course_even             !! how it goes in the step in hand
-      real(wp), private :: h_contact = 0.0_wp     !! step that suits the contact that began last, 0: none yet [s]
+      real(wp), private :: h_contact = 0.0_wp     !! step that suits the contact that started last, 0: none yet [s]
       real(wp), private :: first = 1.0_wp         !! first step of a contact, of that [1]
       real(wp), private :: last = huge(1.0_wp)    !! last step of a contact, of that, if less than the first [1]
-      logical, private :: is_onset = .false.      !! a contact has just begun
+      logical, private :: is_onset = .false.      !! a contact has just started
       real(wp), private :: log_before = 0.0_wp    !! logarithm of E of the step before [1]
       real(wp), private :: h_across = huge(1.0_wp) !! longest step across an event that will do, as far as is known [s]
       logical, private :: is_fresh = .true.       !! nothing was accepted since the start or a restart
@@ -82,7 +82,7 @@ module step_control
 
 contains
 
-   !> A step begins.
+   !> A step starts.
    pure subroutine begin_step(self)
       class(step_control_t), intent(inout) :: self  !! the control
 
@@ -189,8 +189,8 @@ contains
    !> The system has changed: nothing is known of what is ahead.
    pure subroutine disturb(self, step_hint, is_onset)
       class(step_control_t), intent(inout) :: self  !! the control
-      real(wp), intent(in) :: step_hint             !! step that suits what begins now; 0: as before it began [s]
-      logical, intent(in) :: is_onset               !! a contact begins
+      real(wp), intent(in) :: step_hint             !! step that suits what starts now; 0: as before it started [s]
+      logical, intent(in) :: is_onset               !! a contact starts
 
       self%h_event = huge(1.0_wp)
       self%h_across = huge(1.0_wp)

@@ -60,7 +60,7 @@ module cvode_library
 
 contains
 
-   !> Begin at the integrator's present state.
+   !> Start at the integrator's present state.
    subroutine cvode_begin(self, first_step, is_good)
       class(cvode_library_t), intent(inout) :: self   !! the library
       real(wp), intent(in) :: first_step              !! first step to try, 0: CVODE chooses [s]
@@ -178,7 +178,7 @@ contains
       h = step(1)
    end function cvode_next_step
 
-   !> Steps given up since the beginning: failed error tests and failed iterations.
+   !> Steps given up since the start: failed error tests and failed iterations.
    integer function cvode_rejected(self) result(n)
       class(cvode_library_t), intent(in) :: self   !! the library
 
@@ -229,9 +229,9 @@ contains
       type(n_vector), intent(inout) :: ydot          !! its derivative
       type(sunmatrix), intent(inout) :: matrix       !! (n, n) the Jacobian
       type(c_ptr), value :: user_data                !! the problem
-      type(n_vector), intent(inout) :: scratch_1     !! room
-      type(n_vector), intent(inout) :: scratch_2     !! room
-      type(n_vector), intent(inout) :: scratch_3     !! room
+      type(n_vector), intent(inout) :: scratch_1     !! workspace
+      type(n_vector), intent(inout) :: scratch_2     !! workspace
+      type(n_vector), intent(inout) :: scratch_3     !! workspace
 
       type(problem_t), pointer :: problem
       real(c_double), pointer, contiguous :: block(:, :)

@@ -72,7 +72,7 @@ contains
    !> correction times rate/(1 - rate), with the rate of the last iteration that took several. IDA's own test believes a rate of
    !> next to nothing, which the equations, linear in the multipliers, have behind each new matrix; it then takes what a matrix of
    !> many steps ago makes of any prediction. Here the last correction itself must be small: what is left of the iteration is in
-   !> the differences by which the method foretells and judges its steps. Where a tenth of the correction counted, films took twice
+   !> the differences by which the method predicts and judges its steps. Where a tenth of the correction counted, films took twice
    !> the steps.
    integer(c_int) function test_convergence(newton, u, correction, tolerance, weight, user_data) bind(c, name="") result(answer)
       type(sunnonlinearsolver), intent(inout) :: newton   !! the iteration
@@ -135,9 +135,9 @@ contains
       type(n_vector), intent(inout) :: left          !! residual there
       type(sunmatrix), intent(inout) :: matrix       !! (N, N) the Jacobian
       type(c_ptr), value :: user_data                !! the problem
-      type(n_vector), intent(inout) :: scratch_1     !! room
-      type(n_vector), intent(inout) :: scratch_2     !! room
-      type(n_vector), intent(inout) :: scratch_3     !! room
+      type(n_vector), intent(inout) :: scratch_1     !! workspace
+      type(n_vector), intent(inout) :: scratch_2     !! workspace
+      type(n_vector), intent(inout) :: scratch_3     !! workspace
 
       type(problem_t), pointer :: problem
       real(c_double), pointer, contiguous :: block(:, :)

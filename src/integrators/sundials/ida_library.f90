@@ -67,7 +67,7 @@ contains
       end select
    end function rows_of
 
-   !> Begin at the integrator's present state, which the system was evaluated at last.
+   !> Start at the integrator's present state, which the system was evaluated at last.
    subroutine ida_begin(self, first_step, is_good)
       class(ida_library_t), intent(inout) :: self   !! the library
       real(wp), intent(in) :: first_step            !! first step to try, 0: IDA chooses [s]
@@ -96,7 +96,7 @@ contains
       is_good = status == 0
    end subroutine ida_begin
 
-   !> State, multipliers and derivatives to begin with.
+   !> State, multipliers and derivatives to start with.
    subroutine set_start(self)
       class(ida_library_t), intent(inout) :: self   !! the library
 
@@ -199,7 +199,7 @@ contains
       if (outcome < 0) status = self%failure()
    end subroutine ida_step
 
-   !> Whether a system leaves out rows that depend on others.
+   !> Whether a system omits rows that depend on others.
    logical function leaves_out(system)
       class(*), intent(in) :: system  !! the system
 
@@ -210,7 +210,7 @@ contains
       end select
    end function leaves_out
 
-   !> A step has failed for the rows that are kept have come to depend on one another: begin anew where it began, with other ones.
+   !> A step has failed for the rows that are kept have come to depend on one another: start anew where it started, with other ones.
    subroutine begin_anew(self, outcome)
       class(ida_library_t), intent(inout) :: self   !! the library
       integer(c_int), intent(out) :: outcome        !! 0: done
@@ -256,7 +256,7 @@ contains
       h = step(1)
    end function ida_next_step
 
-   !> Steps given up since the beginning: failed error tests and failed iterations.
+   !> Steps given up since the start: failed error tests and failed iterations.
    integer function ida_rejected(self) result(n)
       class(ida_library_t), intent(in) :: self   !! the library
 

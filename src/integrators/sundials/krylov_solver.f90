@@ -27,7 +27,7 @@ module krylov_solver
 
    !> Who makes the product, for the library's call.
    type :: caller_t
-      class(product_t), pointer :: product => null()   !! the product, while a solution is looked for
+      class(product_t), pointer :: product => null()   !! the product, while a solution is searched
    end type caller_t
 
    !> The solver of systems of one size.

@@ -1,7 +1,7 @@
 !> The matrix of Newton's equations of a large constrained system, kept sparse: dF/du + c dF/du' of the stabilised form of
 !> index 2 (`dae_system`), u = (y, lambda, mu), by differences of as many columns at once as have no row in common
 !> (`colouring`). The columns of the multipliers are exact. Nothing depends on a quadrature; what a quadrature depends on is
-!> left out, so that its row is c alone: it follows the state one correction later.
+!> omitted, so that its row is c alone: it follows the state one correction later.
 !>
 !> The same matrix solves Newton's equations of the ordinary form nearly, y' = f(t, y) with I - gamma df/dy: with c = 1/gamma
 !> and right-hand sides that leave the invariants of f (violations and their rates) as f leaves them. That is a

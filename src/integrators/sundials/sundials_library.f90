@@ -1,13 +1,13 @@
-!> What the multistep methods need of a library that makes their steps: begin, step, look back.
+!> What the multistep methods need of a library that makes their steps: start, step, look back.
 !>
 !> The library calls back with an address only: that of a `problem_t`, which points to the system and
 !> to the integrator for as long as the step lasts.
 !>
 !> Norm: the libraries take the root of the mean square of error times weight over all entries. With
 !> the weights sqrt(n) / (TOL scale) that is the Euclidean norm of error over scale, which bounds the
-!> greatest entry: an accepted step satisfies every norm of the controls. Quadratures, and the
+!> maximum entry: an accepted step satisfies every norm of the controls. Quadratures, and the
 !> multipliers of a constrained system, weigh next to nothing there; the vectors have a norm of their own, which is that of the
-!> greatest quadrature where that is more (`quadrature_error`).
+!> maximum quadrature where that is more (`quadrature_error`).
 module sundials_library
    use, intrinsic :: iso_c_binding, only: c_double, c_f_pointer, c_funloc, c_int, c_loc, c_null_ptr, c_ptr
    use fnvector_serial_mod, only: fn_vnew_serial, fn_vwrmsnorm_serial
@@ -72,7 +72,7 @@ module sundials_library
    end type library_t
 
    abstract interface
-      !> Begin at the integrator's present state, with order 1. The problem points to system and integrator.
+      !> Start at the integrator's present state, with order 1. The problem points to system and integrator.
       subroutine begin_interface(self, first_step, is_good)
          import :: library_t, wp
          implicit none (type, external)
@@ -109,7 +109,7 @@ module sundials_library
          real(wp) :: h                             !! 0: not known yet [s]
       end function next_step_interface
 
-      !> Steps given up since the beginning: failed error tests and failed iterations.
+      !> Steps given up since the start: failed error tests and failed iterations.
       function rejected_interface(self) result(n)
          import :: library_t
          implicit none (type, external)
@@ -175,10 +175,10 @@ contains
       self%is_fatal = self%is_fatal .or. status < 0
    end subroutine problem_evaluate
 
-   !> A step begins, or ends: the system and the integrator are the problem while it lasts.
+   !> A step starts, or ends: the system and the integrator are the problem while it lasts.
    subroutine problem_attend(self, system, method)
       class(problem_t), intent(inout), target :: self            !! the problem
-      class(ode_system_t), intent(in), target, optional :: system   !! the system; left out: it ends
+      class(ode_system_t), intent(in), target, optional :: system   !! the system; omitted: it ends
       class(integrator_t), intent(in), target, optional :: method   !! the integrator
 
       nullify (self%system, self%method, at_work)
@@ -306,7 +306,7 @@ contains
       call c_f_pointer(c_loc(entries(1)), block, [n, n])
    end subroutine dense_block
 
-   !> Room for the problem, and the context.
+   !> Storage for the problem, and the context.
    subroutine library_open(self, n)
       class(library_t), intent(inout) :: self  !! the library
       integer, intent(in) :: n                 !! entries of the state

@@ -36,7 +36,7 @@ module bodies
       integer :: n = 0                            !! number of bodies, without the ground
       type(text_t), allocatable :: names(:)       !! (n) names
       real(wp), allocatable :: mass(:)            !! (n) mass [kg]
-      real(wp), allocatable :: inertia(:)         !! (n) moment of inertia about z, centre of mass; in space the greatest [kg.m^2]
+      real(wp), allocatable :: inertia(:)         !! (n) moment of inertia about z, centre of mass; in space the maximum [kg.m^2]
       real(wp), allocatable :: r(:, :)            !! (3, n) centre of mass at the start, world frame [m]
       real(wp), allocatable :: angle(:)           !! (n) angle about z at the start; in space zero [rad]
       real(wp), allocatable :: v(:, :)            !! (3, n) velocity of the centre of mass at the start, world frame [m/s]
@@ -59,7 +59,7 @@ module bodies
       real(wp) :: young = 0.0_wp          !! modulus of elasticity [Pa]
       real(wp) :: poisson = 0.0_wp        !! ratio of Poisson [1]
       real(wp) :: density = 0.0_wp        !! density, 0 if unknown [kg/m^3]
-      real(wp) :: strength = 0.0_wp       !! greatest pressure that a surface bears, 0 if unknown [Pa]
+      real(wp) :: strength = 0.0_wp       !! maximum pressure that a surface bears, 0 if unknown [Pa]
    end type material_t
 
 contains

@@ -12,7 +12,7 @@ module coordinates
    private
    public :: coordinates_t, most_rates
 
-   integer, parameter :: most_rates = 6   !! rates of a body in any space: room for a row without allocation
+   integer, parameter :: most_rates = 6   !! rates of a body in any space: storage for a row without allocation
 
    !> Coordinates of a kind of space.
    type, abstract :: coordinates_t
@@ -289,7 +289,7 @@ contains
       end do
    end function coordinates_change_scales
 
-   !> Greatest of the rates of n bodies, velocities over a length.
+   !> Maximum of the rates of n bodies, velocities over a length.
    pure real(wp) function coordinates_max_rate(self, n, v, length) result(rate)
       class(coordinates_t), intent(in) :: self   !! the coordinates
       integer, intent(in) :: n                   !! how many bodies
@@ -310,7 +310,7 @@ contains
       end do
    end function coordinates_max_rate
 
-   !> Greatest turn in changes of n bodies.
+   !> Maximum turn in changes of n bodies.
    pure real(wp) function coordinates_max_turn(self, n, x) result(turn)
       class(coordinates_t), intent(in) :: self   !! the coordinates
       integer, intent(in) :: n                   !! how many bodies

@@ -19,8 +19,8 @@ module drawing
    integer, parameter :: mark_slide = 2    !! a body slides along an axis of another
    integer, parameter :: mark_link = 3     !! a massless link between two points
    integer, parameter :: mark_spring = 4   !! a spring between two points
-   integer, parameter :: mark_bearing = 5  !! a loose joint: a journal or ball in a bearing or socket
-   integer, parameter :: mark_guide = 6    !! another loose joint
+   integer, parameter :: mark_bearing = 5  !! a clearance joint: a journal or ball in a bearing or socket
+   integer, parameter :: mark_guide = 6    !! another clearance joint
    integer, parameter :: mark_plane = 7    !! a plane that a body may touch
    integer, parameter :: mark_damper = 8   !! a damper or actuator between two points, without a spring
    integer, parameter :: mark_load = 9     !! a force at a point of body j
@@ -71,7 +71,7 @@ module drawing
 
 contains
 
-   !> Begin a part with no vertices but these, and no strokes.
+   !> Start a part with no vertices but these, and no strokes.
    subroutine start_part(part, body, s)
       type(part_t), intent(out) :: part   !! the part
       integer, intent(in) :: body         !! its body

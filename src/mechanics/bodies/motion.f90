@@ -45,7 +45,7 @@ module motion
 
 contains
 
-   !> Room for n bodies, all at rest in the origin.
+   !> Storage for n bodies, all at rest in the origin.
    subroutine new_motion(n, motion, own)
       integer, intent(in) :: n                         !! number of bodies
       type(motion_t), intent(out) :: motion            !! their motion
@@ -67,7 +67,7 @@ contains
       end associate
    end subroutine new_motion
 
-   !> Room for the loads on n bodies.
+   !> Storage for the loads on n bodies.
    subroutine new_loads(n, loads)
       integer, intent(in) :: n             !! number of bodies
       type(loads_t), intent(out) :: loads  !! their loads, zero

@@ -2,7 +2,7 @@
 !>
 !> A body has n_v rates: in the plane those of x, y and the angle, in space three of its position and three of its rotation. A row
 !> has 2 n_v columns, those of body i before those of body j. Loops over all rows take the columns as one sequence; where in it
-!> the entries of a body begin is said here and nowhere else.
+!> the entries of a body start is said here and nowhere else.
 module rows
    use kinds, only: wp
    implicit none (type, external)
@@ -16,7 +16,7 @@ module rows
    !> The constraint rows.
    !>
    !> The first `n_solve` rows are solved for; those after them only fix the motion of bodies that are known
-   !> functions of time, and are evaluated when their reactions are wanted.
+   !> functions of time, and are evaluated when their reactions are requested.
    type :: rows_t
       integer :: n_v = n_v_planar               !! rates of a body
       integer :: n = 0                          !! number of rows
@@ -28,7 +28,7 @@ module rows
       integer :: n_side = 0                     !! sides of solved rows that are unknown bodies
       integer, allocatable :: side(:)           !! (sides) numbers: 2 (row - 1) for body i, one more for body j; sorted by body
       integer, allocatable :: last_side(:)      !! (0:bodies) last side of each body; of body 0: 0
-      integer, allocatable :: known(:, :)       !! (3, sides of solved rows that are known bodies, the ground none) row, place
+      integer, allocatable :: known(:, :)       !! (3, sides of solved rows that are prescribed bodies, the ground none) row, place
                                                 !! before its entries in `jac`, body
       real(wp), allocatable :: phi(:)           !! (n) Phi [m or rad]
       real(wp), allocatable :: phi_t(:)         !! (n) partial time derivative of Phi [m/s or rad/s]
@@ -38,7 +38,7 @@ module rows
 
 contains
 
-   !> Room for n rows.
+   !> Storage for n rows.
    subroutine new_rows(n, rows, n_v)
       integer, intent(in) :: n               !! number of rows
       type(rows_t), intent(out) :: rows      !! the rows, zero, all to be solved for

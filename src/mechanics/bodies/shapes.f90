@@ -1,4 +1,4 @@
-!> What a user wants drawn of bodies: rows of the table [shapes], in the own frames of the bodies.
+!> What a user needs drawn of bodies: rows of the table [shapes], in the own frames of the bodies.
 !>
 !> polygon: corners `points`, two numbers each in the plane, three in space. circle, cylinder, sphere: `radius` about the centre
 !> (xi, eta, zeta), the first two across `axis`, a cylinder of that `length` with the centre in its middle. box: `length`, `width`

@@ -12,7 +12,7 @@
 !> where the second needs only lie on the right side of the first.
 !>
 !> Source: Flores et al. (2008), section 6.2. Limits: a tensor that no body can have, and an orientation given twice or by half,
-!> are mistakes.
+!> are errors.
 module spatial_bodies
    use bodies, only: bodies_t, of_acceleration, of_angular_acceleration, of_angular_velocity, of_position, of_velocity, points_t
    use item, only: item_t

@@ -236,7 +236,7 @@ contains
       call finish_state(self%bearing(k), self%oil(k)%heat, sum(abs(motion%omega(3, body))), state)
    end function films_state_of
 
-   !> Greatest pressure in the middle of the length, at whole degrees around the bearing; 0 of a film that does not act.
+   !> Maximum pressure in the middle of the length, at whole degrees around the bearing; 0 of a film that does not act.
    real(wp) function films_max_pressure(self, k, motion) result(pressure)
       class(bearing_films_t), intent(in) :: self  !! the films, which have pressures
       integer, intent(in) :: k                    !! item

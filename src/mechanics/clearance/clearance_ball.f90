@@ -30,7 +30,7 @@ module clearance_ball
 
 contains
 
-   !> What the geometry says of itself.
+   !> Description of the geometry.
    function ball_info() result(info)
       type(kind_info_t) :: info  !! name, columns and channels
 

@@ -29,7 +29,7 @@ module clearance_balls
 
 contains
 
-   !> What the geometry says of itself.
+   !> Description of the geometry.
    function balls_info() result(info)
       type(kind_info_t) :: info  !! name, columns and channels
 

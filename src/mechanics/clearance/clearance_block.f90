@@ -41,7 +41,7 @@ module clearance_block
 
 contains
 
-   !> What the geometry says of itself.
+   !> Description of the geometry.
    function block_info() result(info)
       type(kind_info_t) :: info  !! name, columns and channels
 

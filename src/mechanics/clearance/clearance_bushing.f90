@@ -3,7 +3,7 @@
 !>
 !> Equations: `socket_contacts`; forces: `point_contacts`; films: `socket_films`. The bases are half of `journal_length` either side
 !> of the pin's point, along its axis; the bushing's ends half of `length` either side of its point. With `ends = clipped` a base
-!> beyond an end of the bushing counts where the pin passes the end; with `endless` the bushing has none, as in the book. Left out,
+!> beyond an end of the bushing counts where the pin passes the end; with `endless` the bushing has none, as in the book. Omitted,
 !> axes are those of `spatial_joint`. Each base has half of the stiffness, so that both together carry what the planar pin does
 !> (`half`); `full` is the book's: shorter and harder impacts.
 !>
@@ -43,7 +43,7 @@ module clearance_bushing
 
 contains
 
-   !> What the geometry says of itself.
+   !> Description of the geometry.
    function bushing_info() result(info)
       type(kind_info_t) :: info  !! name, columns and channels
 

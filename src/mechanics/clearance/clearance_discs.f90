@@ -31,7 +31,7 @@ module clearance_discs
 
 contains
 
-   !> What the geometry says of itself.
+   !> Description of the geometry.
    function discs_info() result(info)
       type(kind_info_t) :: info  !! name, columns and channels
 

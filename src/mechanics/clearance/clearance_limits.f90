@@ -39,7 +39,7 @@ module clearance_limits
 
 contains
 
-   !> What the geometry says of itself.
+   !> Description of the geometry.
    function limits_info() result(info)
       type(kind_info_t) :: info  !! name, columns and channels
 

@@ -33,7 +33,7 @@ module clearance_plane
 
 contains
 
-   !> What the geometry says of itself.
+   !> Description of the geometry.
    function plane_info() result(info)
       type(kind_info_t) :: info  !! name, columns and channels
 

@@ -36,7 +36,7 @@ module clearance_revolute
 
 contains
 
-   !> What the geometry says of itself.
+   !> Description of the geometry.
    function revolute_info() result(info)
       type(kind_info_t) :: info  !! name, columns and channels
 

@@ -38,7 +38,7 @@ module clearance_set
       logical :: is_round = .false.       !! the clearance is a radial one
       logical :: is_gap = .false.         !! the clearance is the gap between flat surfaces
       logical :: has_faces = .false.      !! contacts of an item share a face, and what it stores
-      logical :: energy_jumps = .false.   !! stored energy and forces may jump where a contact begins or ends
+      logical :: energy_jumps = .false.   !! stored energy and forces may jump where a contact starts or ends
    end type clearance_traits_t
 
    !> Items of a geometry: where they are, and their surfaces.
@@ -96,7 +96,7 @@ module clearance_set
    end type clearance_slot_t
 
    abstract interface
-      !> What the geometry says of itself.
+      !> Description of the geometry.
       function info_interface() result(info)
          import :: kind_info_t
          implicit none (type, external)
@@ -260,7 +260,7 @@ contains
       class(joint_set_t), intent(in) :: joint        !! a set of one item, the joint, with its start
    end subroutine clearance_take_joint
 
-   !> Take what the deck leaves out from where it puts the bodies at the start: nothing, unless the geometry says otherwise.
+   !> Take what the deck omits from where it puts the bodies at the start: nothing, unless the geometry says otherwise.
    subroutine clearance_set_start(self, motion)
       class(clearance_set_t), intent(inout) :: self  !! the set, prepared
       type(motion_t), intent(in) :: motion           !! bodies where the deck puts them
@@ -297,7 +297,7 @@ contains
       help = ""
    end subroutine no_mistake
 
-   !> Fit the normal law to the surfaces. A law that does not fit was a mistake of the deck, unless the joint is an ideal
+   !> Fit the normal law to the surfaces. A law that does not match was an error of the deck, unless the joint is an ideal
    !> one that is taken as loose for its channels only: no contact is evaluated then. A body that drivers move cannot be pushed;
    !> between two of them the masses of the deck are all there is.
    subroutine clearance_fit_law(self, items, materials, mass, is_driven)
@@ -325,8 +325,8 @@ contains
       end do
    end subroutine clearance_fit_law
 
-   !> How fast a contact that has begun swings: as an impact with its speed, or as one that gets as deep as it is, which one that
-   !> begins overlapping is without any speed. 0 if that is not known. And whether it begins beyond the transition of a film.
+   !> How fast a contact that has started swings: as an impact with its speed, or as one that gets as deep as it is, which one that
+   !> starts overlapping is without any speed. 0 if that is not known. And whether it starts beyond the transition of a film.
    pure subroutine clearance_note_contact_rate(self, k, delta)
       class(clearance_set_t), intent(inout) :: self  !! the set
       integer, intent(in) :: k                       !! contact of the set

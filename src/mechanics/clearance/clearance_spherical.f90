@@ -34,7 +34,7 @@ module clearance_spherical
 
 contains
 
-   !> What the geometry says of itself.
+   !> Description of the geometry.
    function spherical_info() result(info)
       type(kind_info_t) :: info  !! name, columns and channels
 

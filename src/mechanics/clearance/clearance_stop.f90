@@ -29,7 +29,7 @@ module clearance_stop
 
    integer, parameter :: lower = 1               !! contact at the lower limit
    integer, parameter :: upper = 2               !! contact at the upper limit
-   real(wp), parameter :: never = 1.0_wp         !! distance from a limit that a row leaves out, whatever the motion [m]
+   real(wp), parameter :: never = 1.0_wp         !! distance from a limit that a row omits, whatever the motion [m]
    character(5), parameter :: limits(2) = [character(5) :: "lower", "upper"]  !! their columns
    real(wp), parameter :: no_material = 1.0_wp   !! compliance of surfaces without a material: no stiffness comes of it [1/Pa]
 
@@ -46,7 +46,7 @@ module clearance_stop
 
 contains
 
-   !> What the geometry says of itself.
+   !> Description of the geometry.
    function stop_info() result(info)
       type(kind_info_t) :: info  !! name, columns and channels
 

@@ -40,7 +40,7 @@ module clearance_thrust
 
 contains
 
-   !> What the geometry says of itself.
+   !> Description of the geometry.
    function thrust_info() result(info)
       type(kind_info_t) :: info  !! name, columns and channels
 

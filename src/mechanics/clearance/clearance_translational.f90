@@ -50,7 +50,7 @@ module clearance_translational
 
 contains
 
-   !> What the geometry says of itself.
+   !> Description of the geometry.
    function translational_info() result(info)
       type(kind_info_t) :: info  !! name, columns and channels
 

@@ -11,10 +11,10 @@ module contact_memory
    integer, parameter :: rests = 0             !! course: a load between both forces keeps it from either
    integer, parameter :: n_contact_memory = 16  !! numbers of a contact in a checkpoint
 
-   !> What it went through besides its greatest values.
+   !> What it went through besides its maximum values.
    type :: course_of_contact_t
-      real(wp) :: force_at = 0.0_wp        !! when the force was greatest [s]
-      real(wp) :: penetration_at = 0.0_wp  !! when the penetration was greatest [s]
+      real(wp) :: force_at = 0.0_wp        !! when the force was maximum [s]
+      real(wp) :: penetration_at = 0.0_wp  !! when the penetration was maximum [s]
       real(wp) :: impulse = 0.0_wp         !! of the normal force since the onset [N.s]
    end type course_of_contact_t
 
@@ -23,12 +23,12 @@ module contact_memory
       logical :: is_touching = .false.          !! between onset and end
       real(wp) :: onset = 0.0_wp                !! time of the onset [s]
       real(wp) :: impact_speed = 0.0_wp         !! normal approach speed at the onset [m/s]
-      real(wp) :: peak_force = 0.0_wp           !! greatest normal force since the onset [N]
-      real(wp) :: peak_penetration = 0.0_wp     !! greatest penetration since the onset [m]
+      real(wp) :: peak_force = 0.0_wp           !! maximum normal force since the onset [N]
+      real(wp) :: peak_penetration = 0.0_wp     !! maximum penetration since the onset [m]
       type(course_of_contact_t) :: went         !! when these were, and the impulse
       real(wp) :: loss_at_onset = 0.0_wp        !! what the ledger had lost in the contact by then [J]
       integer :: course = approaches            !! approaches, parts or rests: laws that jump at a turn of the penetration
-      real(wp) :: rest_speed = 0.0_wp           !! greatest rate of one that rests [m/s]
+      real(wp) :: rest_speed = 0.0_wp           !! maximum rate of one that rests [m/s]
       real(wp) :: contact_rate = 0.0_wp                !! how fast it swings, pi over the time of an impact [rad/s]
       logical :: is_dry = .false.               !! beyond the transition of a film, which is gone there
       logical :: is_cut_off = .false.           !! without a force at the end of the last step: see `cut_off`

@@ -2,7 +2,7 @@
 !>
 !> An item has one contact or several, as many as it has labels: contact m is number (m - 1) mod n_contact_item + 1 of its item.
 !> A contact is free or touching; it changes only at located events, and only by the procedures below: the impact speed is stored
-!> at the onset, the greatest force and penetration as steps find them, and the end makes a row of the list of events.
+!> at the onset, the maximum force and penetration as steps find them, and the end makes a row of the list of events.
 module contact_states
    use contact_stick_slip, only: gives_way, stick_slip_t
    use contact_memory, only: contact_memory_t, n_contact_memory
@@ -93,7 +93,7 @@ contains
       labels(1)%s = ""
    end function states_contact_labels
 
-   !> A contact begins: store its impact speed.
+   !> A contact starts: store its impact speed.
    subroutine begin_contact(self, k, t, impact_speed, loss)
       class(contact_states_t), intent(inout) :: self  !! the set
       integer, intent(in) :: k                        !! contact of the set
@@ -115,7 +115,7 @@ contains
       call self%stick_slip%forget(k)
    end subroutine begin_contact
 
-   !> A contact that touches is to have begun with another speed: so a neighbouring motion has it.
+   !> A contact that touches is to have started with another speed: so a neighbouring motion has it.
    pure subroutine set_impact_speed(self, k, impact_speed)
       class(contact_states_t), intent(inout) :: self  !! the set
       integer, intent(in) :: k                        !! contact of the set
@@ -125,7 +125,7 @@ contains
       self%evaluated_at = 0
    end subroutine set_impact_speed
 
-   !> A contact ends, or the run ends within it: tell its story in one row.
+   !> A contact ends, or the run ends within it: report its description in one row.
    subroutine end_contact(self, k, t, release_speed, loss, is_over, event)
       class(contact_states_t), intent(inout) :: self  !! the set
       integer, intent(in) :: k                        !! contact of the set
@@ -164,7 +164,7 @@ contains
       end associate
    end subroutine end_contact
 
-   !> A contact that the end of the run cut short is told of: it is off the list of those that touch.
+   !> A contact that the end of the run cut short is reported of: it is off the list of those that touch.
    pure subroutine take_off(self, k)
       class(contact_states_t), intent(inout) :: self  !! the set
       integer, intent(in) :: k                        !! contact of the set
@@ -198,7 +198,7 @@ contains
       self%evaluated_at = 0
    end subroutine touch_where
 
-   !> The contacts that touch in an equilibrium begin there, at t = 0 and without a speed.
+   !> The contacts that touch in an equilibrium start there, at t = 0 and without a speed.
    subroutine begin_at_rest(self)
       class(contact_states_t), intent(inout) :: self  !! the set
 
@@ -210,7 +210,7 @@ contains
       end do
    end subroutine begin_at_rest
 
-   !> Raise the greatest penetration that a contact remembers.
+   !> Raise the maximum penetration that a contact remembers.
    pure subroutine note_depth(self, k, delta, t)
       class(contact_states_t), intent(inout) :: self  !! the set
       integer, intent(in) :: k                        !! contact of the set
@@ -224,7 +224,7 @@ contains
       end associate
    end subroutine note_depth
 
-   !> Raise the greatest force that a contact remembers.
+   !> Raise the maximum force that a contact remembers.
    pure subroutine note_force(self, k, force, t)
       class(contact_states_t), intent(inout) :: self  !! the set
       integer, intent(in) :: k                        !! contact of the set
@@ -238,13 +238,13 @@ contains
       end associate
    end subroutine note_force
 
-   !> What a step made of a contact that touches: greatest penetration and force, and the impulse that it gave.
+   !> What a step made of a contact that touches: maximum penetration and force, and the impulse that it gave.
    pure subroutine note_step(self, k, delta, delta_at, force, force_at, impulse)
       class(contact_states_t), intent(inout) :: self  !! the set
       integer, intent(in) :: k                        !! contact of the set
-      real(wp), intent(in) :: delta                   !! greatest penetration of the step [m]
+      real(wp), intent(in) :: delta                   !! maximum penetration of the step [m]
       real(wp), intent(in) :: delta_at                !! when [s]
-      real(wp), intent(in) :: force                   !! greatest normal force of the step [N]
+      real(wp), intent(in) :: force                   !! maximum normal force of the step [N]
       real(wp), intent(in) :: force_at                !! when [s]
       real(wp), intent(in) :: impulse                 !! of the normal force over the step [N.s]
 
@@ -261,12 +261,12 @@ contains
       self%contact(k)%is_dry = .not. self%contact(k)%is_dry
    end subroutine cross_transition
 
-   !> A contact goes on in another course: it approaches, parts, or rests.
+   !> A contact continues in another course: it approaches, parts, or rests.
    pure subroutine set_course(self, k, course, rest_speed)
       class(contact_states_t), intent(inout) :: self  !! the set
       integer, intent(in) :: k                        !! contact of the set
       integer, intent(in) :: course                   !! approaches, parts or rests
-      real(wp), intent(in), optional :: rest_speed    !! greatest rate of one that rests [m/s]
+      real(wp), intent(in), optional :: rest_speed    !! maximum rate of one that rests [m/s]
 
       self%contact(k)%course = course
       self%evaluated_at = 0

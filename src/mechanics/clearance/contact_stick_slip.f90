@@ -43,7 +43,7 @@ module contact_stick_slip
       logical :: is_driven = .false.   !! it sticks, but drivers alone prescribe how it slides
    end type tangent_t
 
-   !> The grip of all contacts of a set.
+   !> The stick-slip state of all contacts of a set.
    type :: stick_slip_t
       integer :: memory = memory_none                !! what is remembered, as of the law
       integer :: first_bristle = 0                   !! components of deflections of earlier sets
@@ -56,7 +56,7 @@ module contact_stick_slip
       real(wp), allocatable :: still(:)              !! (contacts) in space: speed that is next to none [m/s]
       real(wp), allocatable :: shared_from(:)        !! (contacts) first time at which a friction force was not unique [s]
       real(wp), allocatable :: z(:, :)               !! (n_component, contacts) deflections, along t or in the world's frame [m]
-      real(wp), allocatable :: origin(:, :)          !! (n_component, contacts) what the state was when they began [m]
+      real(wp), allocatable :: origin(:, :)          !! (n_component, contacts) what the state was when they started [m]
       real(wp), allocatable :: z_rate(:, :)          !! (n_component, contacts) their rates [m/s]
       type(tangent_t), allocatable :: tangent(:)     !! (contacts) of the last evaluation
    contains
@@ -69,7 +69,7 @@ module contact_stick_slip
 
 contains
 
-   !> Room for n contacts, if the law remembers anything.
+   !> Storage for n contacts, if the law remembers anything.
    subroutine new_stick_slip(n, is_spatial, law, stick_slip)
       integer, intent(in) :: n                 !! number of contacts
       logical, intent(in) :: is_spatial        !! contacts in space, not in the plane
@@ -90,9 +90,9 @@ contains
       allocate (stick_slip%tangent(n))
    end subroutine new_stick_slip
 
-   !> A contact begins or ends: it is not decided which way it slides, and there is no deflection.
+   !> A contact starts or ends: it is not decided which way it slides, and there is no deflection.
    pure subroutine forget(self, k)
-      class(stick_slip_t), intent(inout) :: self  !! the grip
+      class(stick_slip_t), intent(inout) :: self  !! the stick-slip state
       integer, intent(in) :: k              !! contact of the set
 
       if (self%memory == memory_none) return
@@ -107,11 +107,11 @@ contains
       self%tangent(k) = tangent_t()
    end subroutine forget
 
-   !> Take over what is remembered of a contact of another grip of the same law.
+   !> Take over what is remembered of a contact of another stick-slip state of the same law.
    pure subroutine adopt(self, k, other, k_other)
-      class(stick_slip_t), intent(inout) :: self  !! the grip
+      class(stick_slip_t), intent(inout) :: self  !! the stick-slip state
       integer, intent(in) :: k              !! contact of its set
-      type(stick_slip_t), intent(in) :: other     !! the other grip
+      type(stick_slip_t), intent(in) :: other     !! the other stick-slip state
       integer, intent(in) :: k_other        !! contact of that set
 
       if (self%memory == memory_none) return
@@ -127,7 +127,7 @@ contains
    !> Friction force of a touching contact on body j along its tangents; none of one that sticks, which is found with the
    !> accelerations.
    subroutine slip_force(self, law, k)
-      type(stick_slip_t), intent(inout) :: self         !! the grip; how contact k lies, with its normal force, is set
+      type(stick_slip_t), intent(inout) :: self         !! the stick-slip state; how contact k lies, with its normal force, is set
       class(friction_law_t), intent(in) :: law    !! friction law
       integer, intent(in) :: k                    !! contact of the set
 
@@ -153,7 +153,7 @@ contains
 
    !> Force of the bristles of a contact, and the rate of their deflection.
    subroutine bend(self, law, k)
-      type(stick_slip_t), intent(inout) :: self         !! the grip; how contact k lies, with its normal force, is set
+      type(stick_slip_t), intent(inout) :: self         !! the stick-slip state; how contact k lies, with its normal force, is set
       class(friction_law_t), intent(in) :: law    !! friction law
       integer, intent(in) :: k                    !! contact of the set
 
@@ -171,9 +171,9 @@ contains
       end associate
    end subroutine bend
 
-   !> Numbers that the grip keeps in a checkpoint.
+   !> Numbers that the stick-slip state keeps in a checkpoint.
    pure integer function stick_slip_memory_size(self) result(n)
-      class(stick_slip_t), intent(in) :: self   !! the grip
+      class(stick_slip_t), intent(in) :: self   !! the stick-slip state
 
       n = 0
       if (self%memory == memory_none) return
@@ -182,9 +182,9 @@ contains
       n = n*size(self%slip)
    end function stick_slip_memory_size
 
-   !> Write what the grip remembers.
+   !> Write what the stick-slip state remembers.
    subroutine stick_slip_save(self, row, place)
-      class(stick_slip_t), intent(in) :: self   !! the grip
+      class(stick_slip_t), intent(in) :: self   !! the stick-slip state
       real(wp), intent(inout) :: row(:)   !! (any) checkpoint [any]
       integer, intent(inout) :: place     !! last place used
 
@@ -198,9 +198,9 @@ contains
       end do
    end subroutine stick_slip_save
 
-   !> Read what the grip remembers.
+   !> Read what the stick-slip state remembers.
    subroutine stick_slip_load(self, row, place)
-      class(stick_slip_t), intent(inout) :: self   !! the grip
+      class(stick_slip_t), intent(inout) :: self   !! the stick-slip state
       real(wp), intent(in) :: row(:)         !! (any) checkpoint [any]
       integer, intent(inout) :: place        !! last place used
 

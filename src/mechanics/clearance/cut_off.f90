@@ -1,7 +1,7 @@
 !> What a contact loses while its force is cut off.
 !>
 !> A damped force F_N may be cut off at zero while the surfaces still overlap. From then on the motion does not feel the contact,
-!> and steps are as long as it likes, but what is left of the stored energy U goes on being lost: the power of the ledger is
+!> and steps are as long as it likes, but what is left of the stored energy U continues being lost: the power of the ledger is
 !> (F_N - F_elastic) delta' = -dU/dt, a quadrature that no error norm holds. It needs none, for what is lost from one instant
 !> without force to another is U at the one less U at the other. So the loss of a contact is
 !>

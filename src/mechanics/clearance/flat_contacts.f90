@@ -5,7 +5,7 @@
 !> d = r_A - r_P,   delta = n . d - h   (h less R of a circle),   rate = n . (v_A - v_i(A)) = d(delta)/dt
 !> delta'' = n . (a_A - a_P) + 2 w_i t . (v_A - v_P) + d . (alpha_i t - w_i^2 n),   t = R90 n
 !>
-!> Planes may begin and end along an axis s of i, from P (`ends`). The material behind such a plane has a front at each end, with
+!> Planes may start and end along an axis s of i, from P (`ends`). The material behind such a plane has a front at each end, with
 !> the normal s at the first and -s at the second, and a point in it is pressed out by the shortest way: n and delta are those of
 !> the nearest of the plane and both fronts. So delta, and what is stored, is continuous all around, and nothing is made of
 !> nothing where a point comes over an end.
@@ -35,7 +35,7 @@ module flat_contacts
       real(wp), allocatable :: radius(:)        !! (n_contact) radius of the circle, 0: a point [m]
       logical :: has_ends = .false.             !! some planes end
       real(wp), allocatable :: axis_i(:, :)     !! (2, n_contact) s along the plane, frame of i [1]
-      real(wp), allocatable :: ends(:, :)       !! (2, n_contact) where it begins and ends along s, from P; huge: nowhere [m]
+      real(wp), allocatable :: ends(:, :)       !! (2, n_contact) where it starts and ends along s, from P; huge: nowhere [m]
    end type plane_surfaces_t
 
    !> Points or circles against planes. `prepare` of a geometry calls `make_planes` and fills the parameters.
@@ -52,7 +52,7 @@ module flat_contacts
 
 contains
 
-   !> Room for the parameters.
+   !> Storage for the parameters.
    subroutine make_planes(self)
       class(flat_contacts_t), intent(inout) :: self  !! the set
 
@@ -138,7 +138,7 @@ contains
    pure subroutine find_nearest(along, place, ends, n, delta)
       real(wp), intent(in) :: along(2)      !! (2) s, world frame [1]
       real(wp), intent(in) :: place         !! of the point along it [m]
-      real(wp), intent(in) :: ends(2)       !! (2) where the plane begins and ends [m]
+      real(wp), intent(in) :: ends(2)       !! (2) where the plane starts and ends [m]
       real(wp), intent(inout) :: n(2)       !! (2) normal of the plane; of what is nearest, world frame [1]
       real(wp), intent(inout) :: delta      !! penetration of the plane; of what is nearest [m]
 

@@ -8,7 +8,7 @@
 !> forces as in `point_contacts`, at C: the point p, or, of a ball, p + (R - delta/2) n, the middle between the surfaces. A geometry
 !> gives normals and points along the axes of its item, x, y, z, in `prepare`; the axes are found in `set_start` (`find_axes`).
 !>
-!> Planes may begin and end along z of their item (`ends`), with a front there, whose normal is z at the first end and -z at the
+!> Planes may start and end along z of their item (`ends`), with a front there, whose normal is z at the first end and -z at the
 !> second: n and delta are those of the nearest of plane and fronts, as in `flat_contacts`.
 !>
 !> Signs: see `point_contact`. Source: Flores et al. (2008), section 4.3, with the surfaces of space. Limits: points have
@@ -43,11 +43,11 @@ module plane_contacts
    !> Axes of an item.
    type :: axes_t
       real(wp) :: axis_i(3) = 0.0_wp       !! (3) z in body i, as in the deck [1]
-      real(wp) :: axis_j(3) = 0.0_wp       !! (3) z in body j, as in the deck; zero: left out [1]
+      real(wp) :: axis_j(3) = 0.0_wp       !! (3) z in body j, as in the deck; zero: omitted [1]
       real(wp) :: across(3) = 0.0_wp       !! (3) x in body i, as in the deck; zero: that of `find_frames` [1]
       real(wp) :: frame_i(3, 3) = 0.0_wp   !! (3, 3) x, y, z as columns, frame of body i [1]
       real(wp) :: frame_j(3, 3) = 0.0_wp   !! (3, 3) the same, frame of body j [1]
-      real(wp) :: ends(2) = [-endless, endless]  !! (2) where the planes begin and end along z, from the point in i [m]
+      real(wp) :: ends(2) = [-endless, endless]  !! (2) where the planes start and end along z, from the point in i [m]
    end type axes_t
 
    !> Points against planes, in space. `prepare` of a geometry calls `make_planes` and fills them.
@@ -70,7 +70,7 @@ contains
 
    include "../../foundation/numerics/across.inc"
 
-   !> Room for the planes, and the axes of the deck.
+   !> Storage for the planes, and the axes of the deck.
    subroutine make_planes(self, items)
       class(plane_contacts_t), intent(inout) :: self  !! the set
       type(item_t), intent(in) :: items(:)            !! (n) rows of the table
@@ -183,7 +183,7 @@ contains
    pure subroutine find_nearest(along, d, ends, contact)
       real(wp), intent(in) :: along(3)                 !! (3) z of the item, world frame [1]
       real(wp), intent(in) :: d(3)                     !! (3) from the point of the item in i to p, world frame [m]
-      real(wp), intent(in) :: ends(2)                  !! (2) where the plane begins and ends along it [m]
+      real(wp), intent(in) :: ends(2)                  !! (2) where the plane starts and ends along it [m]
       type(point_contact_t), intent(inout) :: contact  !! normal and penetration of the plane; of what is nearest
 
       real(wp) :: place

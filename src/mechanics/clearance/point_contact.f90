@@ -43,10 +43,10 @@ module point_contact
 
 contains
 
-   !> Room for n contacts, all zero.
+   !> Storage for n contacts, all zero.
    pure subroutine new_work(n, work)
       integer, intent(in) :: n                   !! number of contacts
-      type(contact_work_t), intent(out) :: work  !! room
+      type(contact_work_t), intent(out) :: work  !! workspace
 
       allocate (work%contacts(n))
       allocate (work%delta(n), work%rate(n), work%impact_speed(n), work%f_n(n), work%slope_delta(n), work%slope_rate(n), &

@@ -7,7 +7,7 @@
 !> rub     F_T from F_N and the sliding velocity, by the friction law or by what the contact remembers (`contact_stick_slip`)
 !> loads   f_j = -F_N n + F_T t on body j, -f_j on body i, both at C (`point_contact`); what damping and friction take:
 !>         (F_N - F_elastic) delta', -F_T v_T
-!> watch   F_N and its rate, F' = dF/ddelta delta' + dF/drate delta''
+!> monitor   F_N and its rate, F' = dF/ddelta delta' + dF/drate delta''
 !>
 !> An evaluation is one virtual call, of text that each geometry includes (`point_way.inc`): what it measures is inlined there.
 !> Source: Flores et al. (2008), sections 3.6 and 4.2 to 4.4. Limits: a contact is a point; contacts that share a face
@@ -48,7 +48,7 @@ module point_contacts
    integer, parameter :: of_p_v = 104             !! of a contact
 
    character(*), parameter :: named_channels = " contact_angle sliding_speed contact_power p_v "
-      !! channels of contacts that `*` does not stand for: they are told where they are named
+      !! channels of contacts that `*` does not stand for: they are reported where they are named
 
    !> Contacts at points, of any geometry. `prepare` of a geometry calls `make_storage`; `evaluate` is made of `point_way.inc`.
    type, abstract, extends(clearance_set_t) :: point_contacts_t
@@ -195,7 +195,7 @@ contains
                        //"speed", of_p_v)
    end subroutine add_contact_channels
 
-   !> Room for what an evaluation finds.
+   !> Storage for what an evaluation finds.
    subroutine make_storage(self)
       class(point_contacts_t), intent(inout) :: self  !! the set
 

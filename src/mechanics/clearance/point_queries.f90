@@ -50,7 +50,7 @@ contains
       call report_items(self, readings, motion, self%n_contact_item, contacts, values)
    end subroutine report_several
 
-   !> All items. The contact of an item that has one is told from where the evaluation found it.
+   !> All items. The contact of an item that has one is reported from where the evaluation found it.
    subroutine report_items(self, readings, motion, n, contacts, values)
       class(point_contacts_t), intent(in) :: self           !! the set
       type(readings_t), intent(in) :: readings              !! channels that are read
@@ -369,7 +369,7 @@ contains
       real(wp), intent(out) :: f_n(n)                       !! (n) normal forces [N]
       real(wp), intent(out) :: f_t(n)                       !! (n) friction forces on j along t [N]
       real(wp), intent(out) :: f_elastic(n)                 !! (n) elastic parts of the normal forces [N]
-      logical, intent(in) :: with_sliding                   !! sliding velocities are wanted
+      logical, intent(in) :: with_sliding                   !! sliding velocities are requested
 
       real(wp), dimension(most_of_item) :: delta, f_friction, impact_speed, rate, slope_delta, slope_rate, speed
       integer :: c, first

@@ -12,8 +12,8 @@ module revolute_level
    ! channels, behind those of `point_contacts`
    integer, parameter :: of_film_force = 21          !! force on the journal
    integer, parameter :: of_film_torque = 22         !! moment of the shear, where it acts
-   integer, parameter :: of_film_thickness = 23      !! least thickness
-   integer, parameter :: of_film_pressure = 24       !! greatest pressure
+   integer, parameter :: of_film_thickness = 23      !! minimum thickness
+   integer, parameter :: of_film_pressure = 24       !! maximum pressure
    integer, parameter :: of_eccentricity_ratio = 25  !! eccentricity over clearance
    integer, parameter :: of_drag_journal = 26        !! moment of the shear on the journal
    integer, parameter :: of_drag_bearing = 27        !! and on the bearing
@@ -153,7 +153,7 @@ contains
 
    contains
 
-      !> The first mistake stands.
+      !> The first error stands.
       subroutine find(name, what, advice)
          character(*), intent(in) :: name    !! column at fault
          character(*), intent(in) :: what    !! what the joint has or lacks

@@ -53,8 +53,8 @@ module round_contacts
    end type round_contacts_t
 
    interface
-      !> Values that are read: of films here, and what they add to those of contacts. What is read of contacts is told from where
-      !> the evaluation of this motion found it, if it did.
+      !> Values that are read: of films here, and what they add to those of contacts. What is read of contacts is reported from
+      !> where the evaluation of this motion found it, if it did.
       module subroutine round_report(self, readings, motion, values)
          implicit none (type, external)
          class(round_contacts_t), intent(in) :: self  !! the set
@@ -79,7 +79,7 @@ module round_contacts
 
 contains
 
-   !> Room for the contacts and their surfaces, these where the points of the items are.
+   !> Storage for the contacts and their surfaces, these where the points of the items are.
    subroutine make_journals(self)
       class(round_contacts_t), intent(inout) :: self   !! the set, its items placed
 

@@ -153,7 +153,7 @@ contains
       if (state%share > 0.0_wp) value = real(merge(state_mixed, state_film, nint(value) == state_contact), wp)
    end subroutine add_film_state
 
-   !> A channel that films tell, or add to.
+   !> A channel that films report, or add to.
    subroutine report_film(self, code, k, film, state, value)
       class(round_contacts_t), intent(in) :: self    !! the set
       integer, intent(in) :: code                    !! the channel

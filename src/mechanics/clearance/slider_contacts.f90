@@ -6,7 +6,7 @@
 !>
 !> Faces, where both corners of a long side are at one surface, penetrating by d_1 and d_2, L the length, K_f that of `face_law`:
 !> corners     each corner for itself, with the normal law
-!> book        the face law instead: F = K_f (d_1 + d_2)/2 at L/3 (d_1 + 2 d_2)/(d_1 + d_2) from corner 1; it begins and ends
+!> book        the face law instead: F = K_f (d_1 + d_2)/2 at L/3 (d_1 + 2 d_2)/(d_1 + d_2) from corner 1; it starts and ends
 !>             with the located onset and end of the second corner, with a jump of the force
 !> blend       (1 - w) corners + w face, w = S(min(d_1, d_2)/max(d_1, d_2)), S(r) = r^2 (3 - 2 r): no jump
 !> foundation  springs K_f/L per length under the part that penetrates; of one corner l = L d_1/(d_1 - d_2), F = K_f d_1 l/(2 L)
@@ -18,7 +18,7 @@
 !>
 !> Source: Flores et al. (2008), section 4.3, (4.26) with the stiffness of a rectangle. Limits: short sides have corners only; with
 !> faces the ends of the guide have no front and cut corners, not the part of a face: a corner that enters between the surfaces from
-!> beyond an end begins its contact there, with energy that nothing gave.
+!> beyond an end starts its contact there, with energy that nothing gave.
 module slider_contacts
    use faced_contacts, only: faced_contacts_t
    use kinds, only: wp

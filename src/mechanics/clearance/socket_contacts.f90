@@ -20,7 +20,7 @@
 !> Source: Flores et al. (2008), sections 6.2 and 6.3, corrected: velocities are those of material points, (6.22), (6.23), (6.62),
 !> (6.63); the normal is one of the world, (6.66); moments are turned to the bodies' axes, (6.29), (6.69); both forces act
 !> at one point.
-!> Limits: what the rim of a tilted base adds to the penetration, R_j (1 - cos of the tilt), is left out, and so is any contact
+!> Limits: what the rim of a tilted base adds to the penetration, R_j (1 - cos of the tilt), is omitted, and so is any contact
 !> of the pin's end faces; a pin that has left the bushing altogether touches nothing, see `engagement`.
 module socket_contacts
    use contact_stick_slip, only: tangent_t

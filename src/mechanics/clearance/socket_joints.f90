@@ -41,7 +41,7 @@ contains
       end do
    end subroutine take_level
 
-   !> Tell the films where they are; after the axes are those of the bodies.
+   !> Report the films where they are; after the axes are those of the bodies.
    subroutine seat_films(self)
       class(socket_joints_t), intent(inout) :: self  !! the set
 
@@ -107,7 +107,7 @@ contains
       values = real(merge(state_mixed, state_film, nint(values) == state_contact), wp)
    end subroutine add_film_state
 
-   !> A channel that films tell, or add to.
+   !> A channel that films report, or add to.
    subroutine report_film(self, code, k, film, state, value)
       class(socket_joints_t), intent(in) :: self     !! the set
       integer, intent(in) :: code                    !! the channel

@@ -9,16 +9,16 @@ module assembly_report
    type :: assembly_t
       integer :: rank = 0                        !! independent constraint rows
       integer :: corrections = 0                 !! Newton corrections made
-      real(wp) :: moved = 0.0_wp                 !! greatest change of a coordinate, angles times the size of the bodies [m]
-      real(wp) :: residual = 0.0_wp              !! greatest violation left [m or rad]
-      real(wp) :: rate_changed = 0.0_wp          !! greatest change of a given velocity, angles times the size of the bodies [m/s]
+      real(wp) :: moved = 0.0_wp                 !! maximum change of a coordinate, angles times the size of the bodies [m]
+      real(wp) :: residual = 0.0_wp              !! maximum violation left [m or rad]
+      real(wp) :: rate_changed = 0.0_wp          !! maximum change of a given velocity, angles times the size of the bodies [m/s]
       integer :: changed_body = 0                !! the body it belongs to
       integer :: n_weak = 0                      !! rows that depend on others, or nearly so, by 1e-6
-      integer, allocatable :: set_aside(:)       !! redundant rows that do not quite agree with the others, left out
+      integer, allocatable :: set_aside(:)       !! redundant rows that do not quite agree with the others, omitted
       character(:), allocatable :: misfit        !! by how much, and what was done; blank if none are
       integer, allocatable :: dependent(:)       !! rows that depend on others
       integer, allocatable :: shared(:)          !! rows, those among them, whose multipliers are not unique
-      integer, allocatable :: rubbing(:)         !! joints among those that rub whose friction depends on such multipliers
+      integer, allocatable :: rubbing(:)         !! joints among those with friction whose friction depends on such multipliers
    end type assembly_t
 
 end module assembly_report

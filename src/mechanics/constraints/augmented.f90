@@ -13,7 +13,7 @@
 !>
 !> Signs: the reaction on the bodies is -Phi_q^T lambda. M is diagonal, n_v entries a body, and a row has 2 n_v columns: three and
 !> six in the plane; six and twelve in space, with rates of rotation about the principal axes of a body. No more than these
-!> numbers tells the plane from space here. Source: Flores et al. (2008), eqs. (2.14)-(2.18), (2.34). Limits: rows that contradict
+!> numbers reports the plane from space here. Source: Flores et al. (2008), eqs. (2.14)-(2.18), (2.34). Limits: rows that contradict
 !> one another have no solution; what is left over of them decides whether that is an error.
 module augmented
    use body_kernels, only: body_accelerations, row_residuals
@@ -25,8 +25,8 @@ module augmented
    public :: augmented_t, direct_t, min_pivots
 
    ! of the diagonal they came from: of independent rows as a rule; of bodies with one light inertia; then what counts as none
-   real(wp), parameter :: min_pivots(3) = [1.0e-5_wp, 1.0e-7_wp, 1.0e-9_wp]  !! (3) least pivots [1]
-   real(wp), parameter :: converged = 1.0e-15_wp  !! residual of the rows, of the greatest term, that is round-off [1]
+   real(wp), parameter :: min_pivots(3) = [1.0e-5_wp, 1.0e-7_wp, 1.0e-9_wp]  !! (3) minimum pivots [1]
+   real(wp), parameter :: converged = 1.0e-15_wp  !! residual of the rows, of the maximum term, that is round-off [1]
    real(wp), parameter :: stagnant = 0.5_wp       !! ratio of successive residuals that is no progress [1]
 
    !> A way of solving the augmented equations.
@@ -34,7 +34,7 @@ module augmented
       integer(i8) :: n_factorisations = 0      !! factorisations made
       logical :: tests_pivots = .false.        !! whether small pivots show dependent rows, see `set_min_pivot`
       logical :: is_iterative = .false.        !! whether `solve_damped` may end without a solution of regular rows
-      real(wp) :: left_over = 0.0_wp           !! greatest residual after `solve_damped`, of the greatest term [1]
+      real(wp) :: left_over = 0.0_wp           !! maximum residual after `solve_damped`, of the maximum term [1]
       real(wp), allocatable :: residual(:)     !! (solved rows) residuals Phi_q a - b after it [m/s^2 or rad/s^2]
    contains
       procedure(info_interface), nopass, deferred :: info
@@ -58,7 +58,7 @@ module augmented
    end type direct_t
 
    abstract interface
-      !> What the solver says of itself: the word for it in a deck, and how it solves.
+      !> Description of the solver: the word for it in a deck, and how it solves.
       function info_interface() result(info)
          import :: kind_info_t
          implicit none (type, external)
@@ -75,7 +75,7 @@ module augmented
       end subroutine prepare_interface
 
       !> Accelerations of the unknown bodies and multipliers of the solved rows. The inverse masses of the ground and of
-      !> known bodies are zero. No allocation.
+      !> prescribed bodies are zero. No allocation.
       subroutine solve_interface(self, inverse_mass, rows, g, b, a, lambda, bad_row)
          import :: augmented_t, rows_t, wp
          implicit none (type, external)
@@ -144,10 +144,10 @@ contains
       real(wp), intent(in) :: penalty             !! of a violated row, of its inverse effective mass [1]
    end subroutine augmented_set_penalty
 
-   !> Take the least pivot of independent rows, of the diagonal it came from: nothing to take for a way that has no such pivots.
+   !> Take the minimum pivot of independent rows, of the diagonal it came from: nothing to take for a way that has no such pivots.
    subroutine augmented_set_min_pivot(self, minimum)
       class(augmented_t), intent(inout) :: self   !! the solver
-      real(wp), intent(in) :: minimum               !! the least pivot [1]
+      real(wp), intent(in) :: minimum               !! the minimum pivot [1]
    end subroutine augmented_set_min_pivot
 
    !> Numbers that a checkpoint needs: none, unless a solution leaves something behind that the next one uses.

@@ -24,7 +24,7 @@ module augmented_complete
 
 contains
 
-   !> What the solver says of itself.
+   !> Description of the solver.
    function complete_info() result(info)
       type(kind_info_t) :: info  !! name and help
 

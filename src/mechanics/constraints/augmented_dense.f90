@@ -15,7 +15,7 @@ module augmented_dense
    private
    public :: augmented_dense_t, dense_prepare, threshold
 
-   real(wp), parameter :: threshold = 1.0e-13_wp  !! least pivot of the scaled matrix [1]
+   real(wp), parameter :: threshold = 1.0e-13_wp  !! minimum pivot of the scaled matrix [1]
 
    !> One full matrix.
    type, abstract, extends(direct_t) :: augmented_dense_t

@@ -3,7 +3,7 @@
 !> (M + Phi_q^T alpha Phi_q) a_k+1 = M a_k + Phi_q^T alpha b,   lambda_k+1 = lambda_k + alpha (Phi_q a_k+1 - b),   M a_0 = g
 !>
 !> with alpha = penalty / D for each row, D the diagonal of Phi_q M^-1 Phi_q^T: the penalty is a number without unit. An
-!> iteration takes the error down to 1 / (1 + penalty mu), mu the least eigenvalue of D^-1/2 S D^-1/2 that is not zero. It
+!> iteration takes the error down to 1 / (1 + penalty mu), mu the minimum eigenvalue of D^-1/2 S D^-1/2 that is not zero. It
 !> solves for the change d of a; then lambda_k+1 = lambda_k + alpha (Phi_q (a_k + d) - b), and a_k+1 = M^-1 (g - Phi_q^T
 !> lambda_k+1) anew, so that round-off does not grow with the penalty. The matrix is factorised once
 !> as L D L^T, in the envelope of the bodies' coordinates. Rows may depend on one another; multipliers are then those of
@@ -26,9 +26,9 @@ module augmented_lagrangian
    private
    public :: augmented_lagrangian_t
 
-   real(wp), parameter :: converged = 1.0e-15_wp  !! change of an acceleration, of the greatest, that ends the iteration [1]
+   real(wp), parameter :: converged = 1.0e-15_wp  !! change of an acceleration, of the maximum, that ends the iteration [1]
    real(wp), parameter :: stagnant = 0.98_wp      !! ratio of successive changes that is round-off [1]
-   real(wp), parameter :: solved = 1.0e-12_wp     !! last change, of the greatest acceleration, of a solution [1]
+   real(wp), parameter :: solved = 1.0e-12_wp     !! last change, of the maximum acceleration, of a solution [1]
    real(wp), parameter :: stronger = 1.0e3_wp     !! factor of the penalty where the iteration does not converge [1]
    integer, parameter :: n_iteration = 40         !! iterations, at most
 
@@ -40,7 +40,7 @@ module augmented_lagrangian
       integer, allocatable :: place(:)            !! (0:bodies) place before the coordinates of an unknown body
       integer :: n_pair = 0                       !! pairs of sides of the same row
       integer, allocatable :: pair(:, :)          !! (5, pairs) row, places of both sides in Phi_q, of their coordinates
-      real(wp) :: change = 0.0_wp                 !! of the accelerations in the last iteration, of the greatest [1]
+      real(wp) :: change = 0.0_wp                 !! of the accelerations in the last iteration, of the maximum [1]
       real(wp), allocatable :: alpha(:)           !! (solved rows) penalties [any]
       real(wp), allocatable :: d(:, :)            !! (n_v, 0:bodies) change of a [any]
       real(wp), allocatable :: last(:, :)         !! (n_v, 0:bodies) a of the iteration before [any]
@@ -64,7 +64,7 @@ contains
       self%penalty = penalty
    end subroutine lagrangian_set_penalty
 
-   !> What the solver says of itself.
+   !> Description of the solver.
    function lagrangian_info() result(info)
       type(kind_info_t) :: info  !! name and help
 
@@ -260,13 +260,13 @@ contains
       end associate
    end subroutine assemble
 
-   !> Greatest change of an acceleration of unknown bodies, and the greatest acceleration so far.
+   !> Maximum change of an acceleration of unknown bodies, and the maximum acceleration so far.
    pure subroutine compare(rows, last, a, change, largest)
       type(rows_t), intent(in) :: rows             !! rows
       real(wp), intent(in) :: last(:, 0:)          !! (n_v, 0:bodies) accelerations before [any]
       real(wp), intent(in) :: a(:, 0:)             !! (n_v, 0:bodies) accelerations now [any]
-      real(wp), intent(out) :: change              !! greatest change [any]
-      real(wp), intent(inout) :: largest           !! greatest acceleration so far, raised [any]
+      real(wp), intent(out) :: change              !! maximum change [any]
+      real(wp), intent(inout) :: largest           !! maximum acceleration so far, raised [any]
 
       integer :: k
 

@@ -22,7 +22,7 @@ module augmented_lapack
 
 contains
 
-   !> What the solver says of itself.
+   !> Description of the solver.
    function lapack_info() result(info)
       type(kind_info_t) :: info  !! name and help
 

@@ -46,7 +46,7 @@ module augmented_schur
 
 contains
 
-   !> What the solver says of itself.
+   !> Description of the solver.
    function schur_info() result(info)
       type(kind_info_t) :: info  !! name and help
 
@@ -98,7 +98,7 @@ contains
       allocate (self%residual(rows%n_solve), self%x(rows%n), source=0.0_wp)
    end subroutine schur_prepare
 
-   !> Take the least pivot of independent rows.
+   !> Take the minimum pivot of independent rows.
    subroutine schur_set_min_pivot(self, minimum)
       class(augmented_schur_t), intent(inout) :: self  !! the solver
       real(wp), intent(in) :: minimum                    !! of the diagonal it came from [1]
@@ -184,7 +184,7 @@ contains
          do k = 1, size(part%order)
             associate (diagonal => part%s%a(part%s%start(k) + k))
                diagonal = diagonal*(1.0_wp + damping)
-               if (.not. diagonal > 0.0_wp) diagonal = 1.0_wp  ! a row between known bodies
+               if (.not. diagonal > 0.0_wp) diagonal = 1.0_wp  ! a row between prescribed bodies
             end associate
          end do
          call factorise_and_solve(1, size(part%order), size(part%order), size(part%s%a), part%s%first, part%s%start, 0.0_wp, &

@@ -2,7 +2,7 @@
 !>
 !> Scaled as the full matrix of `augmented_dense`. The structure is analysed once; each evaluation refactorises with the
 !> pivots of before, and chooses new ones where these have become bad. A checkpoint holds the matrix that they were chosen for: a
-!> run that goes on chooses the same ones.
+!> run that continues chooses the same ones.
 !> Source: Flores et al. (2008), eq. (2.15). Cost: in proportion to the bodies and rows, unless loops fill the factors.
 module augmented_sparse
    use augmented, only: direct_t
@@ -42,7 +42,7 @@ module augmented_sparse
 
 contains
 
-   !> What the solver says of itself.
+   !> Description of the solver.
    function sparse_info() result(info)
       type(kind_info_t) :: info  !! name and help
 
@@ -168,7 +168,7 @@ contains
       do row = 1, rows%n_solve
          self%matrix%a(self%diagonal(row)) = -damping
          if (.not. self%row_scale(row) > 0.0_wp) then
-            self%row_scale(row) = 1.0_wp  ! a row between known bodies
+            self%row_scale(row) = 1.0_wp  ! a row between prescribed bodies
             self%matrix%a(self%diagonal(row)) = -1.0_wp
          end if
          self%row_scale(row) = 1.0_wp/sqrt(self%row_scale(row))

@@ -15,7 +15,7 @@ contains
    !> a = M^-1 (g - Phi_q^T lambda) of the unknown bodies.
    pure subroutine body_accelerations(rows, n_unknown, unknown, n_body, inverse_mass, jac, g, lambda, a)
       type(rows_t), intent(in) :: rows                     !! rows, of which the sides are read
-      integer, intent(in) :: n_unknown                     !! bodies whose accelerations are wanted
+      integer, intent(in) :: n_unknown                     !! bodies whose accelerations are requested
       integer, intent(in) :: unknown(n_unknown)            !! (these bodies) their numbers
       integer, intent(in) :: n_body                        !! number of bodies
       real(wp), intent(in) :: inverse_mass(rows%n_v, 0:n_body)  !! (n_v, 0:bodies) inverse masses [1/kg or 1/(kg.m^2)]

@@ -13,8 +13,8 @@ module dependent_rows
    private
    public :: choose_dependent, find_dependent
 
-   real(wp), parameter :: weak = 1.0e-6_wp   !! pivot of a row that nearly depends on others, of the greatest [1]
-   real(wp), parameter :: share = 1.0e-6_wp  !! least part of a scaled row in a combination that vanishes [1]
+   real(wp), parameter :: weak = 1.0e-6_wp   !! pivot of a row that nearly depends on others, of the maximum [1]
+   real(wp), parameter :: share = 1.0e-6_wp  !! minimum part of a scaled row in a combination that vanishes [1]
 
 contains
 

@@ -15,13 +15,13 @@ module free_directions
    private
    public :: find_free_directions
 
-   real(wp), parameter :: rank_tolerance = 1.0e-7_wp   !! of the greatest pivot, below which rows are dependent [1]
+   real(wp), parameter :: rank_tolerance = 1.0e-7_wp   !! of the maximum pivot, below which rows are dependent [1]
    integer, parameter :: block = 32                    !! columns that LAPACK takes together
 
 contains
 
    !> Directions of the unknown bodies, and how to read them, at the position where the rows were evaluated. Where there are more
-   !> than room for them, only their number is found.
+   !> than storage for them, only their number is found.
    subroutine find_free_directions(linkage, y, n, direction, reading)
       type(linkage_t), intent(in) :: linkage       !! the bodies and their rows
       real(wp), intent(in) :: y(:)                 !! (any) the state where they are [any]

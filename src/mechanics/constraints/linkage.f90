@@ -1,7 +1,7 @@
 !> Bodies linked by ideal joints and drivers: their motion, the constraint rows Phi(q, t) = 0, and the solution of the equations.
 !>
-!> The state has the coordinates of each body whose motion is unknown, then one of each guided body, then the rates of both.
-!> Loads come from outside, so that ways of holding the constraints, the start and the analyses without integration need
+!> The state has the coordinates of each body whose motion is unknown, then one of each body with one degree of freedom, then the
+!> rates of both. Loads come from outside, so that stabilisation methods, the start and the analyses without integration need
 !> nothing but this.
 !> Source: Flores et al. (2008), eqs. (2.10), (2.11), (2.15).
 module linkage
@@ -26,7 +26,7 @@ module linkage
    type :: scales_t
       real(wp) :: length = 1.0_wp         !! size of the bodies, for error scales [m]
       real(wp) :: tolerance = 1.0e-8_wp   !! of the integrator, for what round-off allows [1]
-      real(wp) :: pace = 1.0_wp           !! greatest rate of the mechanism so far [1/s]
+      real(wp) :: pace = 1.0_wp           !! maximum rate of the mechanism so far [1/s]
       real(wp) :: late_rate = 0.01_wp     !! rate that errors are measured by at least [1/s]
       real(wp) :: misfit = 0.0_wp         !! of redundant rows, fitted in least squares: sizes of the bodies or radians [1]
    end type scales_t
@@ -63,8 +63,8 @@ module linkage
    end type linkage_t
 
    interface
-      !> What the reports of some rows need of those that are not solved for. The multipliers of known bodies are found together;
-      !> they have those of the guided bodies in them that known ones carry.
+      !> What the reports of some rows need of those that are not solved for. The multipliers of prescribed bodies are found
+      !> together; they have those of the bodies with one degree of freedom in them that known ones carry.
       module subroutine linkage_list_wanted(self, is_read, wanted)
          implicit none (type, external)
          class(linkage_t), intent(in) :: self           !! the linkage
@@ -73,7 +73,7 @@ module linkage
       end subroutine linkage_list_wanted
 
       !> Multipliers of rows that fix bodies that are not solved for, at the motion and the accelerations that are set.
-      !> Reports want them.
+      !> Reports need them.
       module subroutine linkage_find_reactions(self, t, g, wanted)
          implicit none (type, external)
          class(linkage_t), intent(inout) :: self        !! the linkage
@@ -93,7 +93,7 @@ module linkage
 
 contains
 
-   !> Room for the solution. The rows are declared.
+   !> Storage for the solution. The rows are declared.
    subroutine linkage_make_storage(self)
       class(linkage_t), intent(inout) :: self       !! the linkage
 
@@ -154,7 +154,7 @@ contains
       if (allocated(self%reduced%known)) self%reduced%known%t = -huge(1.0_wp)
    end subroutine linkage_place_bodies
 
-   !> The state that coordinates and rates of all bodies are. Joints of guided bodies are fulfilled.
+   !> The state that coordinates and rates of all bodies are. Joints of bodies with one degree of freedom are fulfilled.
    subroutine linkage_take_state(self, q, v, y)
       class(linkage_t), intent(inout) :: self          !! the linkage; its motion is that of the state
       real(wp), intent(in), contiguous :: q(:)         !! (n_q bodies) coordinates [any]
@@ -291,7 +291,7 @@ contains
       class(linkage_t), intent(inout) :: self        !! the linkage, rows evaluated
       real(wp), intent(in), contiguous :: g(:, 0:)   !! (n_v, 0:bodies) loads [N or N.m]
       logical, intent(in) :: must_agree              !! whether a contradiction counts: that of a correction is round-off
-      logical, intent(in) :: with_one_dof             !! whether those of guided bodies are wanted too
+      logical, intent(in) :: with_one_dof             !! whether those of bodies with one degree of freedom are requested too
       integer, intent(out) :: status                 !! 0: found
 
       status = 0
@@ -308,7 +308,7 @@ contains
       call self%solution%find(self%inverse_mass, self%rows, g, must_agree, status)
    end subroutine linkage_find_accelerations
 
-   !> Least change of coordinates or rates in the metric of the masses, into `solution%a`: Phi_q a = b for the b that is set.
+   !> Minimum change of coordinates or rates in the metric of the masses, into `solution%a`: Phi_q a = b for the b that is set.
    subroutine linkage_solve_rows(self, status)
       class(linkage_t), intent(inout) :: self   !! the linkage, rows evaluated, b set
       integer, intent(out) :: status            !! 0: found
@@ -351,7 +351,7 @@ contains
       end associate
    end subroutine linkage_tidy
 
-   !> Greatest scaled violation of the solved rows, as they were evaluated.
+   !> Maximum scaled violation of the solved rows, as they were evaluated.
    pure real(wp) function linkage_max_violation(self) result(worst)
       class(linkage_t), intent(in) :: self   !! the linkage
 

@@ -4,8 +4,8 @@ submodule(linkage) linkage_reactions
 
 contains
 
-   !> What the reports of some rows need of those that are not solved for. The multipliers of known bodies are found together; they
-   !> have those of the guided bodies in them that known ones carry.
+   !> What the reports of some rows need of those that are not solved for. The multipliers of prescribed bodies are found together;
+   !> they have those of the bodies with one degree of freedom in them that known ones carry.
    module procedure linkage_list_wanted
       logical :: is_wanted(size(is_read)), takes(self%reduced%one_dof%n)
       integer :: k
@@ -45,7 +45,7 @@ contains
          end do
       end function is_one_read
 
-      !> Some rows are wanted.
+      !> Some rows are requested.
       subroutine want(rows)
          integer, intent(in) :: rows(:)    !! (any) their numbers
 
@@ -59,7 +59,7 @@ contains
    end procedure linkage_list_wanted
 
    !> Multipliers of rows that fix bodies that are not solved for, at the motion and the accelerations that are set.
-   !> Reports want them.
+   !> Reports need them.
    module procedure linkage_find_reactions
       real(wp) :: inside
       integer :: k

@@ -4,8 +4,8 @@
 !>
 !> S lambda = Phi_b M_b^-1 g_b - b,   a_b = M_b^-1 (g_b - Phi_b^T lambda),
 !>
-!> solved without assembling it (`solve_lone_bodies` of `body_kernels.inc`). In a crank mechanism with a loose joint all bodies are
-!> such.
+!> solved without assembling it (`solve_lone_bodies` of `body_kernels.inc`). In a crank mechanism with a clearance joint all bodies
+!> are such.
 !> Source: Flores et al. (2008), eqs. (2.16)-(2.18). Limits: one or two rows a body; other bodies are not lone.
 module lone_bodies
    use rows, only: place_of_side, row_of_side, rows_t

@@ -1,6 +1,6 @@
-!> Rows at a state, and the least change of coordinates or rates that changes them as wanted.
+!> Rows at a state, and the minimum change of coordinates or rates that changes them as requested.
 !>
-!> Lengths are measured in sizes of the bodies, angles in radians: Phi_q x = r with the least |x| in these measures. Rank and
+!> Lengths are measured in sizes of the bodies, angles in radians: Phi_q x = r with the minimum |x| in these measures. Rank and
 !> least-norm solutions come from singular values (LAPACK dgelsd).
 !> Source: Golub and Van Loan, Matrix Computations, section 5.5. Limits: dense; of many rows `sparse_start` finds the change.
 module row_corrections
@@ -12,7 +12,7 @@ module row_corrections
    public :: change_weights, coordinate_scale, evaluate_rows, min_correction, limit_step, rank_tolerance, rates, &
       scaled_jacobian, wants_sparse, worst_violation
 
-   real(wp), parameter :: rank_tolerance = 1.0e-9_wp    !! least ratio of singular values [1]
+   real(wp), parameter :: rank_tolerance = 1.0e-9_wp    !! minimum ratio of singular values [1]
    integer, parameter :: few_rows = 400                 !! rows up to which matrices are dense
 
 contains
@@ -57,7 +57,7 @@ contains
       end associate
    end subroutine rates
 
-   !> Greatest scaled violation.
+   !> Maximum scaled violation.
    real(wp) function worst_violation(linkage) result(worst)
       type(linkage_t), intent(in) :: linkage  !! the bodies and their rows, rows evaluated
 
@@ -87,14 +87,14 @@ contains
       end associate
    end subroutine scaled_jacobian
 
-   !> Least change x of the coordinates (or rates) with Phi_q x = right, in the scaled norm of x / ease.
+   !> Minimum change x of the coordinates (or rates) with Phi_q x = right, in the scaled norm of x / ease.
    subroutine min_correction(linkage, right, ease, x, rank, tolerance)
       type(linkage_t), intent(in) :: linkage        !! the bodies and their rows, rows evaluated
       real(wp), intent(in) :: right(:)              !! (rows) what the rows should change by [m or rad, or rates]
       real(wp), intent(in) :: ease(:)               !! (n_v bodies) how easily each of them changes [1]
       real(wp), intent(out) :: x(:)                 !! (n_v bodies) change [m or rad, or rates]
       integer, intent(out) :: rank                  !! independent rows
-      real(wp), intent(in), optional :: tolerance   !! least ratio of singular values of theirs, if another than usual [1]
+      real(wp), intent(in), optional :: tolerance   !! minimum ratio of singular values of theirs, if another than usual [1]
 
       real(wp), allocatable :: b(:, :), jac(:, :), s(:), work(:)
       real(wp) :: minimum
@@ -154,7 +154,7 @@ contains
    !> Whether matrices are sparse.
    pure logical function wants_sparse(linkage, is_sparse)
       type(linkage_t), intent(in) :: linkage  !! the bodies and their rows
-      logical, intent(in), optional :: is_sparse    !! what the caller wants; absent: sparse where there are many rows
+      logical, intent(in), optional :: is_sparse    !! what the caller needs; absent: sparse where there are many rows
 
       wants_sparse = linkage%rows%n > few_rows
       if (present(is_sparse)) wants_sparse = is_sparse

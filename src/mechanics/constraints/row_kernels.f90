@@ -32,11 +32,11 @@ contains
       end if
    end subroutine right_hand_side
 
-   !> Take what the accelerations of known bodies do to the rows off the right-hand side.
+   !> Take what the accelerations of prescribed bodies do to the rows off the right-hand side.
    pure subroutine take_prescribed(rows, n_body, a, angular, b)
       type(rows_t), intent(in) :: rows              !! rows, evaluated
       integer, intent(in) :: n_body                 !! number of bodies
-      real(wp), intent(in) :: a(3, 0:n_body)        !! (3, 0:bodies) accelerations, of known bodies [m/s^2]
+      real(wp), intent(in) :: a(3, 0:n_body)        !! (3, 0:bodies) accelerations, of prescribed bodies [m/s^2]
       real(wp), intent(in) :: angular(3, 0:n_body)  !! (3, 0:bodies) angular accelerations, in the same axes [rad/s^2]
       real(wp), intent(inout) :: b(rows%n)          !! (rows) right-hand side [m/s^2 or rad/s^2]
 

@@ -3,7 +3,7 @@
 !> S = Phi_q M^-1 Phi_q^T. The order is the given one or that of reverse Cuthill-McKee, whichever costs less.
 !>
 !> Bodies are taken in blocks. After each the first rows of S are complete and can be factorised while they are in the processor's
-!> cache: of a long chain, S does not fit in it.
+!> cache: of a long chain, S does not match in it.
 module schur_part
    use envelope, only: envelope_t, new_envelope
    use kinds, only: wp

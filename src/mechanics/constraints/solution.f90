@@ -20,7 +20,7 @@ module solution
    integer, parameter :: n_refinement(2) = [3, 30]   !! refinements of these solutions, at most
    integer, parameter :: n_level = 3                 !! dampings tried where rows always depend on others
    real(wp), parameter :: finer = 1.0e-2_wp          !! each of them over the one before [1]
-   real(wp), parameter :: left = 1.0e-9_wp           !! residual of the rows, of the greatest term, that is small enough [1]
+   real(wp), parameter :: left = 1.0e-9_wp           !! residual of the rows, of the maximum term, that is small enough [1]
    real(wp), parameter :: better = 0.1_wp            !! part of the residual that a finer damping must leave, to be taken [1]
    real(wp), parameter :: contradiction = 1.0e-2_wp  !! residual of rows always dependent that is an error [1]
 
@@ -36,7 +36,7 @@ module solution
       real(wp), allocatable :: a(:, :)                   !! (n_v, 0:bodies) accelerations [m/s^2 or rad/s^2]
       real(wp), allocatable :: lambda(:)                 !! (rows) multipliers [N or N.m]
       integer(i8) :: n_damped = 0                        !! evaluations in which rows were dependent, or nearly so
-      integer, allocatable :: left_out(:)                !! rows that the form of index 2 leaves out, which depend on others
+      integer, allocatable :: left_out(:)                !! rows that the form of index 2 omits, which depend on others
       integer, allocatable :: set_aside(:)               !! redundant rows that do not quite agree, held by no one: `closing_fit`
       real(wp) :: min_pivot = min_pivots(1)          !! of independent rows, of the diagonal it came from [1]
       integer :: bad_row = 0                             !! row at which the last evaluation was singular, 0: none
@@ -57,7 +57,7 @@ contains
       self%beta = beta
    end subroutine solution_set_gains
 
-   !> Find the least pivot of independent rows, at a start where no rows depend on others. A body that is light about one axis,
+   !> Find the minimum pivot of independent rows, at a start where no rows depend on others. A body that is light about one axis,
    !> as a thin rod, makes small pivots of rows that are independent: where those of the start are small for that reason, smaller
    !> ones mean dependence.
    subroutine judge_pivots(self, inverse_mass, rows)
@@ -84,7 +84,7 @@ contains
       self%solver%n_factorisations = n_before  ! those of the motion are counted
    end subroutine judge_pivots
 
-   !> Take the least pivot of independent rows.
+   !> Take the minimum pivot of independent rows.
    subroutine take_min_pivot(self, minimum)
       class(solution_t), intent(inout) :: self   !! the solution
       real(wp), intent(in) :: minimum              !! of the diagonal it came from [1]

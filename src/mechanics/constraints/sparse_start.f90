@@ -1,6 +1,6 @@
-!> Least corrections and dependent rows of large scenes, in proportion to their size.
+!> Minimum corrections and dependent rows of large scenes, in proportion to their size.
 !>
-!> The least x, measured by x^T W^-1 x with W a diagonal of weights, that changes the rows by r:
+!> The minimum x, measured by x^T W^-1 x with W a diagonal of weights, that changes the rows by r:
 !>
 !> S lambda = r,   S = Phi_q W Phi_q^T,   x = W Phi_q^T lambda,   Phi_q x = r.
 !>
@@ -8,7 +8,7 @@
 !> before it in the envelope's order and is set aside: D is zero there, and the combination L^T z = e of rows vanishes,
 !> Phi_q^T z = 0. Iterative refinement takes away the round-off that S, which squares the condition of Phi_q, brings in.
 !>
-!> Source: G. H. Golub, C. F. Van Loan, Matrix Computations, sections 4.2 (semi-definite factors) and 5.6 (least
+!> Source: G. H. Golub, C. F. Van Loan, Matrix Computations, sections 4.2 (semi-definite factors) and 5.6 (minimum
 !> norm). Limits: rows that contradict one another are fulfilled as far as they are not set aside, not in least squares; a row
 !> is dependent below a pivot of `threshold`, a ratio of lengths of its square root.
 module sparse_start
@@ -22,10 +22,10 @@ module sparse_start
    private
    public :: new_sparse_start, sparse_start_t
 
-   real(wp), parameter :: threshold = 1.0e-11_wp   !! least pivot, as a part of its diagonal [1]
+   real(wp), parameter :: threshold = 1.0e-11_wp   !! minimum pivot, as a part of its diagonal [1]
    real(wp), parameter :: negligible = 1.0e-9_wp   !! part of a row in a combination that is round-off [1]
    real(wp), parameter :: stagnant = 0.5_wp        !! ratio of successive residuals that is no progress [1]
-   real(wp), parameter :: round_off = 1.0e-16_wp   !! residual that ends refinement, of the greatest right-hand side [1]
+   real(wp), parameter :: round_off = 1.0e-16_wp   !! residual that ends refinement, of the maximum right-hand side [1]
    integer, parameter :: n_refinement = 8          !! refinements allowed
 
    !> Structure of all rows between all bodies, known or not, and the factors of S.
@@ -76,7 +76,7 @@ contains
       end associate
    end subroutine start_factorise
 
-   !> Least change x of the coordinates (or rates) with Phi_q x = right.
+   !> Minimum change x of the coordinates (or rates) with Phi_q x = right.
    subroutine start_correct(self, jac, weight, right, x, rank)
       class(sparse_start_t), intent(inout) :: self       !! the structure
       real(wp), intent(in), contiguous :: jac(:, :)      !! (2 n_v, rows) Phi_q [1 or m]
@@ -122,7 +122,7 @@ contains
       real(wp), intent(in), contiguous :: jac(:, :)      !! (2 n_v, rows) Phi_q [1 or m]
       real(wp), intent(in), contiguous :: weight(:, 0:)  !! (n_v, 0:bodies) W, zero for the ground [any]
       real(wp), intent(in) :: scale(:)                   !! (rows) scales that make rows comparable [any]
-      real(wp), intent(in) :: share                      !! least part of a scaled row in a combination that counts [1]
+      real(wp), intent(in) :: share                      !! minimum part of a scaled row in a combination that counts [1]
       integer, allocatable, intent(out) :: dependent(:)  !! (dependent rows) those set aside
       integer, allocatable, intent(out) :: shared(:)     !! (shared rows) those in combinations, rising
 

@@ -1,6 +1,6 @@
-!> The contract of ways of holding the constraints against the drift of an integration.
+!> The contract of stabilisation methods against the drift of an integration.
 !>
-!> A way may set Baumgarte's gains as a step begins, correct the coordinates and rates that an evaluation begins with, and
+!> A way may set Baumgarte's gains as a step starts, correct the coordinates and rates that an evaluation starts with, and
 !> correct the state at the end of a step. What a correction does to the energy is work of the stabilisation in the ledger.
 !> Source: Flores et al. (2008), section 2.5.
 module stabilisation
@@ -12,7 +12,7 @@ module stabilisation
    private
    public :: stabilisation_t, option_number
 
-   !> A way of holding the constraints.
+   !> A stabilisation method.
    type, abstract :: stabilisation_t
       logical :: at_stages = .false.  !! whether `correct_stage` is to be called
       logical :: follows_step = .false.  !! whether gains follow the step
@@ -33,14 +33,14 @@ module stabilisation
    end type stabilisation_t
 
    abstract interface
-      !> What the way says of itself: the word for it in a deck, what it does, the options after the word as columns.
+      !> Description of the way: the word for it in a deck, what it does, the options after the word as columns.
       function info_interface() result(info)
          import :: kind_info_t
          implicit none (type, external)
          type(kind_info_t) :: info  !! name, as in `stabilise = name`, help, options
       end function info_interface
 
-      !> What is done, in words.
+      !> What is done, as text.
       function words_interface(self) result(words)
          import :: stabilisation_t
          implicit none (type, external)
@@ -83,7 +83,7 @@ contains
       real(wp), intent(in) :: tolerance         !! of the integrator [1]
    end subroutine stabilisation_configure
 
-   !> Nothing to change as a step begins, unless the way says otherwise.
+   !> Nothing to change as a step starts, unless the way says otherwise.
    subroutine stabilisation_begin_step(self, linkage, h)
       class(stabilisation_t), intent(inout) :: self           !! the way
       type(linkage_t), intent(inout) :: linkage      !! the bodies and their rows, last evaluated at the start of the step

@@ -29,7 +29,7 @@ module stabilisation_augmented_lagrangian
 
 contains
 
-   !> What the way says of itself.
+   !> Description of the way.
    function lagrangian_info() result(info)
       type(kind_info_t) :: info  !! name, help, options
 
@@ -42,7 +42,7 @@ contains
       call add_number(info, "mu", dim_none, "damping: the gain on the rate of violation is omega mu", default="", lower=0.0_wp)
    end function lagrangian_info
 
-   !> What is done, in words.
+   !> What is done, as text.
    function lagrangian_words(self) result(words)
       class(stabilisation_augmented_lagrangian_t), intent(in) :: self  !! the way
       character(:), allocatable :: words                      !! as in a deck

@@ -1,14 +1,15 @@
 !> Baumgarte's stabilisation with gains that follow the violation, alpha = beta (critical damping).
 !>
-!> With e the greatest scaled violation at the start of a step and e_0 the target, the gain of the next step is
+!> With e the maximum scaled violation at the start of a step and e_0 the target, the gain of the next step is
 !>
 !> alpha = min( 0.3/h, w, alpha_before sqrt(e/e_0) ), the root between 1/2 and 1 + alpha h, at most 2, alpha at least a
-!> tenth of the mechanism's pace: it grows no faster than a violation can answer, and not at all when a step is tried again:
+!> tenth of the mechanism's characteristic rate: it grows no faster than a violation can answer, and not at all when a step is tried
+!> again:
 !>
 !> strong gains where the violation calls for them, weak ones that leave the motion alone elsewhere; never so strong that
-!> gain times step endangers the integration, nor faster than the mechanism itself, whose greatest rate is w: beyond that
+!> gain times step endangers the integration, nor faster than the mechanism itself, whose maximum rate is w: beyond that
 !> a violation as small as the tolerance would disturb the velocities by more than the tolerance. Lengths are scaled by the
-!> size of the bodies. The option `target` is e_0; left out it is the tolerance of the integrator.
+!> size of the bodies. The option `target` is e_0; omitted it is the tolerance of the integrator.
 !> Source: the idea, gains that follow the error at critical damping, is that of Chang and Nikravesh (1985), cited by Flores
 !> et al. (2008), section 2.5; the rule is gudgeon's own. Limits: the target must be above round-off.
 module stabilisation_baumgarte_adaptive
@@ -44,7 +45,7 @@ module stabilisation_baumgarte_adaptive
 
 contains
 
-   !> What the way says of itself.
+   !> Description of the way.
    function adaptive_info() result(info)
       type(kind_info_t) :: info  !! name, help, options
 
@@ -54,7 +55,7 @@ contains
       call add_number(info, "target", dim_none, "scaled violation that the gains aim at", default="", lower=0.0_wp)
    end function adaptive_info
 
-   !> What is done, in words.
+   !> What is done, as text.
    function adaptive_words(self) result(words)
       class(stabilisation_baumgarte_adaptive_t), intent(in) :: self  !! the way
       character(:), allocatable :: words                    !! as in a deck

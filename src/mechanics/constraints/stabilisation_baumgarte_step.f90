@@ -27,7 +27,7 @@ module stabilisation_baumgarte_step
 
 contains
 
-   !> What the way says of itself.
+   !> Description of the way.
    function step_info() result(info)
       type(kind_info_t) :: info  !! name, help, options
 
@@ -38,7 +38,7 @@ contains
       call add_number(info, "beta", dim_none, "gain on the violation, times the step", default="", lower=0.0_wp)
    end function step_info
 
-   !> What is done, in words.
+   !> What is done, as text.
    function step_words(self) result(words)
       class(stabilisation_baumgarte_step_t), intent(in) :: self  !! the way
       character(:), allocatable :: words                !! as in a deck

@@ -17,7 +17,7 @@ module stabilisation_none
 
 contains
 
-   !> What the way says of itself.
+   !> Description of the way.
    function none_info() result(info)
       type(kind_info_t) :: info  !! name and help
 
@@ -26,7 +26,7 @@ contains
       info%source = "Flores et al. (2008), section 2.4"
    end function none_info
 
-   !> What is done, in words.
+   !> What is done, as text.
    function none_words(self) result(words)
       class(stabilisation_none_t), intent(in) :: self   !! the way
       character(:), allocatable :: words       !! as in a deck

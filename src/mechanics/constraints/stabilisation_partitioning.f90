@@ -5,9 +5,9 @@
 !>
 !> Phi(u, v, t) = 0 by Newton's iteration over u,   Phi_u u' = -Phi_t - Phi_v v',
 !>
-!> both as least squares, so that redundant rows do no harm. Newton begins with the u that the integrator has carried along,
-!> which is a better prediction than eq. (2.31) makes from the last step. When the least pivot of Phi_u, as a part of the
-!> greatest column of Phi_q, has fallen below 0.7 of what it was, the coordinates are sorted anew: a step might otherwise lead
+!> both as least squares, so that redundant rows do no harm. Newton starts with the u that the integrator has carried along,
+!> which is a better prediction than eq. (2.31) makes from the last step. When the minimum pivot of Phi_u, as a part of the
+!> maximum column of Phi_q, has fallen below 0.7 of what it was, the coordinates are sorted anew: a step might otherwise lead
 !> across a position where Phi_u has no inverse. The integrator carries all coordinates, so nothing else changes.
 !> Source: Flores et al. (2008), section 2.5, eqs. (2.25)-(2.31); R. A. Wehage, E. J. Haug (1982). Limits: dense, for
 !> mechanisms of moderate size; at a singular position Phi_u has no inverse, and the step fails.
@@ -24,7 +24,7 @@ module stabilisation_partitioning
    private
    public :: stabilisation_partitioning_t
 
-   real(wp), parameter :: rank_tolerance = 1.0e-9_wp  !! least ratio of pivots [1]
+   real(wp), parameter :: rank_tolerance = 1.0e-9_wp  !! minimum ratio of pivots [1]
    real(wp), parameter :: worse = 0.7_wp              !! of that ratio since the coordinates were sorted: sort anew [1]
    real(wp), parameter :: round_off = 1.0e-14_wp      !! scaled violation at which Newton's iteration ends [1]
    real(wp), parameter :: closed = 1.0e-9_wp          !! scaled violation that counts as fulfilled [1]
@@ -34,7 +34,7 @@ module stabilisation_partitioning
    type, extends(stabilisation_t) :: stabilisation_partitioning_t
       integer :: rank = -1                        !! dependent coordinates; -1: not sorted yet
       integer, allocatable :: order(:)            !! (coordinates) dependent ones first
-      real(wp) :: quality = 0.0_wp                !! least pivot over the greatest column when they were sorted [1]
+      real(wp) :: quality = 0.0_wp                !! minimum pivot over the maximum column when they were sorted [1]
       real(wp), allocatable :: jac(:, :)          !! (rows, coordinates) scaled Jacobian, then factors [1]
       real(wp), allocatable :: right(:, :)        !! (rows or coordinates, 1) right-hand side and solution [1]
       real(wp), allocatable :: tau(:), work(:)    !! (any) scratch of LAPACK [any]
@@ -52,7 +52,7 @@ module stabilisation_partitioning
 
 contains
 
-   !> What the way says of itself.
+   !> Description of the way.
    function partitioning_info() result(info)
       type(kind_info_t) :: info  !! name and help
 
@@ -61,7 +61,7 @@ contains
       info%source = "Flores et al. (2008), section 2.5, eqs. (2.25)-(2.31)"
    end function partitioning_info
 
-   !> What is done, in words.
+   !> What is done, as text.
    function partitioning_words(self) result(words)
       class(stabilisation_partitioning_t), intent(in) :: self  !! the way
       character(:), allocatable :: words              !! as in a deck
@@ -210,7 +210,7 @@ contains
       self%quality = abs(self%jac(max(1, self%rank), max(1, self%rank)))/abs(self%jac(1, 1))
    end subroutine sort_coordinates
 
-   !> Sort anew if the least pivot of the dependent columns has become too small.
+   !> Sort anew if the minimum pivot of the dependent columns has become too small.
    subroutine check_quality(self, linkage)
       class(stabilisation_partitioning_t), intent(inout) :: self  !! the way
       type(linkage_t), intent(in) :: linkage             !! the bodies and their rows, evaluated

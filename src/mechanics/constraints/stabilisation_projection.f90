@@ -3,7 +3,7 @@
 !> dq = -M^-1 Phi_q^T (Phi_q M^-1 Phi_q^T)^-1 Phi, by Newton's iteration, then at the corrected position
 !> dv = -M^-1 Phi_q^T (Phi_q M^-1 Phi_q^T)^-1 (Phi_q v + Phi_t):
 !>
-!> the corrections of least kinetic energy. Violations are at round-off afterwards. Where rows are nearly dependent the
+!> the corrections of minimum kinetic energy. Violations are at round-off afterwards. Where rows are nearly dependent the
 !> damped solution leaves what it cannot correct.
 !> Source: as an addition to Flores et al. (2008), section 2.5; E. Eich, SIAM J. Numer. Anal. 30 (1993) 1467-1482.
 !> Limits: a violation that Newton's iteration can correct; a step that leaves more is refused.
@@ -32,7 +32,7 @@ module stabilisation_projection
 
 contains
 
-   !> What the way says of itself.
+   !> Description of the way.
    function projection_info() result(info)
       type(kind_info_t) :: info  !! name and help
 
@@ -41,7 +41,7 @@ contains
       info%source = "Eich (1993)"
    end function projection_info
 
-   !> What is done, in words.
+   !> What is done, as text.
    function projection_words(self) result(words)
       class(stabilisation_projection_t), intent(in) :: self  !! the way
       character(:), allocatable :: words            !! as in a deck
@@ -89,7 +89,7 @@ contains
       call correct(linkage, t, .true., y, status)
    end subroutine projection_correct_step
 
-   !> Add the least change to coordinates or rates, and set the motion anew.
+   !> Add the minimum change to coordinates or rates, and set the motion anew.
    subroutine correct(linkage, t, to_rates, y, status)
       type(linkage_t), intent(inout) :: linkage        !! the bodies and their rows, b set
       real(wp), intent(in) :: t                        !! time [s]

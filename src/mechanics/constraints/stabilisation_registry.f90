@@ -1,4 +1,4 @@
-!> The ways of holding the constraints: two lines each (`use`, `case`).
+!> The stabilisation methods: two lines each (`use`, `case`).
 module stabilisation_registry
    use stabilisation, only: stabilisation_t
    use stabilisation_augmented_lagrangian, only: stabilisation_augmented_lagrangian_t

@@ -1,4 +1,4 @@
-!> Greatest pressure between two curved surfaces, and the force that brings it.
+!> Maximum pressure between two curved surfaces, and the force that brings it.
 !>
 !> balls, E* = 1/(sigma_i + sigma_j):       p = ( 6 F E*^2 / (pi^3 R^2) )^(1/3)
 !> cylinders of length L beside each other: p = ( F E* / (pi L R) )^(1/2)
@@ -17,10 +17,10 @@ module contact_pressure
 
 contains
 
-   !> Force at which the greatest pressure reaches a value; huge for a face, or a value that is not known (huge).
+   !> Force at which the maximum pressure reaches a value; huge for a face, or a value that is not known (huge).
    pure real(wp) function force_at_pressure(pair, pressure) result(force)
       type(surfaces_t), intent(in) :: pair   !! the surfaces
-      real(wp), intent(in) :: pressure       !! greatest pressure [Pa]
+      real(wp), intent(in) :: pressure       !! maximum pressure [Pa]
 
       real(wp) :: curvature, modulus
 

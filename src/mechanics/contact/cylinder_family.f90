@@ -6,7 +6,7 @@
 !> F = delta / (a w),   dF/ddelta = 1 / (a (w - 1)),   energy = a F^2 (2 w - 1) / 4
 !> (the integral of F ddelta). w is found by Newton's iteration from 1 + sqrt(2 u) + u, u = -ln d, which comes from
 !> above and always converges. The formula turns back at delta = a B (two forces for each penetration): from nine
-!> tenths of that the force goes on along its tangent, which is beyond the law's range and reported as such.
+!> tenths of that the force continues along its tangent, which is beyond the law's range and reported as such.
 !> With a restitution the force is F (1 + h rate/v0), h that of the law `exact`; without one nothing is lost.
 !>
 !> Source: Flores et al. (2008), eqs. (3.10), (3.11). Limits: parallel cylinders, penetration below 0.9 a B,
@@ -169,7 +169,7 @@ contains
       call invert(parameters, delta, f, df_ddelta, energy)
    end function family_potential
 
-   !> The range in words.
+   !> The range as text.
    function family_description(self, parameters) result(words)
       class(cylinder_family_t), intent(in) :: self         !! the law
       real(wp), intent(in) :: parameters(n_law_parameter)  !! (n_law_parameter) a, a B, range [m/N, m, m]
@@ -204,7 +204,7 @@ contains
 
    !> The root w > 1 of w - ln w = 1 - ln d.
    pure real(wp) function root(d) result(w)
-      real(wp), intent(in) :: d  !! penetration over its greatest, above 0, below 1 [1]
+      real(wp), intent(in) :: d  !! penetration over its maximum, above 0, below 1 [1]
 
       real(wp), parameter :: close = 4.0_wp*epsilon(1.0_wp)  ! relative change that ends the iteration [1]
       integer, parameter :: most = 10                        ! iterations; four do

@@ -27,14 +27,14 @@ contains
       share = min(factor*(abs(speed)/c)**power, 1.0_wp)
    end function share_of_waves
 
-   !> Impact speed at which the share is the greatest one allowed.
+   !> Impact speed at which the share is the maximum one allowed.
    elemental real(wp) function speed_of_share(c) result(speed)
       real(wp), intent(in) :: c   !! speed of waves in a bar [m/s]
 
       speed = c*(most_share/factor)**(1.0_wp/power)
    end function speed_of_share
 
-   !> Speed of waves in a bar, from the impact speed at which the share is the greatest one allowed.
+   !> Speed of waves in a bar, from the impact speed at which the share is the maximum one allowed.
    elemental real(wp) function bar_speed(speed) result(c)
       real(wp), intent(in) :: speed   !! the impact speed [m/s]
 

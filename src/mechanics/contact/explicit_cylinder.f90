@@ -3,8 +3,8 @@
 !> F = F_elastic(delta) (1 + h rate / v0),   energy = integral of F_elastic ddelta
 !>
 !> A member gives F_elastic and its potential from constants that it fits to the surfaces. With a restitution h is that of the law
-!> `exact`, unless the member has its own; without one nothing is lost. Beyond a greatest penetration that a member may have
-!> the force goes on along its tangent, which is reported as out of the law's range.
+!> `exact`, unless the member has its own; without one nothing is lost. Beyond a maximum penetration that a member may have
+!> the force continues along its tangent, which is reported as out of the law's range.
 !> Source: the members. Limits: parallel cylinders, quasi-static contact.
 module explicit_cylinder
    use cylinder_family, only: check_cylinders
@@ -35,7 +35,7 @@ module explicit_cylinder
    end type explicit_cylinder_t
 
    abstract interface
-      !> The constants of a member, or why it does not fit.
+      !> The constants of a member, or why it does not match.
       subroutine constants_interface(self, clearance, length, modulus, parameters, message, help)
          import :: explicit_cylinder_t, n_law_parameter, wp
          implicit none (type, external)
@@ -43,7 +43,7 @@ module explicit_cylinder
          real(wp), intent(in) :: clearance                        !! of the radii, c [m]
          real(wp), intent(in) :: length                           !! of contact, L [m]
          real(wp), intent(in) :: modulus                          !! of both surfaces, E = 1/(sigma_i + sigma_j) [Pa]
-         real(wp), intent(inout) :: parameters(n_law_parameter)   !! (n_law_parameter) two constants, greatest penetration [any]
+         real(wp), intent(inout) :: parameters(n_law_parameter)   !! (n_law_parameter) two constants, maximum penetration [any]
          character(:), allocatable, intent(inout) :: message      !! what is wrong, empty: the law fits
          character(:), allocatable, intent(inout) :: help         !! what would be right
       end subroutine constants_interface
@@ -146,7 +146,7 @@ contains
       energy = energy + beyond*(f + 0.5_wp*df_ddelta*beyond)
    end function explicit_potential
 
-   !> Range and damping in words.
+   !> Range and damping as text.
    function explicit_description(self, parameters) result(words)
       class(explicit_cylinder_t), intent(in) :: self       !! the law
       real(wp), intent(in) :: parameters(n_law_parameter)  !! (n_law_parameter) constants, range [any]

@@ -34,7 +34,7 @@ module friction_brown_mcphee
 
 contains
 
-   !> What the kind says of itself.
+   !> Description of the kind.
    function brown_mcphee_info() result(info)
       type(kind_info_t) :: info  !! name and columns
 

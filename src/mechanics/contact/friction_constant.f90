@@ -5,7 +5,7 @@
 !> Signs: against the sliding velocity. Source: Flores et al. (2008), eq. (3.12), after Dubowsky, Journal of Engineering for
 !> Industry 96 (1974), 317-323. As printed the force jumps from -c_c to c_c where the sliding turns; the ramp up to v1 is
 !> there so that an integration can pass that place. v1 = 0 is as printed.
-!> Limits: no sticking; the force jumps where a contact begins or ends.
+!> Limits: no sticking; the force jumps where a contact starts or ends.
 module friction_constant
    use friction_law, only: friction_law_t
    use item, only: item_t
@@ -28,7 +28,7 @@ module friction_constant
 
 contains
 
-   !> What the kind says of itself.
+   !> Description of the kind.
    function constant_info() result(info)
       type(kind_info_t) :: info  !! name and columns
 

@@ -32,7 +32,7 @@ module friction_coulomb
 
 contains
 
-   !> What the kind says of itself.
+   !> Description of the kind.
    function coulomb_info() result(info)
       type(kind_info_t) :: info  !! name and columns
 
@@ -88,7 +88,7 @@ contains
       end do
    end subroutine coulomb_force
 
-   !> Greatest force of a contact that sticks.
+   !> Maximum force of a contact that sticks.
    pure real(wp) function coulomb_stick_limit(self, normal_force) result(f)
       class(friction_coulomb_t), intent(in) :: self   !! the law
       real(wp), intent(in) :: normal_force            !! normal force [N]

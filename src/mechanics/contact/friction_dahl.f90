@@ -2,7 +2,7 @@
 !>
 !> z' = v_T |1 - x|^i sign(1 - x),   x = sigma z sign(v_T) / mu,   F_T = F_N sigma z
 !>
-!> With steady sliding z = mu/sigma and F_T = mu F_N. A contact begins with z = 0; from there, sliding one way by s with i = 1,
+!> With steady sliding z = mu/sigma and F_T = mu F_N. A contact starts with z = 0; from there, sliding one way by s with i = 1,
 !> F_T = mu F_N (1 - exp(-sigma s/mu)), at any speed. Below mu F_N it gives by z only, so that a body on a slope rests.
 !>
 !> In space z and v_T are vectors: the part of z along v_T follows the law, the part across it, z_c, fades with z_c' = -|v_T| sigma
@@ -36,7 +36,7 @@ module friction_dahl
 
 contains
 
-   !> What the kind says of itself.
+   !> Description of the kind.
    function dahl_info() result(info)
       type(kind_info_t) :: info  !! name and columns
 
@@ -103,7 +103,7 @@ contains
       z_rate = speed*(sign(abs(left)**self%exponent, left)*direction - (bent - along*direction))
    end subroutine dahl_bristles
 
-   !> The greatest deflection that lasts.
+   !> The maximum deflection that lasts.
    pure real(wp) function dahl_bristle_scale(self) result(z)
       class(friction_dahl_t), intent(in) :: self  !! the law
 

@@ -39,7 +39,7 @@ module friction_law
    end type friction_slot_t
 
    abstract interface
-      !> What the kind says of itself.
+      !> Description of the kind.
       function info_interface() result(info)
          import :: kind_info_t
          implicit none (type, external)
@@ -75,7 +75,7 @@ module friction_law
 
 contains
 
-   !> Greatest tangential force of a contact that sticks: none, unless the law says otherwise.
+   !> Maximum tangential force of a contact that sticks: none, unless the law says otherwise.
    pure real(wp) function friction_stick_limit(self, normal_force) result(f)
       class(friction_law_t), intent(in) :: self  !! the law
       real(wp), intent(in) :: normal_force       !! normal force, not negative [N]

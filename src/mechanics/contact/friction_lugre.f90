@@ -3,7 +3,7 @@
 !> z' = v_T - sigma0 |v_T| z / g(|v_T|),   g = c_f + (c_s - c_f) exp(-(v_T / v_s)^2)
 !> F_T = F_N (sigma0 z + sigma1 z' + sigma2 v_T)
 !>
-!> With steady sliding z = g / sigma0 and F_T = F_N (g + sigma2 |v_T|). A contact begins with z = 0. Below c_s F_N it gives by
+!> With steady sliding z = g / sigma0 and F_T = F_N (g + sigma2 |v_T|). A contact starts with z = 0. Below c_s F_N it gives by
 !> z only, so that a body on a slope rests. The sigmas are those of the literature over the normal force.
 !>
 !> In space z and v_T are vectors of the tangent plane.
@@ -41,7 +41,7 @@ module friction_lugre
 
 contains
 
-   !> What the kind says of itself.
+   !> Description of the kind.
    function lugre_info() result(info)
       type(kind_info_t) :: info  !! name and columns
 
@@ -133,7 +133,7 @@ contains
       f = normal_force*(self%stiffness*z + self%damping*z_rate + self%viscosity*velocity)
    end subroutine lugre_bristles
 
-   !> The greatest deflection that lasts.
+   !> The maximum deflection that lasts.
    pure real(wp) function lugre_bristle_scale(self) result(z)
       class(friction_lugre_t), intent(in) :: self  !! the law
 

@@ -28,7 +28,7 @@ module friction_rooney_deravi
 
 contains
 
-   !> What the kind says of itself.
+   !> Description of the kind.
    function rooney_deravi_info() result(info)
       type(kind_info_t) :: info  !! name and columns
 

@@ -2,7 +2,7 @@
 !>
 !> F_T = F_N { [ mu_d + (mu_s - mu_d) exp(-(v/v_s)^p) ] tanh(v/v_0) + c_v v }
 !>
-!> v_0 is the speed over which the force rises from zero: well below v_s the greatest coefficient is near mu_s. Smooth for v > 0.
+!> v_0 is the speed over which the force rises from zero: well below v_s the maximum coefficient is near mu_s. Smooth for v > 0.
 !> Signs: against the sliding velocity. Source: the exponential of J. Tustin (1947) with Bo and Pavelescu's exponent p,
 !> as in B. Armstrong-Helouvry, P. Dupont and C. Canudas de Wit, A survey of models, analysis tools and compensation methods for
 !> the control of machines with friction, Automatica 30 (1994), 1083-1138; tanh in place of the jump at rest.
@@ -34,7 +34,7 @@ module friction_stribeck
 
 contains
 
-   !> What the kind says of itself.
+   !> Description of the kind.
    function stribeck_info() result(info)
       type(kind_info_t) :: info  !! name and columns
 

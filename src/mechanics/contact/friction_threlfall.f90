@@ -34,7 +34,7 @@ module friction_threlfall
 
 contains
 
-   !> What the kind says of itself.
+   !> Description of the kind.
    function threlfall_info() result(info)
       type(kind_info_t) :: info  !! name and columns
 

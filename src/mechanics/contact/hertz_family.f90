@@ -127,7 +127,7 @@ contains
       energy = elastic_potential(parameters(1), delta)
    end function family_potential
 
-   !> The stiffness in words.
+   !> The stiffness as text.
    function family_description(self, parameters) result(words)
       class(hertz_family_t), intent(in) :: self            !! the law
       real(wp), intent(in) :: parameters(n_law_parameter)  !! (n_law_parameter) stiffness first [N/m^1.5]

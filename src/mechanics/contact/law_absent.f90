@@ -86,7 +86,7 @@ contains
       energy = 0.0_wp
    end function absent_potential
 
-   !> In words.
+   !> As text.
    function absent_description(self, parameters) result(words)
       class(law_absent_t), intent(in) :: self              !! the law
       real(wp), intent(in) :: parameters(n_law_parameter)  !! (n_law_parameter) from `fit` [any]

@@ -24,7 +24,7 @@ module law_dubowsky_freudenstein
 
 contains
 
-   !> What the kind says of itself.
+   !> Description of the kind.
    function dubowsky_freudenstein_info() result(info)
       type(kind_info_t) :: info  !! name and columns
 

@@ -23,7 +23,7 @@ module law_esdu
 
 contains
 
-   !> What the kind says of itself.
+   !> Description of the kind.
    function esdu_info() result(info)
       type(kind_info_t) :: info  !! name and columns
 

@@ -35,7 +35,7 @@ module law_expression
 
 contains
 
-   !> What the kind says of itself.
+   !> Description of the kind.
    function expression_info() result(info)
       type(kind_info_t) :: info  !! name and columns
 
@@ -119,7 +119,7 @@ contains
       energy = integral_of(self%elastic, min(max(delta, 0.0_wp), parameters(parameter_deepest)))
    end function expression_potential
 
-   !> The expression in words.
+   !> The expression as text.
    function expression_description(self, parameters) result(words)
       class(law_expression_t), intent(in) :: self          !! the law
       real(wp), intent(in) :: parameters(n_law_parameter)  !! (n_law_parameter) depth last [m]

@@ -129,7 +129,7 @@ contains
       if (delta > reached) energy = energy + self%law%potential(delta, parameters) - self%law%potential(reached, parameters)
    end function faded_potential
 
-   !> The other law in words, and the depth.
+   !> The other law as text, and the depth.
    function faded_description(self, parameters) result(words)
       class(law_faded_t), intent(in) :: self               !! the law
       real(wp), intent(in) :: parameters(n_law_parameter)  !! (n_law_parameter) of the other law [any]

@@ -26,7 +26,7 @@ module law_goldsmith
 
 contains
 
-   !> What the kind says of itself.
+   !> Description of the kind.
    function goldsmith_info() result(info)
       type(kind_info_t) :: info  !! name and columns
 

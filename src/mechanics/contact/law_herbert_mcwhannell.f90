@@ -25,7 +25,7 @@ module law_herbert_mcwhannell
 
 contains
 
-   !> What the kind says of itself.
+   !> Description of the kind.
    function herbert_mcwhannell_info() result(info)
       type(kind_info_t) :: info  !! name and columns
 

@@ -23,7 +23,7 @@ module law_hertz
 
 contains
 
-   !> What the kind says of itself.
+   !> Description of the kind.
    function hertz_info() result(info)
       type(kind_info_t) :: info  !! name and columns
 

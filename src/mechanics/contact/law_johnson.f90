@@ -26,7 +26,7 @@ module law_johnson
 
 contains
 
-   !> What the kind says of itself.
+   !> Description of the kind.
    function johnson_info() result(info)
       type(kind_info_t) :: info  !! name and columns
 

@@ -40,7 +40,7 @@ module law_kelvin_voigt
 
 contains
 
-   !> What the kind says of itself.
+   !> Description of the kind.
    function kelvin_voigt_info() result(info)
       type(kind_info_t) :: info  !! name and columns
 
@@ -134,7 +134,7 @@ contains
       energy = 0.5_wp*parameters(1)*max(delta, 0.0_wp)**2
    end function kelvin_voigt_potential
 
-   !> The stiffness in words.
+   !> The stiffness as text.
    function kelvin_voigt_description(self, parameters) result(words)
       class(law_kelvin_voigt_t), intent(in) :: self        !! the law
       real(wp), intent(in) :: parameters(n_law_parameter)  !! (n_law_parameter) stiffness, damping [N/m, N.s/m]

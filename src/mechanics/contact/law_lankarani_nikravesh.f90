@@ -22,7 +22,7 @@ module law_lankarani_nikravesh
 
 contains
 
-   !> What the kind says of itself.
+   !> Description of the kind.
    function lankarani_nikravesh_info() result(info)
       type(kind_info_t) :: info  !! name and columns
 

@@ -25,7 +25,7 @@ module law_lee_wang
 
 contains
 
-   !> What the kind says of itself.
+   !> Description of the kind.
    function lee_wang_info() result(info)
       type(kind_info_t) :: info  !! name and columns
 

@@ -28,7 +28,7 @@ module law_liu
 
 contains
 
-   !> What the kind says of itself.
+   !> Description of the kind.
    function liu_info() result(info)
       type(kind_info_t) :: info  !! name and columns
 

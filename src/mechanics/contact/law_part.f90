@@ -103,7 +103,7 @@ contains
       energy = self%share*self%law%potential(delta, parameters)
    end function part_potential
 
-   !> The other law in words, and the share.
+   !> The other law as text, and the share.
    function part_description(self, parameters) result(words)
       class(law_part_t), intent(in) :: self                !! the law
       real(wp), intent(in) :: parameters(n_law_parameter)  !! (n_law_parameter) of the other law [any]

@@ -38,7 +38,7 @@ module law_pereira
 
 contains
 
-   !> What the kind says of itself.
+   !> Description of the kind.
    function pereira_info() result(info)
       type(kind_info_t) :: info  !! name and columns
 

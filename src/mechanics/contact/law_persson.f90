@@ -4,7 +4,7 @@
 !>
 !> for bodies of one material. The penetration goes with the angle of contact e by the overlap of the circles,
 !> cos e = c/(c + delta), so that s = delta/(2 c + delta). The force grows without bound at s = 0.8346; from nine tenths of that
-!> it goes on along its tangent, which is beyond the law's range and reported as such. The energy is a Gauss-Legendre sum of
+!> it continues along its tangent, which is beyond the law's range and reported as such. The energy is a Gauss-Legendre sum of
 !> 16 points.
 !> Source: A. Persson, On the stress distribution of cylindrical elastic bodies in contact, dissertation, Chalmers (1964);
 !> M. Ciavarella and P. Decuzzi, The state of stress induced by the plane frictionless cylindrical contact, International Journal of
@@ -40,7 +40,7 @@ module law_persson
 
 contains
 
-   !> What the kind says of itself.
+   !> Description of the kind.
    function persson_info() result(info)
       type(kind_info_t) :: info  !! name and columns
 

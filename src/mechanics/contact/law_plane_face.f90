@@ -40,7 +40,7 @@ module law_plane_face
 
 contains
 
-   !> What the kind says of itself.
+   !> Description of the kind.
    function plane_face_info() result(info)
       type(kind_info_t) :: info  !! name and columns
 
@@ -116,7 +116,7 @@ contains
       energy = 0.5_wp*parameters(1)*max(delta, 0.0_wp)**2
    end function plane_face_potential
 
-   !> The stiffness in words.
+   !> The stiffness as text.
    function plane_face_description(self, parameters) result(words)
       class(law_plane_face_t), intent(in) :: self          !! the law
       real(wp), intent(in) :: parameters(n_law_parameter)  !! (n_law_parameter) stiffness first [N/m]

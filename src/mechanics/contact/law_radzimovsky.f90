@@ -3,7 +3,7 @@
 !> delta = F / (pi E L) [ 2/3 + ln(4 R_i / b) + ln(4 R_j / b) ],   b = 1.60 sqrt( F K / (E L) ),   1/E = sigma_i + sigma_j
 !>
 !> b is the full width of contact if K is made of the diameters, K = D_i D_j / (D_i - D_j), which is how handbooks have it (Hertz's
-!> own width is 0.3 % less than that). The literature of loose joints has K = R_i R_j / (R_i - R_j) with the same
+!> own width is 0.3 % less than that). The literature of clearance joints has K = R_i R_j / (R_i - R_j) with the same
 !> formula, a width that is too small by the square root of two; the column `width` says which is meant.
 !> The law turns back where the bracket is one.
 !> Source: E. I. Radzimovsky, Stress distribution and strength condition of two rolling cylinders pressed together, University of
@@ -29,7 +29,7 @@ module law_radzimovsky
 
 contains
 
-   !> What the kind says of itself.
+   !> Description of the kind.
    function radzimovsky_info() result(info)
       type(kind_info_t) :: info  !! name and columns
 

@@ -25,7 +25,7 @@ module law_zhiying_qishao
 
 contains
 
-   !> What the kind says of itself.
+   !> Description of the kind.
    function zhiying_qishao_info() result(info)
       type(kind_info_t) :: info  !! name and columns
 

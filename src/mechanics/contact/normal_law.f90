@@ -3,7 +3,7 @@
 !> Signs: penetration delta > 0 in contact, rate > 0 approaching, force > 0 pushes the bodies apart.
 !> A law never pulls. Flores et al. (2008), chapter 3.
 !>
-!> Damping terms have the impact speed v0 as a divisor. A contact that begins gently and is then pressed on by loads gets far deeper
+!> Damping terms have the impact speed v0 as a divisor. A contact that starts gently and is then pressed on by loads gets far deeper
 !> than v0 could take it, and v0 says nothing about its damping any more: in these terms v0 is not less than a tenth of the speed of
 !> the depth, v_d = sqrt(F_elastic delta/m), m the reduced mass. The impact of two free bodies has v_d < 1.2 v0 (Hertz; up to
 !> sqrt(n + 1) v0/sqrt(2) for delta^n) at any speed, and is left alone. With u = gentle^2 v_d^2:
@@ -46,7 +46,7 @@ module normal_law
    end type normal_law_t
 
    abstract interface
-      !> What the kind says of itself.
+      !> Description of the kind.
       function info_interface() result(info)
          import :: kind_info_t
          implicit none (type, external)
@@ -62,7 +62,7 @@ module normal_law
       end subroutine prepare_interface
 
       !> Parameters of the law for a pair of surfaces, or what is wrong with the pair: the deck's reader asks this
-      !> first, so that a law that does not fit is a mistake of the deck.
+      !> first, so that a law that does not match is an error of the deck.
       subroutine fit_interface(self, pair, parameters, message, help)
          import :: n_law_parameter, normal_law_t, surfaces_t, wp
          implicit none (type, external)
@@ -99,7 +99,7 @@ module normal_law
          real(wp) :: energy                                   !! energy stored [J]
       end function potential_interface
 
-      !> The parameters of a contact in words, for `gudgeon explain`.
+      !> The parameters of a contact as text, for `gudgeon explain`.
       function description_interface(self, parameters) result(words)
          import :: n_law_parameter, normal_law_t, wp
          implicit none (type, external)
@@ -119,7 +119,7 @@ contains
       message = repeat("", len(self%name))
    end function normal_mistake
 
-   !> The impact speed that damping terms have where a contact is deeper than it began, and its derivative by the penetration.
+   !> The impact speed that damping terms have where a contact is deeper than it started, and its derivative by the penetration.
    pure subroutine impact_speed_of_depth(delta, f_elastic, df_elastic, impact_speed, gently, speed, dspeed)
       real(wp), intent(in) :: delta         !! penetration [m]
       real(wp), intent(in) :: f_elastic     !! elastic force there [N]
@@ -151,7 +151,7 @@ contains
       real(wp), intent(in) :: inverse_mass                 !! 1/m_i + 1/m_j of the bodies, 0 for what cannot move [1/kg]
 
       real(wp), parameter :: factor = 2.9432752_wp   ! 2 sqrt(pi) Gamma(7/5) / Gamma(9/10) [1]
-      real(wp), parameter :: begin = 1.0e-6_wp       ! penetration at which the iteration begins, of no influence on its end [m]
+      real(wp), parameter :: begin = 1.0e-6_wp       ! penetration at which the iteration starts, of no influence on its end [m]
       real(wp), parameter :: longest = 20.0_wp       ! change of its logarithm in one iteration [1]
       real(wp), parameter :: close = 1.0e-6_wp       ! logarithms that are the same [1]
       integer, parameter :: most = 40                ! iterations

@@ -28,7 +28,7 @@ module surfaces
       real(wp) :: sigma_i = 0.0_wp           !! (1 - nu^2)/E of the material of i [1/Pa]
       real(wp) :: sigma_j = 0.0_wp           !! (1 - nu^2)/E of the material of j [1/Pa]
       real(wp) :: speed_limit = huge(1.0_wp) !! impact speed up to which contact is quasi-static; huge: not known [m/s]
-      real(wp) :: strength = huge(1.0_wp)    !! greatest pressure that both surfaces bear; huge: not known [Pa]
+      real(wp) :: strength = huge(1.0_wp)    !! maximum pressure that both surfaces bear; huge: not known [Pa]
       real(wp) :: inverse_mass = 0.0_wp      !! 1/m_i + 1/m_j of the bodies, 0 for the ground [1/kg]
    end type surfaces_t
 
@@ -48,7 +48,7 @@ contains
       if (material_j%strength > 0.0_wp) surfaces%strength = min(surfaces%strength, material_j%strength)
    end subroutine set_materials
 
-   !> Compliances and speed limit from materials by number, of which one may be left out; without any the pair is left alone.
+   !> Compliances and speed limit from materials by number, of which one may be omitted; without any the pair is left alone.
    pure subroutine take_materials(surfaces, materials, of_i, of_j)
       type(surfaces_t), intent(inout) :: surfaces   !! the pair
       type(material_t), intent(in) :: materials(:)  !! (materials) all materials

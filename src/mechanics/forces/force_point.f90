@@ -37,7 +37,7 @@ module force_point
 
 contains
 
-   !> What the kind says of itself.
+   !> Description of the kind.
    function point_info() result(info)
       type(kind_info_t) :: info  !! name, columns and channels
 

@@ -41,7 +41,7 @@ module force_set
    end type force_slot_t
 
    abstract interface
-      !> What the kind says of itself.
+      !> Description of the kind.
       function info_interface() result(info)
          import :: kind_info_t
          implicit none (type, external)
@@ -91,13 +91,13 @@ module force_set
 
 contains
 
-   !> Take what the deck leaves out from where it puts the bodies at the start: nothing, unless the kind says otherwise.
+   !> Take what the deck omits from where it puts the bodies at the start: nothing, unless the kind says otherwise.
    subroutine force_set_start(self, motion)
       class(force_set_t), intent(inout) :: self  !! the set, prepared
       type(motion_t), intent(in) :: motion       !! bodies where the deck puts them
    end subroutine force_set_start
 
-   !> A step has ended: what counts turns goes on from here.
+   !> A step has ended: what counts turns continues from here.
    subroutine force_follow(self, motion)
       class(force_set_t), intent(inout) :: self  !! the set
       type(motion_t), intent(in) :: motion       !! positions
@@ -107,7 +107,7 @@ contains
    function force_doubt(self, k) result(doubt)
       class(force_set_t), intent(in) :: self  !! the set
       integer, intent(in) :: k                !! item
-      character(:), allocatable :: doubt      !! what does not fit; blank: nothing
+      character(:), allocatable :: doubt      !! what does not match; blank: nothing
 
       doubt = repeat("", self%n + k)
    end function force_doubt
@@ -138,7 +138,7 @@ contains
       type(motion_t), intent(in) :: motion    !! positions and velocities
       real(wp), intent(out) :: force(3)       !! (3) world frame [N]
       real(wp), intent(out) :: moment(3)      !! (3) about the place, world frame [N.m]
-      real(wp), intent(out) :: place(3)       !! (3) where it is told, world frame [m]
+      real(wp), intent(out) :: place(3)       !! (3) where it is reported, world frame [m]
 
       force = 0.0_wp
       moment = 0.0_wp

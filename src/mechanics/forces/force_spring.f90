@@ -53,7 +53,7 @@ module force_spring
 
 contains
 
-   !> What the kind says of itself.
+   !> Description of the kind.
    function spring_info() result(info)
       type(kind_info_t) :: info  !! name, columns and channels
 

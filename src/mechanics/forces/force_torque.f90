@@ -36,7 +36,7 @@ module force_torque
 
 contains
 
-   !> What the kind says of itself.
+   !> Description of the kind.
    function torque_info() result(info)
       type(kind_info_t) :: info  !! name, columns and channels
 

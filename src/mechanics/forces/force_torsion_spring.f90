@@ -46,7 +46,7 @@ module force_torsion_spring
 
 contains
 
-   !> What the kind says of itself.
+   !> Description of the kind.
    function torsion_info() result(info)
       type(kind_info_t) :: info  !! name, columns and channels
 

@@ -1,4 +1,4 @@
-!> The values of what expressions see of a motion, and of the places that requests tell of.
+!> The values of what expressions see of a motion, and of the places that requests report of.
 !>
 !> With r, v, a of the point P less those of the origin O, world frame, A the axes of body F, omega and alpha of it:
 !>

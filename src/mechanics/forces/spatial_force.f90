@@ -35,7 +35,7 @@ module spatial_force
 
 contains
 
-   !> What the kind says of itself.
+   !> Description of the kind.
    function force_info() result(info)
       type(kind_info_t) :: info  !! name, columns and channels
 

@@ -2,7 +2,7 @@
 !>
 !> m = ( mx(t), my(t), mz(t) );   power = m . omega
 !>
-!> Signs: counter-clockwise seen from the tips of the axes named. Source: Flores et al. (2008), section 6.2. Limits: none.
+!> Signs: counter-clockwise observed from the tips of the axes named. Source: Flores et al. (2008), section 6.2. Limits: none.
 module spatial_torque
    use bodies, only: points_t
    use force_set, only: force_set_t
@@ -34,7 +34,7 @@ module spatial_torque
 
 contains
 
-   !> What the kind says of itself.
+   !> Description of the kind.
    function torque_info() result(info)
       type(kind_info_t) :: info  !! name, columns and channels
 

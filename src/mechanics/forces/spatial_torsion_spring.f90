@@ -5,7 +5,7 @@
 !> Turns are counted: theta is taken next to the one that the last step ended with (`follow`), less than half a turn away.
 !>
 !> An angle about axes that part is that of their shadows: it changes although nothing turns about them, and at a right angle it has
-!> no value, which ends a run. The greatest angle between the axes is kept, and `doubt` tells of it.
+!> no value, which ends a run. The maximum angle between the axes is kept, and `doubt` reports of it.
 !>
 !> Signs: the moment on body i about the axis is positive if it takes theta back towards smaller values.
 !> Source: Nikravesh (1988), section 4.3; Flores et al. (2008), section 2.3. Limits: a step is shorter than half a turn.
@@ -37,12 +37,12 @@ module spatial_torsion_spring
    type, extends(force_set_t) :: spatial_torsion_spring_t
       integer, allocatable :: body(:, :)            !! (2, n) bodies i and j
       type(spring_law_t), allocatable :: law(:)     !! (n) moment over angle and its rate, and actuator
-      real(wp), allocatable :: axis(:, :, :)        !! (3, 2, n) axes of i and j as in the deck; zero: left out [1]
-      real(wp), allocatable :: across(:, :, :)      !! (3, 2, n) x of i and of j as in the deck; zero: left out [1]
+      real(wp), allocatable :: axis(:, :, :)        !! (3, 2, n) axes of i and j as in the deck; zero: omitted [1]
+      real(wp), allocatable :: across(:, :, :)      !! (3, 2, n) x of i and of j as in the deck; zero: omitted [1]
       logical, allocatable :: from_start(:)         !! (n) the angle is zero where the deck puts the bodies
       real(wp), allocatable :: frame(:, :, :, :)    !! (3, 3, 2, n) frames of the axes, frames of the bodies [1]
       real(wp), allocatable :: near(:)              !! (n) angle at the end of the last step [rad]
-      real(wp), allocatable :: cosine(:)            !! (n) least cosine of the angle between the axes so far [1]
+      real(wp), allocatable :: cosine(:)            !! (n) minimum cosine of the angle between the axes so far [1]
    contains
       procedure, nopass :: info => torsion_info
       procedure :: prepare => torsion_prepare
@@ -63,7 +63,7 @@ module spatial_torsion_spring
 
 contains
 
-   !> What the kind says of itself.
+   !> Description of the kind.
    function torsion_info() result(info)
       type(kind_info_t) :: info  !! name, columns and channels
 
@@ -145,7 +145,7 @@ contains
    function torsion_doubt(self, k) result(doubt)
       class(spatial_torsion_spring_t), intent(in) :: self  !! the set
       integer, intent(in) :: k                             !! item
-      character(:), allocatable :: doubt                   !! what does not fit; blank: nothing
+      character(:), allocatable :: doubt                   !! what does not match; blank: nothing
 
       doubt = ""
       if (self%cosine(k) >= parallel) return

@@ -13,7 +13,7 @@ module counted_joint
 
    integer, parameter :: most_angles = 2   !! angles of an item, at most
 
-   !> All joints of a kind that counts turns. `prepare` makes room for the angles.
+   !> All joints of a kind that counts turns. `prepare` makes storage for the angles.
    type, abstract, extends(spatial_joint_t) :: counted_joint_t
       real(wp), allocatable :: angle(:, :)   !! (angles of an item, n) at the end of the last step [rad]
    contains

@@ -35,7 +35,7 @@ module driver_angle
 
 contains
 
-   !> What the kind says of itself.
+   !> Description of the kind.
    function angle_info() result(info)
       type(kind_info_t) :: info  !! name, columns, rows and channels
 
@@ -125,7 +125,7 @@ contains
    !> that is not followed.
    function time_to_travel(f, start, direction, longest, turns) result(duration)
       type(expression_t), intent(in) :: f    !! angle [rad]
-      real(wp), intent(in) :: start          !! where to begin [s]
+      real(wp), intent(in) :: start          !! where to start [s]
       real(wp), intent(in) :: direction      !! 1 forwards, -1 backwards [1]
       real(wp), intent(in) :: longest        !! not to be passed [s]
       real(wp), intent(in) :: turns          !! turns, of either sense [1]

@@ -34,7 +34,7 @@ module driver_distance
 
 contains
 
-   !> What the kind says of itself.
+   !> Description of the kind.
    function driven_info() result(info)
       type(kind_info_t) :: info  !! name, columns, rows and channels
 

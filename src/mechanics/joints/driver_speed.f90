@@ -33,7 +33,7 @@ module driver_speed
 
 contains
 
-   !> What the kind says of itself.
+   !> Description of the kind.
    function speed_info() result(info)
       type(kind_info_t) :: info  !! name, columns, rows and channels
 

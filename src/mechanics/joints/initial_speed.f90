@@ -6,7 +6,7 @@
 !>
 !> Signs: the speed is that of j relative to i, counter-clockwise positive. Source: Flores et al. (2008),
 !> sections 2.2 and 2.8 (the four-bar that starts with its crank turning). Limits: revolute joints; a speed that
-!> contradicts drivers or other initial speeds ends the run before it begins.
+!> contradicts drivers or other initial speeds ends the run before it starts.
 module initial_speed
    use driver_speed, only: driver_speed_t
    use kind_info, only: add_number, add_reference, dim_angular_speed, in_plane, kind_info_t
@@ -22,7 +22,7 @@ module initial_speed
 
 contains
 
-   !> What the kind says of itself.
+   !> Description of the kind.
    function initial_info() result(info)
       type(kind_info_t) :: info  !! name, columns and rows; it has no channels
 

@@ -1,6 +1,6 @@
-!> The channels that ideal joints share, and those that drivers share, and the reaction that they tell of.
+!> The channels that ideal joints share, and those that drivers share, and the reaction that they report of.
 !>
-!> The reaction of a joint is all that it transmits: its constraint forces and, if it rubs, its friction.
+!> The reaction of a joint is all that it transmits: its constraint forces and, if it has friction, its friction.
 !>
 !> Signs: force and moment of a joint are those on the body of i; those of a driver act on the body of j along its coordinate,
 !> -lambda. Power of a driver: lambda . Phi_t.
@@ -104,7 +104,7 @@ contains
       moment = moment - cross(self%reaction_point(item, motion) - motion%r(:, body), force)
    end procedure joint_reaction
 
-   !> Add the friction of the last evaluation, if the item rubs.
+   !> Add the friction of the last evaluation, if the item has friction.
    pure subroutine add_friction(friction, item, before, n, load)
       type(joint_friction_t), intent(in) :: friction  !! friction of the set
       integer, intent(in) :: item                     !! item of the set

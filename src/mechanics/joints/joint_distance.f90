@@ -10,7 +10,7 @@
 !> multiplier, and channel `tension`, pulls the points together. Source: Flores et al. (2008), section 2.2, with
 !> |d| - l instead of d . d - l^2, so that the violation is a length and the multiplier a force.
 !> Limits: l > 0. Where the points coincide there is no direction: the world's x stands in for u and the term
-!> with 1/|d| is left out; an assembled mechanism is never there.
+!> with 1/|d| is omitted; an assembled mechanism is never there.
 module joint_distance
    use coordinates, only: coordinates_t
    use item, only: item_t
@@ -39,7 +39,7 @@ module joint_distance
 
 contains
 
-   !> What the kind says of itself.
+   !> Description of the kind.
    function distance_info() result(info)
       type(kind_info_t) :: info  !! name, columns, rows and channels
 
@@ -72,7 +72,7 @@ contains
       end do
    end subroutine distance_prepare
 
-   !> Lengths that the deck leaves out.
+   !> Lengths that the deck omits.
    subroutine distance_set_start(self, motion)
       class(joint_distance_t), intent(inout) :: self  !! the set
       type(motion_t), intent(in) :: motion            !! bodies where the deck puts them

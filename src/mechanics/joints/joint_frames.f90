@@ -1,6 +1,6 @@
 !> Frames x, y, z of an axis in each of two bodies.
 !>
-!> z is the axis; where the deck leaves out that of j, it is that of i as the deck puts the bodies. x is along the part across z
+!> z is the axis; where the deck omits that of j, it is that of i as the deck puts the bodies. x is along the part across z
 !> of the direction that the deck gives, or else of the body axis that follows (xi, eta, zeta, xi) the one nearest to z. Where the
 !> turn counts from the start x of j is that of i instead, as the deck puts the bodies.
 !>
@@ -34,11 +34,11 @@ contains
       type(motion_t), intent(in) :: motion   !! bodies where the deck puts them
       integer, intent(in) :: body(2)         !! (2) bodies i and j
       real(wp), intent(in) :: axis_i(3)      !! (3) axis along the body's own axes, as in the deck [1]
-      real(wp), intent(in) :: axis_j(3)      !! (3) the same of j; zero: left out [1]
+      real(wp), intent(in) :: axis_j(3)      !! (3) the same of j; zero: omitted [1]
       logical, intent(in) :: is_held         !! x of j is that of i
       real(wp), intent(out) :: frame_i(3, 3) !! (3, 3) axes x, y, z as columns, frame of body i [1]
       real(wp), intent(out) :: frame_j(3, 3) !! (3, 3) axes x, y, z as columns, frame of body j [1]
-      real(wp), intent(in), optional :: across(3, 2) !! (3, 2) x along the own axes of i and of j; zero: left out [1]
+      real(wp), intent(in), optional :: across(3, 2) !! (3, 2) x along the own axes of i and of j; zero: omitted [1]
 
       real(wp), parameter :: along = 1.0e-6_wp   ! sine of an angle that is none [1]
       real(wp) :: axis(3)

@@ -1,8 +1,8 @@
 !> Friction in ideal joints: which items of a set rub, by which laws, and how they lie.
 !>
-!> An item that rubs has one sliding velocity v between its surfaces, v = row . (rates of i and j), of body j against body i, and a
-!> normal force N from its multipliers and what presses the surfaces together without any load (`preload`). The law of friction
-!> gives the force on body j along v from N and v, as it does for a contact; as a load on the rates it is `row` times it.
+!> An item that has friction has one sliding velocity v between its surfaces, v = row . (rates of i and j), of body j against body
+!> i, and a normal force N from its multipliers and what presses the surfaces together without any load (`preload`). The law of
+!> friction gives the force on body j along v from N and v, as it does for a contact; as a load on the rates it is `row` times it.
 !>
 !> Signs: forces are those on body j along the sliding velocity that is positive. Source: Flores et al. (2008), section 3.5, for the
 !> laws; radius of the pin and preload as in the joint friction of Altair MotionSolve (reference manual, Force: Joint Friction),
@@ -25,11 +25,11 @@ module joint_friction
    integer, parameter :: of_friction_moment = 7  !! channel of what turns against friction
    integer, parameter :: of_friction_force = 8   !! channel of what slides
    character(*), parameter :: friction_channels = " friction_moment friction_force "
-      !! channels that an item has only if it rubs
+      !! channels that an item has only if it has friction
 
    !> Friction of the items of a set.
    type :: joint_friction_t
-      integer :: n = 0                               !! items that rub
+      integer :: n = 0                               !! items with friction
       integer, allocatable :: item(:)                !! (n) the items
       type(friction_slot_t), allocatable :: law(:)   !! (n) their laws
       real(wp), allocatable :: length(:, :)          !! (most_lengths, n) that the kind's `press` and `slide` need [m]
@@ -45,14 +45,14 @@ module joint_friction
 
 contains
 
-   !> The columns of friction in a joint, but for further lengths, and the channel of an item that rubs.
+   !> The columns of friction in a joint, but for further lengths, and the channel of an item that has friction.
    subroutine add_friction_columns(info, length, length_help, preload_help, channel, unit, channel_help)
       type(kind_info_t), intent(inout) :: info     !! the kind
       character(*), intent(in) :: length           !! column of the length
       character(*), intent(in) :: length_help      !! what it is
       character(*), intent(in) :: preload_help     !! what is pressed together without load
       character(*), intent(in) :: channel, unit    !! channel of the friction, and its unit
-      character(*), intent(in) :: channel_help     !! what it tells
+      character(*), intent(in) :: channel_help     !! what it reports
 
       call add_reference(info, "friction", "friction.", "friction law, a row of a friction table, or none", default="none")
       call add_number(info, length, dim_length, length_help, default="0 m", lower=0.0_wp)
@@ -61,13 +61,13 @@ contains
                        merge(of_friction_moment, of_friction_force, channel == "friction_moment"))
    end subroutine add_friction_columns
 
-   !> Room for the items that rub.
+   !> Storage for the items with friction.
    subroutine new_joint_friction(items, laws, lengths, n_v, friction)
       type(item_t), intent(in) :: items(:)               !! (items) rows of the table; it has the columns of friction
       type(friction_slot_t), intent(in) :: laws(:)       !! (laws) friction laws
       character(*), intent(in) :: lengths                !! blank-separated columns of lengths
       integer, intent(in) :: n_v                         !! rates of a body
-      type(joint_friction_t), intent(out) :: friction    !! friction of those that rub
+      type(joint_friction_t), intent(out) :: friction    !! friction of those with friction
 
       type(text_t), allocatable :: names(:)
       integer :: c, k, law, n

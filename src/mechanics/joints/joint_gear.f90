@@ -10,7 +10,7 @@
 !> Signs: the force on the body of i, where the circles touch, is (R/L) n lambda.
 !> Source: P. E. Nikravesh, Computer-Aided Analysis of Mechanical Systems (1988), section 4.2.4, with the line of centres in place
 !> of a carrier. Limits: other joints hold the centres, |R| apart; the force is along the common tangent: what a pressure
-!> angle adds along the line of centres is left out, as is any play.
+!> angle adds along the line of centres is omitted, as is any play.
 module joint_gear
    use item, only: item_t
    use joint_set, only: add_joint_channels, joint_set_t
@@ -40,7 +40,7 @@ module joint_gear
 
 contains
 
-   !> What the kind says of itself.
+   !> Description of the kind.
    function gear_info() result(info)
       type(kind_info_t) :: info  !! name, columns, rows and channels
 
@@ -102,7 +102,7 @@ contains
       class(joint_gear_t), intent(in) :: self  !! the set
       integer, intent(in) :: k                 !! item
       type(motion_t), intent(in) :: motion     !! positions
-      character(:), allocatable :: doubt       !! what does not fit; blank: nothing
+      character(:), allocatable :: doubt       !! what does not match; blank: nothing
 
       real(wp) :: length, rate, u(3)
 

@@ -29,7 +29,7 @@ module joint_parallel
 
 contains
 
-   !> What the kind says of itself.
+   !> Description of the kind.
    function parallel_info() result(info)
       type(kind_info_t) :: info  !! name, columns, rows and channels
 

@@ -27,7 +27,7 @@ module joint_pin_in_slot
 
 contains
 
-   !> What the kind says of itself.
+   !> Description of the kind.
    function pin_info() result(info)
       type(kind_info_t) :: info  !! name, columns, rows and channels
 

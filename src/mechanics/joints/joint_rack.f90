@@ -10,7 +10,7 @@
 !> they touch. Signs: the force on the body of i, where they touch, is s lambda.
 !> Source: P. E. Nikravesh, Computer-Aided Analysis of Mechanical Systems (1988), section 4.2.4. Limits: other joints hold
 !> the pinion
-!> at its distance |R| from the line; the force is along the line, what a pressure angle adds is left out, as is any play.
+!> at its distance |R| from the line; the force is along the line, what a pressure angle adds is omitted, as is any play.
 module joint_rack
    use item, only: item_t
    use joint_set, only: add_joint_channels
@@ -44,7 +44,7 @@ module joint_rack
 
 contains
 
-   !> What the kind says of itself.
+   !> Description of the kind.
    function rack_info() result(info)
       type(kind_info_t) :: info  !! name, columns, rows and channels
 
@@ -158,7 +158,7 @@ contains
       class(joint_rack_t), intent(in) :: self  !! the set
       integer, intent(in) :: k                 !! item
       type(motion_t), intent(in) :: motion     !! positions
-      character(:), allocatable :: doubt       !! what does not fit; blank: nothing
+      character(:), allocatable :: doubt       !! what does not match; blank: nothing
 
       real(wp) :: d(3), s(3)
 

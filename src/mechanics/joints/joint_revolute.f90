@@ -3,7 +3,7 @@
 !> Phi = r_i + A_i s'_i - r_j - A_j s'_j                                    (2 rows)
 !> Phi_q = [ I, R90 s_i, -I, -R90 s_j ],   gamma = s_i w_i^2 - s_j w_j^2
 !>
-!> A pin of radius R rubs with the sliding velocity v = R (w_j - w_i) under the normal force N = |lambda| + preload.
+!> A pin of radius R has friction with the sliding velocity v = R (w_j - w_i) under the normal force N = |lambda| + preload.
 !>
 !> Signs: the force on body i is -lambda, on body j +lambda, at the pin.
 !> Source: Flores et al. (2008), eq. (2.5). Limits: none.
@@ -32,7 +32,7 @@ module joint_revolute
 
 contains
 
-   !> What the kind says of itself.
+   !> Description of the kind.
    function revolute_info() result(info)
       type(kind_info_t) :: info  !! name, columns, rows and channels
 
@@ -66,7 +66,7 @@ contains
       name = "radius"
    end function revolute_friction_lengths
 
-   !> Sliding velocities of the pins that rub.
+   !> Sliding velocities of the pins with friction.
    subroutine revolute_slide(self, motion)
       class(joint_revolute_t), intent(inout) :: self  !! the set; `friction` is set
       type(motion_t), intent(in) :: motion            !! positions and velocities
@@ -81,10 +81,10 @@ contains
       end do
    end subroutine revolute_slide
 
-   !> Normal force of a pin that rubs.
+   !> Normal force of a pin that has friction.
    pure subroutine revolute_press(self, m, lambda, normal, slope)
       class(joint_revolute_t), intent(in) :: self  !! the set
-      integer, intent(in) :: m                     !! place among the items that rub
+      integer, intent(in) :: m                     !! place among the items with friction
       real(wp), intent(in) :: lambda(:)            !! (2 or more) multipliers [N]
       real(wp), intent(out) :: normal              !! normal force [N]
       real(wp), intent(out) :: slope(:)            !! (size of lambda) its derivatives [1]

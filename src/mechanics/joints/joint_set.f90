@@ -45,7 +45,7 @@ module joint_set
       integer, allocatable :: body(:, :)         !! (2, n) bodies i and j, 0: ground
       real(wp), allocatable :: s_i(:, :)         !! (3, n) point of body i, its frame [m]
       real(wp), allocatable :: s_j(:, :)         !! (3, n) point of body j, its frame [m]
-      type(joint_friction_t) :: friction         !! of the items that rub
+      type(joint_friction_t) :: friction         !! of the items with friction
    contains
       procedure(info_interface), nopass, deferred :: info
       procedure(prepare_interface), deferred :: prepare
@@ -80,7 +80,7 @@ module joint_set
    end type joint_slot_t
 
    abstract interface
-      !> What the kind says of itself.
+      !> Description of the kind.
       function info_interface() result(info)
          import :: kind_info_t
          implicit none (type, external)
@@ -115,7 +115,7 @@ module joint_set
       end subroutine add_joint_channels
 
       !> Values that are read, item by item: channels that joints or drivers share here, those of a kind's own by `report_own`. A
-      !> channel of `info()` that nobody fills is a mistake of the kind; the tests of the registry find it. No allocation.
+      !> channel of `info()` that nobody fills is an error of the kind; the tests of the registry find it. No allocation.
       module subroutine joint_report(self, readings, motion, coordinates, rows, lambda, phi_dot, values)
          implicit none (type, external)
          class(joint_set_t), intent(in) :: self           !! the set
@@ -169,7 +169,7 @@ contains
       allocate (self%friction%item(0))
    end subroutine joint_new
 
-   !> Take what the deck leaves out from where it puts the bodies at the start: nothing, unless the kind says otherwise.
+   !> Take what the deck omits from where it puts the bodies at the start: nothing, unless the kind says otherwise.
    subroutine joint_set_start(self, motion)
       class(joint_set_t), intent(inout) :: self  !! the set, prepared
       type(motion_t), intent(in) :: motion       !! bodies where the deck puts them
@@ -183,13 +183,13 @@ contains
       type(motion_t), intent(in) :: motion       !! bodies where the deck puts them
    end subroutine joint_take_joint
 
-   !> A step has ended: what counts turns goes on from there. Nothing, unless the kind says otherwise (`counts_turns`).
+   !> A step has ended: what counts turns continues from there. Nothing, unless the kind says otherwise (`counts_turns`).
    subroutine joint_follow(self, motion)
       class(joint_set_t), intent(inout) :: self  !! the set
       type(motion_t), intent(in) :: motion       !! positions at the end of the step
    end subroutine joint_follow
 
-   !> How an item is closed in a way that nobody means, which its rows cannot tell from the right one: what follows its name in a
+   !> How an item is closed in a way that nobody means, which its rows cannot report from the right one: what follows its name in a
    !> message. In none, unless the kind says otherwise.
    function joint_closing_fault(self, k, motion) result(fault)
       class(joint_set_t), intent(in) :: self  !! the set
@@ -200,18 +200,18 @@ contains
       fault = repeat("", k + self%n + size(motion%angle))
    end function joint_closing_fault
 
-   !> What of an item's dimensions does not fit where it is closed, though its rows hold: what follows its name in a warning. In
+   !> What of an item's dimensions does not match where it is closed, though its rows hold: what follows its name in a warning. In
    !> none, unless the kind says otherwise.
    function joint_closing_doubt(self, k, motion) result(doubt)
       class(joint_set_t), intent(in) :: self  !! the set
       integer, intent(in) :: k                !! item
       type(motion_t), intent(in) :: motion    !! positions
-      character(:), allocatable :: doubt      !! what does not fit; blank: nothing
+      character(:), allocatable :: doubt      !! what does not match; blank: nothing
 
       doubt = repeat("", k + self%n + size(motion%angle))
    end function joint_closing_doubt
 
-   !> Tell the bodies of the set's rows, and which are angles.
+   !> Report the bodies of the set's rows, and which are angles.
    subroutine joint_declare_rows(self, rows)
       class(joint_set_t), intent(in) :: self  !! the set
       type(rows_t), intent(inout) :: rows     !! rows; those of the set are declared
@@ -256,16 +256,16 @@ contains
       name = ""
    end function joint_friction_lengths
 
-   !> How the items that rub lie: sliding velocities, and what the rates of both bodies add to them. No allocation.
+   !> How the items with friction lie: sliding velocities, and what the rates of both bodies add to them. No allocation.
    subroutine joint_slide(self, motion)
       class(joint_set_t), intent(inout) :: self  !! the set; `friction` is set
       type(motion_t), intent(in) :: motion       !! positions and velocities
    end subroutine joint_slide
 
-   !> Normal force of an item that rubs, from its multipliers.
+   !> Normal force of an item that has friction, from its multipliers.
    pure subroutine joint_press(self, m, lambda, normal, slope)
       class(joint_set_t), intent(in) :: self     !! the set
-      integer, intent(in) :: m                   !! place among the items that rub
+      integer, intent(in) :: m                   !! place among the items with friction
       real(wp), intent(in) :: lambda(:)          !! (rows of an item, or more) multipliers [N or N.m]
       real(wp), intent(out) :: normal            !! normal force, not negative [N]
       real(wp), intent(out) :: slope(:)          !! (size of lambda) its derivatives [1 or 1/m]

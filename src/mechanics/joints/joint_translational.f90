@@ -7,7 +7,7 @@
 !>
 !> A slider of length L bears on the guide with both its ends, at L/2 before and behind the point of j: there the reaction and its
 !> moment are the forces lambda_1/2 +- lambda_2/L, so that N = |lambda_1/2 + lambda_2/L| + |lambda_1/2 - lambda_2/L| + preload.
-!> Without a length N = |lambda_1| + preload. It rubs along the axis with the velocity v = s . (v_j^P - v_i there).
+!> Without a length N = |lambda_1| + preload. It has friction along the axis with the velocity v = s . (v_j^P - v_i there).
 !>
 !> Signs: the force on body j is -n lambda_1. The moment is reported about the point of j.
 !> Source: Flores et al. (2008), eqs. (2.6), (2.8), with a unit axis. Limits: the angle between the
@@ -48,7 +48,7 @@ module joint_translational
 
 contains
 
-   !> What the kind says of itself.
+   !> Description of the kind.
    function translational_info() result(info)
       type(kind_info_t) :: info  !! name, columns, rows and channels
 
@@ -131,7 +131,7 @@ contains
       name = "slider_length"
    end function translational_friction_lengths
 
-   !> Sliding velocities of the guides that rub.
+   !> Sliding velocities of the guides with friction.
    subroutine translational_slide(self, motion)
       class(joint_translational_t), intent(inout) :: self  !! the set; `friction` is set
       type(motion_t), intent(in) :: motion                 !! positions and velocities
@@ -155,10 +155,10 @@ contains
       end do
    end subroutine translational_slide
 
-   !> Normal force of a guide that rubs: of both ends of its slider.
+   !> Normal force of a guide that has friction: of both ends of its slider.
    pure subroutine translational_press(self, m, lambda, normal, slope)
       class(joint_translational_t), intent(in) :: self  !! the set
-      integer, intent(in) :: m                          !! place among the items that rub
+      integer, intent(in) :: m                          !! place among the items with friction
       real(wp), intent(in) :: lambda(:)                 !! (2 or more) multipliers [N, N.m]
       real(wp), intent(out) :: normal                   !! normal force [N]
       real(wp), intent(out) :: slope(:)                 !! (size of lambda) its derivatives [1, 1/m]

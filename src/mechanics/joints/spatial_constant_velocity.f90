@@ -12,7 +12,7 @@
 !>
 !> Signs, frames: `spatial_joint`. Source: P. E. Nikravesh, Computer-Aided Analysis of Mechanical Systems (1988), sections 6.1 and
 !> 7.2, for Euler parameters and the parts of the rows. Limits: less than half a turn between the axes where the deck puts the
-!> bodies, since the axis of the bend is ambiguous beyond; the joint's own bodies are left out.
+!> bodies, since the axis of the bend is ambiguous beyond; the joint's own bodies are omitted.
 module spatial_constant_velocity
    use coordinates, only: coordinates_t
    use item, only: item_t
@@ -43,7 +43,7 @@ module spatial_constant_velocity
 
 contains
 
-   !> What the kind says of itself.
+   !> Description of the kind.
    function constant_velocity_info() result(info)
       type(kind_info_t) :: info  !! name, columns, rows and channels
 

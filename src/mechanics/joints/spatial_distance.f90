@@ -27,7 +27,7 @@ module spatial_distance
 
 contains
 
-   !> What the kind says of itself.
+   !> Description of the kind.
    function distance_info() result(info)
       type(kind_info_t) :: info  !! name, columns, rows and channels
 

@@ -2,7 +2,7 @@
 !>
 !> Phi = theta - f(t): see `turn_frames`.                                    (1 row)
 !>
-!> Signs: counter-clockwise of j, seen from the tip of the axis. Source: as driver.angle of the plane.
+!> Signs: counter-clockwise of j, observed from the tip of the axis. Source: as driver.angle of the plane.
 !> Limits: as `turn_frames`, and those of driver.angle.
 module spatial_driver_angle
    use driver_angle, only: driver_angle_t
@@ -30,7 +30,7 @@ module spatial_driver_angle
 
 contains
 
-   !> What the kind says of itself.
+   !> Description of the kind.
    function spatial_info() result(info)
       type(kind_info_t) :: info  !! name, columns, rows and channels
 

@@ -34,7 +34,7 @@ module spatial_driver_position
 
 contains
 
-   !> What the kind says of itself.
+   !> Description of the kind.
    function position_info() result(info)
       type(kind_info_t) :: info  !! name, columns, rows and channels
 

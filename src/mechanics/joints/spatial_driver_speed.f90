@@ -2,7 +2,7 @@
 !>
 !> Phi = theta - theta_0 - W t, theta_0 where the deck puts the bodies: see `turn_frames`.    (1 row)
 !>
-!> Signs: W > 0 is counter-clockwise of j, seen from the tip of the axis. Source: as driver.speed of the plane.
+!> Signs: W > 0 is counter-clockwise of j, observed from the tip of the axis. Source: as driver.speed of the plane.
 !> Limits: as `turn_frames`.
 module spatial_driver_speed
    use driver_speed, only: driver_speed_t
@@ -30,7 +30,7 @@ module spatial_driver_speed
 
 contains
 
-   !> What the kind says of itself.
+   !> Description of the kind.
    function spatial_info() result(info)
       type(kind_info_t) :: info  !! name, columns, rows and channels
 
@@ -45,7 +45,7 @@ contains
       call add_driver_channels(info)
    end function spatial_info
 
-   !> Frames of the joint that an item drives, and the angle that it begins with.
+   !> Frames of the joint that an item drives, and the angle that it starts with.
    subroutine spatial_take_joint(self, k, joint, motion)
       class(spatial_driver_speed_t), intent(inout) :: self  !! the set, prepared
       integer, intent(in) :: k                   !! item

@@ -32,7 +32,7 @@ module spatial_gear
    public :: gear_is_lost, spatial_gear_t, words_of_lost_gear
 
    real(wp), parameter :: parallel = 1.0e-6_wp  !! sine of an angle of axes that is none [1]
-   real(wp), parameter :: minimum = 0.25_wp  !! least part of what is between the gears at the start that they still mesh at [1]
+   real(wp), parameter :: minimum = 0.25_wp  !! minimum part of what is between the gears at the start that they still mesh at [1]
 
    !> All pairs of gears of a spatial scene.
    type, extends(counted_joint_t) :: spatial_gear_t
@@ -52,7 +52,7 @@ module spatial_gear
 
 contains
 
-   !> What the kind says of itself.
+   !> Description of the kind.
    function gear_info() result(info)
       type(kind_info_t) :: info  !! name, columns, rows and channels
 
@@ -248,7 +248,7 @@ contains
       class(spatial_gear_t), intent(in) :: self  !! the set
       integer, intent(in) :: k                   !! item
       type(motion_t), intent(in) :: motion       !! positions
-      character(:), allocatable :: doubt         !! what does not fit; blank: nothing
+      character(:), allocatable :: doubt         !! what does not match; blank: nothing
 
       real(wp) :: d(3), normal(3), z_i(3), z_j(3)
 

@@ -2,7 +2,7 @@
 !>
 !> Phi = theta - theta_0 - W t                                               (1 row, at the start only)
 !>
-!> As initial.speed of the plane, with the angle of `turn_frames`. Signs: counter-clockwise of j against i, seen from the tip of
+!> As initial.speed of the plane, with the angle of `turn_frames`. Signs: counter-clockwise of j against i, observed from the tip of
 !> the axis. Source: Flores et al. (2008), sections 2.2 and 2.8. Limits: as `turn_frames`.
 module spatial_initial_speed
    use kind_info, only: add_number, add_reference, dim_angular_speed, in_space, kind_info_t
@@ -19,7 +19,7 @@ module spatial_initial_speed
 
 contains
 
-   !> What the kind says of itself.
+   !> Description of the kind.
    function initial_info() result(info)
       type(kind_info_t) :: info  !! name, columns and rows; it has no channels
 

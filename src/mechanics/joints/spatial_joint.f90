@@ -60,8 +60,8 @@ module spatial_joint
       logical :: holds_turn = .false.              !! the frames are parallel as the deck puts the bodies
       logical :: holds_parallel = .false.          !! rows keep axes z parallel, and hold where these are opposed too
       real(wp), allocatable :: axis_i(:, :)        !! (3, n) as in the deck, body's own axes [1]
-      real(wp), allocatable :: axis_j(:, :)        !! (3, n) as in the deck; zero: left out [1]
-      real(wp), allocatable :: across(:, :, :)     !! (3, 2, n) x of i and of j as in the deck; zero: left out [1]
+      real(wp), allocatable :: axis_j(:, :)        !! (3, n) as in the deck; zero: omitted [1]
+      real(wp), allocatable :: across(:, :, :)     !! (3, 2, n) x of i and of j as in the deck; zero: omitted [1]
       logical, allocatable :: from_start(:)        !! (n) angles are zero where the deck puts the bodies
       real(wp), allocatable :: frame_i(:, :, :)    !! (3, 3, n) axes x, y, z as columns, frame of body i [1]
       real(wp), allocatable :: frame_j(:, :, :)    !! (3, 3, n) axes x, y, z as columns, frame of body j [1]
@@ -293,7 +293,7 @@ contains
    pure subroutine press_ends(f, m, length, normal, by_f, by_m)
       real(wp), intent(in) :: f(2)          !! (2) of the points [N]
       real(wp), intent(in) :: m(2)          !! (2) of the axes [N.m]
-      real(wp), intent(in) :: length        !! distance of the ends; 0: the moment is left out [m]
+      real(wp), intent(in) :: length        !! distance of the ends; 0: the moment is omitted [m]
       real(wp), intent(out) :: normal       !! the sum of both ends [N]
       real(wp), intent(out) :: by_f(2)      !! (2) its derivatives by f [1]
       real(wp), intent(out) :: by_m(2)      !! (2) its derivatives by m [1/m]

@@ -22,7 +22,7 @@ module spatial_orientation
 
 contains
 
-   !> What the kind says of itself.
+   !> Description of the kind.
    function orientation_info() result(info)
       type(kind_info_t) :: info  !! name, columns, rows and channels
 

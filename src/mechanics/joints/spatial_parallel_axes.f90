@@ -21,7 +21,7 @@ module spatial_parallel_axes
 
 contains
 
-   !> What the kind says of itself.
+   !> Description of the kind.
    function parallel_info() result(info)
       type(kind_info_t) :: info  !! name, columns, rows and channels
 

@@ -5,8 +5,8 @@
 !>
 !> Phi = s . d + R theta - (the same where the deck puts the bodies)                                (1 row)
 !>
-!> R is positive if the pinion lies to the left of the line, along s and seen from the tip of u: at n = u x s. Phi' = 0 says that
-!> line and pitch circle have the same velocity where they touch. Angles are taken next to those at the end of the last step.
+!> R is positive if the pinion lies to the left of the line, along s and observed from the tip of u: at n = u x s. Phi' = 0 says
+!> that line and pitch circle have the same velocity where they touch. Angles are taken next to those at the end of the last step.
 !>
 !> Signs: the force on the body of i, at P_j - R n where they touch, is s lambda. Source: P. E. Nikravesh, Computer-Aided Analysis
 !> of Mechanical Systems (1988), section 4.2.4, in space. Limits: other joints hold the pinion at its distance |R| from the line,
@@ -48,7 +48,7 @@ module spatial_rack
 
 contains
 
-   !> What the kind says of itself.
+   !> Description of the kind.
    function rack_info() result(info)
       type(kind_info_t) :: info  !! name, columns, rows and channels
 
@@ -173,7 +173,7 @@ contains
       class(spatial_rack_t), intent(in) :: self  !! the set
       integer, intent(in) :: k                   !! item
       type(motion_t), intent(in) :: motion       !! positions
-      character(:), allocatable :: doubt         !! what does not fit; blank: nothing
+      character(:), allocatable :: doubt         !! what does not match; blank: nothing
 
       real(wp) :: d(3), n(3)
 

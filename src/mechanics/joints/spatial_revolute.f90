@@ -2,12 +2,12 @@
 !>
 !> Phi = [ P_i - P_j,  x_i . z_j,  y_i . z_j ]                               (5 rows)
 !>
-!> A pin of radius R rubs with the sliding velocity v = R (omega_j - omega_i) . z under the normal force
+!> A pin of radius R has friction with the sliding velocity v = R (omega_j - omega_i) . z under the normal force
 !>
 !> N = |f/2 + m/L| + |f/2 - m/L| + |f_z| R_f/R + preload
 !>
 !> f the force across z, m z x the moment across z about the points, which the ends of a bearing of length L bear, f_z the force
-!> along z on faces of mean radius R_f. Without L the moment is left out, without R_f the force along z.
+!> along z on faces of mean radius R_f. Without L the moment is omitted, without R_f the force along z.
 !>
 !> Signs, frames: `spatial_joint`. Source: Flores et al. (2008), eqs. (6.14), (6.15): of the three rows of its cross product two are
 !> independent; these two are taken; friction: `joint_friction`. Limits: none.
@@ -36,7 +36,7 @@ module spatial_revolute
 
 contains
 
-   !> What the kind says of itself.
+   !> Description of the kind.
    function revolute_info() result(info)
       type(kind_info_t) :: info  !! name, columns, rows and channels
 
@@ -74,7 +74,7 @@ contains
       name = "radius bearing_length face_radius"
    end function revolute_friction_lengths
 
-   !> Sliding velocities of the pins that rub.
+   !> Sliding velocities of the pins with friction.
    subroutine revolute_slide(self, motion)
       class(spatial_revolute_t), intent(inout) :: self  !! the set; `friction` is set
       type(motion_t), intent(in) :: motion              !! positions and velocities
@@ -95,10 +95,10 @@ contains
       end do
    end subroutine revolute_slide
 
-   !> Normal force of a pin that rubs.
+   !> Normal force of a pin that has friction.
    pure subroutine revolute_press(self, m, lambda, normal, slope)
       class(spatial_revolute_t), intent(in) :: self  !! the set
-      integer, intent(in) :: m                       !! place among the items that rub
+      integer, intent(in) :: m                       !! place among the items with friction
       real(wp), intent(in) :: lambda(:)              !! (5 or more) multipliers [N, N.m]
       real(wp), intent(out) :: normal                !! normal force [N]
       real(wp), intent(out) :: slope(:)              !! (size of lambda) its derivatives [1, 1/m]

@@ -29,7 +29,7 @@ module spatial_revolute_spherical
 
 contains
 
-   !> What the kind says of itself.
+   !> Description of the kind.
    function link_info() result(info)
       type(kind_info_t) :: info  !! name, columns, rows and channels
 
@@ -56,7 +56,7 @@ contains
       self%length = [(merge(items(k)%number("length"), 0.0_wp, items(k)%is_given("length")), k=1, self%n)]
    end subroutine link_prepare
 
-   !> Lengths that the deck leaves out.
+   !> Lengths that the deck omits.
    subroutine link_set_start(self, motion)
       class(spatial_revolute_spherical_t), intent(inout) :: self  !! the set, prepared
       type(motion_t), intent(in) :: motion                        !! bodies where the deck puts them

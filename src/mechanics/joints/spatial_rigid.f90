@@ -21,7 +21,7 @@ module spatial_rigid
 
 contains
 
-   !> What the kind says of itself.
+   !> Description of the kind.
    function rigid_info() result(info)
       type(kind_info_t) :: info  !! name, columns, rows and channels
 

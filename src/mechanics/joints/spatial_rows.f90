@@ -142,7 +142,7 @@ contains
       end associate
    end subroutine span_parts
 
-   !> Angle of x_j against x_i about z_i, counter-clockwise seen from its tip, -pi to pi.
+   !> Angle of x_j against x_i about z_i, counter-clockwise observed from its tip, -pi to pi.
    pure function angle_between(motion, body, frame_i, frame_j) result(x)
       type(motion_t), intent(in) :: motion   !! positions and velocities
       integer, intent(in) :: body(2)         !! (2) bodies i and j

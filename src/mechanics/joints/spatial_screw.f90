@@ -33,7 +33,7 @@ module spatial_screw
 
 contains
 
-   !> What the kind says of itself.
+   !> Description of the kind.
    function screw_info() result(info)
       type(kind_info_t) :: info  !! name, columns, rows and channels
 
@@ -62,7 +62,7 @@ contains
       allocate (self%start(self%n), source=0.0_wp)
    end subroutine screw_prepare
 
-   !> Where the threads begin.
+   !> Where the threads start.
    subroutine screw_set_start(self, motion)
       class(spatial_screw_t), intent(inout) :: self  !! the set, prepared
       type(motion_t), intent(in) :: motion           !! bodies where the deck puts them

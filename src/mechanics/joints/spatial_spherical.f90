@@ -21,7 +21,7 @@ module spatial_spherical
 
 contains
 
-   !> What the kind says of itself.
+   !> Description of the kind.
    function spherical_info() result(info)
       type(kind_info_t) :: info  !! name, columns, rows and channels
 

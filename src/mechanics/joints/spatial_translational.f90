@@ -4,12 +4,12 @@
 !>
 !> The third row is of perpendicular axes: with parallel ones it would lose its rank. The frame of j is that of i where the deck
 !> puts the bodies, unless the deck gives the axis of j.
-!> A slider rubs with the velocity of its point along z under the normal force
+!> A slider has friction with the velocity of its point along z under the normal force
 !>
 !> N = |f/2 + m/L| + |f/2 - m/L| + 2 |m_z|/w + preload
 !>
 !> f the force across z at the point of j, m z x the moment across z about it, which the ends of a slider of length L bear, m_z that
-!> about z, borne at w from side to side. Without L and w the moments are left out.
+!> about z, tolerated at w from side to side. Without L and w the moments are omitted.
 !>
 !> Signs, frames: `spatial_joint`. Source: Nikravesh (1988), section 7.2.4; friction: `joint_friction`. Limits: none.
 module spatial_translational
@@ -37,7 +37,7 @@ module spatial_translational
 
 contains
 
-   !> What the kind says of itself.
+   !> Description of the kind.
    function translational_info() result(info)
       type(kind_info_t) :: info  !! name, columns, rows and channels
 
@@ -76,7 +76,7 @@ contains
       name = "slider_length slider_width"
    end function translational_friction_lengths
 
-   !> Sliding velocities of the sliders that rub.
+   !> Sliding velocities of the sliders with friction.
    subroutine translational_slide(self, motion)
       class(spatial_translational_t), intent(inout) :: self  !! the set; `friction` is set
       type(motion_t), intent(in) :: motion                   !! positions and velocities
@@ -93,10 +93,10 @@ contains
       end do
    end subroutine translational_slide
 
-   !> Normal force of a slider that rubs.
+   !> Normal force of a slider that has friction.
    pure subroutine translational_press(self, m, lambda, normal, slope)
       class(spatial_translational_t), intent(in) :: self  !! the set
-      integer, intent(in) :: m                            !! place among the items that rub
+      integer, intent(in) :: m                            !! place among the items with friction
       real(wp), intent(in) :: lambda(:)                   !! (5 or more) multipliers [N.m, N]
       real(wp), intent(out) :: normal                     !! normal force [N]
       real(wp), intent(out) :: slope(:)                   !! (size of lambda) its derivatives [1/m, 1]

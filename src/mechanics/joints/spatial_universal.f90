@@ -38,7 +38,7 @@ module spatial_universal
 
 contains
 
-   !> What the kind says of itself.
+   !> Description of the kind.
    function universal_info() result(info)
       type(kind_info_t) :: info  !! name, columns, rows and channels
 

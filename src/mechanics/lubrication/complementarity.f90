@@ -2,14 +2,14 @@
 !>
 !> Find p >= 0 with A p - b >= 0 and p (A p - b) = 0, cell by cell, where A is the five-point matrix of conductances, so symmetric
 !> and of positive type: A p = sum over the neighbours of conductance times difference, and conductance to ground times p. There
-!> is one solution; it makes p.A p/2 - b.p least among all p >= 0. Active sets (Hintermueller, Ito, Kunisch 2002; for such
+!> is one solution; it makes p.A p/2 - b.p minimum among all p >= 0. Active sets (Hintermueller, Ito, Kunisch 2002; for such
 !> matrices the same as policy iteration) come to it in a finite number of steps from any set, because p does not fall from the
 !> second step on: solve A p = b for the cells that are wet, the others dry at zero; a wet cell below zero becomes dry, a dry one
-!> to which more flows than away becomes wet. The set of the solution before is where the next begins.
+!> to which more flows than away becomes wet. The set of the solution before is where the next starts.
 !>
 !> The wet cells are numbered column by column and their equations solved by Cholesky's banded factorisation. Where a column has
 !> no wet cell the ring is cut there, and the band has m diagonals; otherwise the ring is folded, first and last column by turns,
-!> and it has 2 m. Limits: m n below a million; round-off of p of 1e-12 of the greatest counts as zero.
+!> and it has 2 m. Limits: m n below a million; round-off of p of 1e-12 of the maximum counts as zero.
 module complementarity
    use kinds, only: wp
    use lapack, only: dpbtrf, dpbtrs
@@ -18,7 +18,7 @@ module complementarity
    public :: complementarity_t, new_complementarity
 
    integer, parameter :: most_steps = 200                 !! of the active set; ten are many
-   real(wp), parameter :: round_off = 1.0e-12_wp          !! part of the greatest pressure or flow that counts as zero [1]
+   real(wp), parameter :: round_off = 1.0e-12_wp          !! part of the maximum pressure or flow that counts as zero [1]
 
    !> The problem, its workspace and its solution.
    type :: complementarity_t
@@ -29,7 +29,7 @@ module complementarity
       real(wp), allocatable :: along(:, :)      !! (m, n) from row j to the next; of the last row unused [1]
       real(wp), allocatable :: ground(:, :)     !! (m, n) to zero [1]
       real(wp), allocatable :: source(:, :)     !! (m, n) b [1/s]
-      logical, allocatable :: is_known(:, :)    !! (m, n) cells that are left out: `p` is given, nothing is conducted to them
+      logical, allocatable :: is_known(:, :)    !! (m, n) cells that are omitted: `p` is given, nothing is conducted to them
       real(wp), allocatable :: p(:, :)          !! (m, n) the solution [1/s]
       logical, allocatable :: is_wet(:, :)      !! (m, n) cells where p was solved for
       integer :: n_steps = 0                    !! steps that the last solution took
@@ -42,7 +42,7 @@ module complementarity
 
 contains
 
-   !> Make the workspace; all that is not known begins wet.
+   !> Make the workspace; all that is not known starts wet.
    subroutine new_complementarity(self, m, n, is_full)
       type(complementarity_t), intent(out) :: self  !! the problem
       integer, intent(in) :: m                      !! rows
@@ -92,7 +92,7 @@ contains
       end do
    end subroutine solve
 
-   !> Numbers of the wet cells, in the order of least band.
+   !> Numbers of the wet cells, in the order of minimum band.
    pure subroutine number_cells(m, n, is_wet, place, n_wet, n_band)
       integer, intent(in) :: m              !! rows
       integer, intent(in) :: n              !! columns

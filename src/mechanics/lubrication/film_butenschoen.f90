@@ -23,8 +23,8 @@ module film_butenschoen
    private
    public :: film_butenschoen_t
 
-   real(wp), parameter :: shortest = 0.125_wp  !! least L/D of the polynomials [1]
-   real(wp), parameter :: longest = 1.0_wp     !! greatest L/D of them [1]
+   real(wp), parameter :: shortest = 0.125_wp  !! minimum L/D of the polynomials [1]
+   real(wp), parameter :: longest = 1.0_wp     !! maximum L/D of them [1]
 
    integer, parameter :: first_own = own_parameters + 2  !! after the scale: b, then the values of the polynomials
 
@@ -48,7 +48,7 @@ module film_butenschoen
 
 contains
 
-   !> What the kind says of itself.
+   !> Description of the kind.
    function butenschoen_info() result(info)
       type(kind_info_t) :: info  !! name and columns
 

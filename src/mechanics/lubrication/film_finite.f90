@@ -35,7 +35,7 @@ module film_finite
 
 contains
 
-   !> What the kind says of itself.
+   !> Description of the kind.
    function finite_info() result(info)
       type(kind_info_t) :: info  !! name and columns
 

@@ -14,7 +14,7 @@
 !> dear as `finite`.
 !>
 !> Grids are made when the film is fitted to a bearing, one for each L/D (with tilt, when it is first asked for), and stay as long
-!> as the program: all films with the same supplies, resolution and boundary share them, each solution begins with the wet cells of
+!> as the program: all films with the same supplies, resolution and boundary share them, each solution starts with the wet cells of
 !> the one before and does not depend on it.
 module film_grid
    use film_law, only: basic_parameters, film_bearing_t, film_law_t, film_motion_t, max_eccentricity, n_film_parameter, &
@@ -72,7 +72,7 @@ module film_grid
 
 contains
 
-   !> What the kind says of itself.
+   !> Description of the kind.
    function grid_info() result(info)
       type(kind_info_t) :: info  !! name and columns
 

@@ -62,7 +62,7 @@ module film_law
    type :: film_slopes_t
       real(wp) :: stiffness(2, 2) = 0.0_wp  !! (2, 2) K: component of the force, of the eccentricity; world frame [N/m]
       real(wp) :: damping(2, 2) = 0.0_wp    !! (2, 2) B: component of the force, of the rate; world frame [N.s/m]
-      real(wp) :: error = 0.0_wp            !! of the greatest entry of each, as a part of it [1]
+      real(wp) :: error = 0.0_wp            !! of the maximum entry of each, as a part of it [1]
    end type film_slopes_t
 
    !> One row of a table of films.
@@ -93,7 +93,7 @@ module film_law
    end type film_slot_t
 
    abstract interface
-      !> What the kind says of itself.
+      !> Description of the kind.
       function info_interface() result(info)
          import :: kind_info_t
          implicit none (type, external)
@@ -273,8 +273,8 @@ contains
    !> Stiffness and damping at a motion, by differences of fourth order of the force; a film that knows them overrides this.
    !>
    !> Steps are 1/1000 and 1/2000 of what is left of the gap, and of the speed at which its surface would be squeezed away; the
-   !> results are those of the shorter ones, their error is told by what both differ by. Where nothing moves the speed is c/s: films
-   !> that rupture have no derivative there, and the mean of both senses is given. Source: A. Iserles, A First Course in the
+   !> results are those of the shorter ones, their error is reported by what both differ by. Where nothing moves the speed is c/s:
+   !> films that rupture have no derivative there, and the mean of both senses is given. Source: A. Iserles, A First Course in the
    !> Numerical Analysis of Differential Equations (2009), section 8.1.
    subroutine film_linearise(self, motion, parameters, slopes)
       class(film_law_t), intent(in) :: self                    !! the film
@@ -303,7 +303,7 @@ contains
 
    contains
 
-      !> What two results differ by, as a part of the greatest entry; one of them has the other sign.
+      !> What two results differ by, as a part of the maximum entry; one of them has the other sign.
       pure real(wp) function difference(a, b)
          real(wp), intent(in) :: a(2, 2), b(2, 2)  !! (2, 2) the results [any]
 
@@ -383,7 +383,7 @@ contains
       message = repeat("", len(self%name))
    end function film_mistake
 
-   !> The parameters of a bearing in words, for `gudgeon explain`; blank: nothing beyond the bearing itself.
+   !> The parameters of a bearing as text, for `gudgeon explain`; blank: nothing beyond the bearing itself.
    function film_description(self, parameters) result(words)
       class(film_law_t), intent(in) :: self                 !! the film
       real(wp), intent(in) :: parameters(n_film_parameter)  !! (n_film_parameter) from `fit` [any]

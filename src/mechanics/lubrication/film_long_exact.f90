@@ -29,7 +29,7 @@ module film_long_exact
 
 contains
 
-   !> What the kind says of itself.
+   !> Description of the kind.
    function long_exact_info() result(info)
       type(kind_info_t) :: info  !! name and columns
 

@@ -30,7 +30,7 @@ module film_long_gumbel
 
 contains
 
-   !> What the kind says of itself.
+   !> Description of the kind.
    function long_gumbel_info() result(info)
       type(kind_info_t) :: info  !! name and columns
 

@@ -26,7 +26,7 @@ module film_long_sommerfeld
 
 contains
 
-   !> What the kind says of itself.
+   !> Description of the kind.
    function long_sommerfeld_info() result(info)
       type(kind_info_t) :: info  !! name and columns
 

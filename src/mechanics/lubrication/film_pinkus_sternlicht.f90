@@ -27,7 +27,7 @@ module film_pinkus_sternlicht
 
 contains
 
-   !> What the kind says of itself.
+   !> Description of the kind.
    function pinkus_sternlicht_info() result(info)
       type(kind_info_t) :: info  !! name and columns
 

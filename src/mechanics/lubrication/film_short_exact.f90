@@ -31,7 +31,7 @@ module film_short_exact
 
 contains
 
-   !> What the kind says of itself.
+   !> Description of the kind.
    function short_exact_info() result(info)
       type(kind_info_t) :: info  !! name and columns
 

@@ -30,7 +30,7 @@ module film_short_gumbel
 
 contains
 
-   !> What the kind says of itself.
+   !> Description of the kind.
    function short_gumbel_info() result(info)
       type(kind_info_t) :: info  !! name and columns
 

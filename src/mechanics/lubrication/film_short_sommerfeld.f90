@@ -26,7 +26,7 @@ module film_short_sommerfeld
 
 contains
 
-   !> What the kind says of itself.
+   !> Description of the kind.
    function short_sommerfeld_info() result(info)
       type(kind_info_t) :: info  !! name and columns
 

@@ -56,7 +56,7 @@ module film_spherical
 
 contains
 
-   !> What the kind says of itself.
+   !> Description of the kind.
    function spherical_info() result(info)
       type(kind_info_t) :: info  !! name and columns
 

@@ -31,7 +31,7 @@ module film_squeeze
 
 contains
 
-   !> What the kind says of itself.
+   !> Description of the kind.
    function squeeze_info() result(info)
       type(kind_info_t) :: info  !! name and columns
 

@@ -16,9 +16,9 @@
 !> of it needs a finer grid than others. So f.v = -2 Psi <= 0 by construction, f is homogeneous of degree 1 in v and has
 !> continuous second derivatives wherever v is not zero.
 !>
-!> Beyond lambda = 4.2 (eps = 0.99955) S grows still towards its value at 4.6, while the powers of q go on. Forces are those on the
-!> journal over mu L R^3/c^2. Source: fitted to `reynolds_grid`; `make film-table` writes finite_table.inc anew. Limits: L/D from
-!> 1/4 to 4, no grooves, lubricant at no pressure at the ends.
+!> Beyond lambda = 4.2 (eps = 0.99955) S grows still towards its value at 4.6, while the powers of q continue. Forces are those on
+!> the journal over mu L R^3/c^2. Source: fitted to `reynolds_grid`; `make film-table` writes finite_table.inc anew. Limits: L/D
+!> from 1/4 to 4, no grooves, lubricant at no pressure at the ends.
 module finite_bearing
    use kinds, only: wp
    implicit none (type, external)
@@ -31,8 +31,8 @@ module finite_bearing
    integer, parameter :: n_mu = 12     !! splines over mu: -n_mu to n_mu
    integer, parameter :: n_local = 6   !! splines that are not zero at a place, one more than their degree
    real(wp), parameter :: knot_distance = 0.5_wp    !! of the splines [1]
-   real(wp), parameter :: min_ratio = 0.25_wp     !! least L/D [1]
-   real(wp), parameter :: max_ratio = 4.0_wp   !! greatest L/D [1]
+   real(wp), parameter :: min_ratio = 0.25_wp     !! minimum L/D [1]
+   real(wp), parameter :: max_ratio = 4.0_wp   !! maximum L/D [1]
    real(wp), parameter :: fitted_lambda = 4.2_wp    !! up to here S is that of the grid [1]
    real(wp), parameter :: max_lambda = 4.6_wp  !! where it ends [1]
    real(wp), parameter :: blend = 2.0_wp            !! of short and long powers [1]
@@ -95,7 +95,7 @@ contains
    end subroutine finite_place
 
    !> The six splines that are not zero at t of an interval, 0 to 1, and their derivatives over t: centred at knots -2 to 3 from the
-   !> beginning of the interval.
+   !> start of the interval.
    pure subroutine basis(t, value, slope)
       real(wp), intent(in) :: t                  !! place in the interval [1]
       real(wp), intent(out) :: value(n_local)    !! (n_local) splines [1]

@@ -19,8 +19,8 @@ module finite_flow
    integer, parameter :: n_flow_eps = 2     !! degree in eps^2
    integer, parameter :: n_flow_x = 4       !! degree in x
    integer, parameter :: n_flow_terms = (n_flow_ratio + 1)*(n_flow_eps + 1)*(n_flow_x + 1)  !! coefficients
-   real(wp), parameter :: min_ratio = 0.25_wp   !! least L/D of the fit [1]
-   real(wp), parameter :: max_ratio = 4.0_wp !! greatest [1]
+   real(wp), parameter :: min_ratio = 0.25_wp   !! minimum L/D of the fit [1]
+   real(wp), parameter :: max_ratio = 4.0_wp !! maximum [1]
 
    include "finite_flow.inc"
 

@@ -1,4 +1,4 @@
-!> When a rigid rotor on a film begins to whirl: from the eight coefficients of the film, for a mass that moves in the plane.
+!> When a rigid rotor on a film starts to whirl: from the eight coefficients of the film, for a mass that moves in the plane.
 !>
 !> m x'' + B x' + K x = 0; where it neither grows nor dies, x = a exp(i nu t), real and imaginary part of the determinant give
 !>

@@ -128,7 +128,7 @@ contains
       call self%film%solve(status)
    end subroutine solve
 
-   !> Direction of the least film; of the motion where the journal is in the middle.
+   !> Direction of the minimum film; of the motion where the journal is in the middle.
    pure real(wp) function direction(state)
       type(journal_state_t), intent(in) :: state  !! the journal's state
 

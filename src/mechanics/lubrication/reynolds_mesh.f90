@@ -1,13 +1,13 @@
 !> Where the cells of a lubricant film lie: columns around the bearing, rows along it.
 !>
-!> Columns are graded towards the least film, at the angle gamma of the eccentricity: at phi = theta - gamma in [-pi, pi] they are
-!> as wide as sqrt(phi^2 + d^2) says, from the wide gap down to the length d of the least film,
+!> Columns are graded towards the minimum film, at the angle gamma of the eccentricity: at phi = theta - gamma in [-pi, pi] they are
+!> as wide as sqrt(phi^2 + d^2) says, from the wide gap down to the length d of the minimum film,
 !>
 !> s(phi) = asinh(k phi/pi)/asinh(k),   k = 3 eps/sqrt(1 - eps^2),   equal steps of s,
 !>
 !> and rows towards the ends, over the shorter of the bearing's length and that of the film, s(1 - y) with k = 0.2 (L/D)/sqrt(1 -
 !> eps^2). Both change smoothly with the eccentricity. Supplies cut ring and length into sections whose number of cells is fixed
-!> at set-up: so edges of supplies are edges of cells wherever the least film is. Limits: supplies lie in the middle of the
+!> at set-up: so edges of supplies are edges of cells wherever the minimum film is. Limits: supplies lie in the middle of the
 !> length.
 module reynolds_mesh
    use kinds, only: pi, two_pi, wp
@@ -30,7 +30,7 @@ module reynolds_mesh
 
    !> Sections of a ring or of a length, each with a number of cells.
    type :: section_list_t
-      logical :: is_turning = .false.      !! the ring begins at the widest gap, wherever that is
+      logical :: is_turning = .false.      !! the ring starts at the widest gap, wherever that is
       integer :: line = 0                  !! supply along the widest gap beside others that are fixed, 0: none
       real(wp), allocatable :: start(:)    !! (n + 1) ends of the sections, an angle or a part of the half length [rad or 1]
       integer, allocatable :: n_cell(:)    !! (n) cells of each, may be none
@@ -189,7 +189,7 @@ contains
 
    !> Graded coordinate of an angle; it grows by 2 in a turn.
    elemental real(wp) function graded_turn(phi, k)
-      real(wp), intent(in) :: phi  !! angle from the least film [rad]
+      real(wp), intent(in) :: phi  !! angle from the minimum film [rad]
       real(wp), intent(in) :: k    !! how steep [1]
 
       real(wp) :: turns

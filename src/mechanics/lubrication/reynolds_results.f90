@@ -1,4 +1,4 @@
-!> What a film on a grid does: force, couple of a tilt, side flow, friction, greatest pressure, least film.
+!> What a film on a grid does: force, couple of a tilt, side flow, friction, maximum pressure, minimum film.
 !>
 !> With scales: forces mu L R^3/c^2, flow c R^3/(3 L), friction mu L R^3/c; P in 1/s, so that forces and flow are per unit of time.
 !> The moment of friction on the journal is -(mu L R^3/c) (w_J - w_B) J - (e x F)_z/2, J = (1/2) int d(theta) dy/h over the
@@ -17,8 +17,8 @@ module reynolds_results
       real(wp) :: side_flow = 0.0_wp  !! flow out of both ends over c R^3/(3 L) [1/s]
       real(wp) :: shear_all = 0.0_wp  !! J of a gap that is full all round [1]
       real(wp) :: shear_wet = 0.0_wp  !! J of the part with pressure [1]
-      real(wp) :: p_max = 0.0_wp !! greatest P [1/s]
-      real(wp) :: h_min = 0.0_wp    !! least gap over c [1]
+      real(wp) :: p_max = 0.0_wp !! maximum P [1/s]
+      real(wp) :: h_min = 0.0_wp    !! minimum gap over c [1]
    end type film_result_t
 
 contains

@@ -1,4 +1,4 @@
-!> Guided bodies of the plane: see `reduced_bodies`.
+!> Bodies with one degree of freedom of the plane: see `reduced_bodies`.
 !>
 !> The coordinate x is the angle of the body for a revolute joint, its way along the axis for a translational one:
 !>
@@ -21,7 +21,7 @@ module planar_one_dof
    private
    public :: planar_guide_t, planar_one_dof_t
 
-   !> One guided body: all that the kernel reads of it, side by side.
+   !> One body with one degree of freedom: all that the kernel reads of it, side by side.
    type :: planar_guide_t
       real(wp) :: arm(2) = 0.0_wp          !! (2) d in the frame of the body; sliding: u in that of the base [m or 1]
       real(wp) :: s_base(2) = 0.0_wp       !! (2) P, sliding: centre of mass at x = 0; frame of the base [m]
@@ -54,12 +54,12 @@ contains
    include "../../foundation/numerics/sine_cosine.inc"
    include "planar_one_dof.inc"
 
-   !> Positions and velocities of the guided bodies; the motion of their bases is set, accelerations too.
+   !> Positions and velocities of the bodies with one degree of freedom; the motion of their bases is set, accelerations too.
    pure subroutine planar_move(self, x, x_dot, motion)
       class(planar_one_dof_t), intent(inout) :: self   !! the bodies
       real(wp), intent(in) :: x(self%n)               !! (n) coordinates [rad or m]
       real(wp), intent(in) :: x_dot(self%n)           !! (n) their rates [rad/s or m/s]
-      type(motion_t), intent(inout) :: motion         !! the motion of the guided bodies is set
+      type(motion_t), intent(inout) :: motion         !! the motion of the bodies with one degree of freedom is set
 
       associate (n => self%n_turning, n_body => ubound(motion%angle, 1))
          call place_turning(n, self%item, x, x_dot, n_body, motion%a, motion%alpha, motion%r, motion%rot, motion%v, motion%omega, &
@@ -84,8 +84,8 @@ contains
       call find_rates(self%n, self%item, n_body, g, g, x_dot, huge(1.0_wp), rate, x_ddot, status)
    end subroutine planar_rates
 
-   !> Accelerations of the guided bodies under loads, with those that they have by their motion or without: then what the loads
-   !> add to them.
+   !> Accelerations of the bodies with one degree of freedom under loads, with those that they have by their motion or without: then
+   !> what the loads add to them.
    pure subroutine planar_response(self, g, with_own, motion, a)
       class(planar_one_dof_t), intent(in) :: self       !! the bodies, moved
       real(wp), intent(in), contiguous :: g(:, 0:)     !! (3, 0:bodies) loads [N, N, N.m]
@@ -107,11 +107,12 @@ contains
       end do
    end subroutine planar_response
 
-   !> Accelerations of the guided bodies from the second derivatives of their coordinates, at the motion that is set.
+   !> Accelerations of the bodies with one degree of freedom from the second derivatives of their coordinates, at the motion that is
+   !> set.
    pure subroutine planar_set_acceleration(self, x_ddot, motion)
       class(planar_one_dof_t), intent(in) :: self      !! the bodies, moved
       real(wp), intent(in) :: x_ddot(self%n)          !! (n) second derivatives [rad/s^2 or m/s^2]
-      type(motion_t), intent(inout) :: motion         !! accelerations of the guided bodies are set
+      type(motion_t), intent(inout) :: motion         !! accelerations of the bodies with one degree of freedom are set
 
       call accelerate(self%n, self%n_turning, self%held, self%item, x_ddot, ubound(motion%angle, 1), motion%a, motion%alpha)
    end subroutine planar_set_acceleration
@@ -144,7 +145,7 @@ contains
       end do
    end subroutine planar_read_coordinates
 
-   !> Multipliers of the rows of guided bodies' joints, which are evaluated.
+   !> Multipliers of the rows of bodies with one degree of freedom' joints, which are evaluated.
    subroutine planar_find_multipliers(self, n_which, which, n_v, n_body, rows, mass, g, a, lambda)
       class(planar_one_dof_t), intent(in) :: self          !! the bodies
       integer, intent(in) :: n_which                      !! how many are meant

@@ -1,4 +1,4 @@
-!> Known bodies of the plane: see `reduced_bodies`.
+!> Prescribed bodies of the plane: see `reduced_bodies`.
 !>
 !> angle_b = angle_a + offset + sign f(t),   r_b = r_a + s_a - s_b,   and the time derivatives of both.
 !>
@@ -14,7 +14,7 @@ module planar_prescribed
    private
    public :: planar_prescribed_t, planar_link_t
 
-   !> One known body: all that the kernel reads of it, side by side.
+   !> One prescribed body: all that the kernel reads of it, side by side.
    type :: planar_link_t
       real(wp) :: s_body(2) = 0.0_wp      !! (2) common point in the frame of the body [m]
       real(wp) :: s_base(2) = 0.0_wp      !! (2) the same in the frame of its base [m]
@@ -43,12 +43,12 @@ contains
    include "../../foundation/numerics/sine_cosine.inc"
    include "planar_prescribed.inc"
 
-   !> Positions, velocities and accelerations of the known bodies at a time; nothing to do if that is their present time.
+   !> Positions, velocities and accelerations of the prescribed bodies at a time; nothing to do if that is their present time.
    subroutine planar_move(self, joints, t, motion)
       class(planar_prescribed_t), intent(inout) :: self             !! the bodies
       type(joint_slot_t), intent(in), contiguous :: joints(:)  !! (sets) joints and drivers
       real(wp), intent(in) :: t                                !! time [s]
-      type(motion_t), intent(inout) :: motion                  !! the motion of the known bodies is set, accelerations too
+      type(motion_t), intent(inout) :: motion                  !! the motion of the prescribed bodies is set, accelerations too
 
       if (.not. abs(t - self%t) > 0.0_wp) return
       self%t = t
@@ -56,9 +56,9 @@ contains
                         motion%omega, motion%angle, motion%a, motion%alpha, self%is_finite)
    end subroutine planar_move
 
-   !> Power that the drivers of known bodies give to the mechanism.
+   !> Power that the drivers of prescribed bodies give to the mechanism.
    pure real(wp) function planar_power(driven, rows, mass, g, lambda, motion) result(power)
-      integer, intent(in), contiguous :: driven(:)        !! the known bodies, and those that they guide
+      integer, intent(in), contiguous :: driven(:)        !! the prescribed bodies, and those that they guide
       type(rows_t), intent(in) :: rows                    !! the solved rows, evaluated
       real(wp), intent(in), contiguous :: mass(:, :)      !! (3, bodies) masses [kg, kg, kg.m^2]
       real(wp), intent(in), contiguous :: g(:, 0:)        !! (3, 0:bodies) applied loads [N, N, N.m]
@@ -71,9 +71,9 @@ contains
 
    !> The same on plain arrays.
    pure real(wp) function power_of(n, body, n_known, known, n_body, n_row, mass, g, jac, lambda, v, omega, a, alpha) result(power)
-      integer, intent(in) :: n                      !! number of known bodies
+      integer, intent(in) :: n                      !! number of prescribed bodies
       integer, intent(in) :: body(n)                !! (n) the bodies
-      integer, intent(in) :: n_known                !! sides of solved rows that are known bodies
+      integer, intent(in) :: n_known                !! sides of solved rows that are prescribed bodies
       integer, intent(in) :: known(3, n_known)      !! (3, known sides) row, place in the Jacobian, body
       integer, intent(in) :: n_body                 !! number of bodies
       integer, intent(in) :: n_row                  !! number of rows

@@ -1,15 +1,16 @@
-!> The contracts of bodies that are left out of the unknowns: those whose motion is a known function of time, and those with one
+!> The contracts of bodies that are omitted of the unknowns: those whose motion is a known function of time, and those with one
 !> coordinate.
 !>
-!> A known body is tied to the ground or to a known body by a driven joint that leaves a turn, or by a rigid one. Its coordinates
-!> leave the unknowns, and the rows that fix it, as many as it has rates, leave the equations. Their multipliers come back by
-!> inverse dynamics, body by body from the last to the first:
+!> A prescribed body is tied to the ground or to a prescribed body by a driven joint that leaves a turn, or by a rigid one. Its
+!> coordinates leave the unknowns, and the rows that fix it, as many as it has rates, leave the equations. Their multipliers come
+!> back by inverse dynamics, body by body from the last to the first:
 !>
 !> Phi_b^T lambda = g_b - M_b a_b - ( Phi^T lambda of all other rows )_b.
 !>
-!> A guided body is tied to the ground or to a known body by one joint that leaves a turn or a way along an axis, and by nothing
-!> else: one coordinate describes it. The rows of the joint leave the equations; their multipliers are the least-squares solution of
-!> Phi_q^T lambda = g - M a in the metric of the masses, which is exact: the right-hand side has no part along the freedom.
+!> A body with one degree of freedom is tied to the ground or to a prescribed body by one joint that leaves a turn or a way along an
+!> axis, and by nothing else: one coordinate describes it. The rows of the joint leave the equations; their multipliers are the
+!> least-squares solution of Phi_q^T lambda = g - M a in the metric of the masses, which is exact: the right-hand side has no part
+!> along the freedom.
 !>
 !> Signs: as the rows of the joints; the reaction on a body is -Phi_q^T lambda.
 !> Source: Flores et al. (2008), eqs. (2.1), (2.14), in the coordinates of the joints. Limits: those of the space, which has the
@@ -36,7 +37,7 @@ module reduced_bodies
 
    !> Bodies of known motion, each after the body that it is tied to.
    type, abstract :: prescribed_bodies_t
-      integer :: n = 0                          !! number of known bodies
+      integer :: n = 0                          !! number of prescribed bodies
       type(held_t), allocatable :: held(:)      !! (n) how they are held
       real(wp) :: t = -huge(1.0_wp)             !! time of the motion that is set [s]
       logical :: is_finite = .true.             !! whether that motion is finite numbers
@@ -48,7 +49,7 @@ module reduced_bodies
 
    !> Bodies with one coordinate: those that turn, then those that slide.
    type, abstract :: one_dof_bodies_t
-      integer :: n = 0                          !! number of guided bodies
+      integer :: n = 0                          !! number of bodies with one degree of freedom
       integer :: n_turning = 0                  !! those of them that turn, the first ones
       type(held_t), allocatable :: held(:)      !! (n) how they are held
    contains
@@ -61,23 +62,23 @@ module reduced_bodies
    end type one_dof_bodies_t
 
    abstract interface
-      !> Positions, velocities and accelerations of the known bodies at a time; nothing to do if that is their present time.
+      !> Positions, velocities and accelerations of the prescribed bodies at a time; nothing to do if that is their present time.
       subroutine prescribed_move_interface(self, joints, t, motion)
          import :: joint_slot_t, prescribed_bodies_t, motion_t, wp
          implicit none (type, external)
          class(prescribed_bodies_t), intent(inout) :: self             !! the bodies
          type(joint_slot_t), intent(in), contiguous :: joints(:)  !! (sets) joints and drivers
          real(wp), intent(in) :: t                                !! time [s]
-         type(motion_t), intent(inout) :: motion                  !! the motion of the known bodies is set
+         type(motion_t), intent(inout) :: motion                  !! the motion of the prescribed bodies is set
       end subroutine prescribed_move_interface
 
-      !> Power that the drivers of known bodies give to the mechanism, with the bodies that they guide counted among them. The rows
-      !> that fix these bodies are fulfilled, so that it is lambda^T Phi_t = -lambda^T Phi_q v: what accelerates the bodies and what
-      !> the solved rows take from them, times their speed.
+      !> Power that the drivers of prescribed bodies give to the mechanism, with the bodies that they guide counted among them. The
+      !> rows that fix these bodies are fulfilled, so that it is lambda^T Phi_t = -lambda^T Phi_q v: what accelerates the bodies and
+      !> what the solved rows take from them, times their speed.
       pure real(wp) function prescribed_power_interface(driven, rows, mass, g, lambda, motion) result(power)
          import :: motion_t, rows_t, wp
          implicit none (type, external)
-         integer, intent(in), contiguous :: driven(:)        !! the known bodies, and those that they guide
+         integer, intent(in), contiguous :: driven(:)        !! the prescribed bodies, and those that they guide
          type(rows_t), intent(in) :: rows                    !! the solved rows, evaluated
          real(wp), intent(in), contiguous :: mass(:, :)      !! (n_v, bodies) masses [kg or kg.m^2]
          real(wp), intent(in), contiguous :: g(:, 0:)        !! (n_v, 0:bodies) applied loads [N or N.m]
@@ -85,8 +86,8 @@ module reduced_bodies
          type(motion_t), intent(in) :: motion                !! motion, with accelerations
       end function prescribed_power_interface
 
-      !> Multipliers of the rows that fix the known bodies. Those of other rows with known bodies are there, and all these rows are
-      !> evaluated.
+      !> Multipliers of the rows that fix the prescribed bodies. Those of other rows with prescribed bodies are there, and all these
+      !> rows are evaluated.
       subroutine prescribed_multipliers_interface(n_rate, n_body, n_row, held, carried, jac, mass, g, a, rest, lambda)
          import :: held_t, wp
          implicit none (type, external)
@@ -94,7 +95,7 @@ module reduced_bodies
          integer, intent(in) :: n_body                         !! number of bodies
          integer, intent(in) :: n_row                          !! number of rows
          type(held_t), intent(in), contiguous :: held(:)       !! (n) how the bodies are held
-         integer, intent(in), contiguous :: carried(:, :)      !! (3, sides) known bodies in other rows: row, place, body
+         integer, intent(in), contiguous :: carried(:, :)      !! (3, sides) prescribed bodies in other rows: row, place, body
          real(wp), intent(in) :: jac(2*n_rate, n_row)          !! (2 n_v, rows) Phi_q of all rows [1 or m]
          real(wp), intent(in) :: mass(n_rate, n_body)          !! (n_v, bodies) masses [kg or kg.m^2]
          real(wp), intent(in) :: g(n_rate, 0:n_body)           !! (n_v, 0:bodies) applied loads [N or N.m]
@@ -103,14 +104,15 @@ module reduced_bodies
          real(wp), intent(inout) :: lambda(n_row)              !! (rows) multipliers; those of the fixing rows are set [N or N.m]
       end subroutine prescribed_multipliers_interface
 
-      !> Positions and velocities of the guided bodies; the motion of their bases is set, accelerations too. No allocation.
+      !> Positions and velocities of the bodies with one degree of freedom; the motion of their bases is set, accelerations too. No
+      !> allocation.
       pure subroutine one_dof_move_interface(self, x, x_dot, motion)
          import :: one_dof_bodies_t, motion_t, wp
          implicit none (type, external)
          class(one_dof_bodies_t), intent(inout) :: self   !! the bodies
          real(wp), intent(in) :: x(self%n)               !! (n) coordinates [rad or m]
          real(wp), intent(in) :: x_dot(self%n)           !! (n) their rates [rad/s or m/s]
-         type(motion_t), intent(inout) :: motion         !! the motion of the guided bodies is set
+         type(motion_t), intent(inout) :: motion         !! the motion of the bodies with one degree of freedom is set
       end subroutine one_dof_move_interface
 
       !> Rates of the coordinates and their derivatives at the motion that is set. Status 1 if one is not a finite number.
@@ -127,8 +129,8 @@ module reduced_bodies
          integer, intent(out) :: status                      !! 0: all finite
       end subroutine one_dof_rates_interface
 
-      !> Accelerations of the guided bodies under loads, with those that they have by their motion or without: then what the loads
-      !> add to them.
+      !> Accelerations of the bodies with one degree of freedom under loads, with those that they have by their motion or without:
+      !> then what the loads add to them.
       pure subroutine one_dof_response_interface(self, g, with_own, motion, a)
          import :: one_dof_bodies_t, motion_t, wp
          implicit none (type, external)
@@ -139,13 +141,14 @@ module reduced_bodies
          real(wp), intent(inout), contiguous :: a(:, 0:)     !! (n_v, 0:bodies) accelerations of the rates [m/s^2 or rad/s^2]
       end subroutine one_dof_response_interface
 
-      !> Accelerations of the guided bodies from the second derivatives of their coordinates, at the motion that is set.
+      !> Accelerations of the bodies with one degree of freedom from the second derivatives of their coordinates, at the motion that
+      !> is set.
       pure subroutine one_dof_acceleration_interface(self, x_ddot, motion)
          import :: one_dof_bodies_t, motion_t, wp
          implicit none (type, external)
          class(one_dof_bodies_t), intent(in) :: self      !! the bodies, moved
          real(wp), intent(in) :: x_ddot(self%n)          !! (n) second derivatives [rad/s^2 or m/s^2]
-         type(motion_t), intent(inout) :: motion         !! accelerations of the guided bodies are set
+         type(motion_t), intent(inout) :: motion         !! accelerations of the bodies with one degree of freedom are set
       end subroutine one_dof_acceleration_interface
 
       !> Coordinates and rates from a motion of all bodies that fulfils the joints.
@@ -158,7 +161,7 @@ module reduced_bodies
          real(wp), intent(out) :: x_dot(self%n)          !! (n) their rates [rad/s or m/s]
       end subroutine one_dof_coordinates_interface
 
-      !> Multipliers of the rows of guided bodies' joints, which are evaluated.
+      !> Multipliers of the rows of bodies with one degree of freedom' joints, which are evaluated.
       subroutine one_dof_multipliers_interface(self, n_which, which, n_v, n_body, rows, mass, g, a, lambda)
          import :: one_dof_bodies_t, rows_t, wp
          implicit none (type, external)

@@ -1,4 +1,4 @@
-!> Guided bodies of space: see `reduced_bodies`.
+!> Bodies with one degree of freedom of space: see `reduced_bodies`.
 !>
 !> The coordinate x is the turn about the axis u of a revolute joint, or the way along that of a translational one:
 !>
@@ -28,7 +28,7 @@ module spatial_one_dof
 
    integer, parameter :: n_held = 5   !! rows of a joint that leaves one freedom
 
-   !> One guided body.
+   !> One body with one degree of freedom.
    type :: spatial_guide_t
       real(wp) :: q_0(4) = 0.0_wp      !! (4) Euler parameters against the base at x = 0; sliding: always [1]
       real(wp) :: q_1(4) = 0.0_wp      !! (4) those at half a turn [1]
@@ -62,12 +62,12 @@ contains
    include "../../foundation/numerics/turned.inc"
    include "carried_point.inc"
 
-   !> Positions and velocities of the guided bodies; the motion of their bases is set, accelerations too.
+   !> Positions and velocities of the bodies with one degree of freedom; the motion of their bases is set, accelerations too.
    pure subroutine spatial_move(self, x, x_dot, motion)
       class(spatial_one_dof_t), intent(inout) :: self  !! the bodies
       real(wp), intent(in) :: x(self%n)               !! (n) coordinates [rad or m]
       real(wp), intent(in) :: x_dot(self%n)           !! (n) their rates [rad/s or m/s]
-      type(motion_t), intent(inout) :: motion         !! the motion of the guided bodies is set
+      type(motion_t), intent(inout) :: motion         !! the motion of the bodies with one degree of freedom is set
 
       associate (n => self%n_turning, n_body => ubound(motion%angle, 1))
          call place_turning(n, self%held, self%item, x, x_dot, n_body, motion%a, motion%alpha, motion%r, motion%rot, motion%v, &
@@ -127,7 +127,7 @@ contains
    !> The bodies that slide, on plain arrays.
    pure subroutine place_sliding(n_turning, n, held, item, x, x_dot, n_body, acceleration, alpha, r, rot, v, omega, p, spin)
       integer, intent(in) :: n_turning                      !! number of bodies that turn, the first ones
-      integer, intent(in) :: n                              !! number of guided bodies
+      integer, intent(in) :: n                              !! number of bodies with one degree of freedom
       type(held_t), intent(in) :: held(n)                   !! (n) how they are held
       type(spatial_guide_t), intent(inout) :: item(n)       !! (n) the bodies, those that slide are moved
       real(wp), intent(in) :: x(n)                          !! (n) coordinates [rad or m]
@@ -179,7 +179,7 @@ contains
 
    !> The same on plain arrays.
    pure subroutine find_rates(n, held, item, n_body, g, x_dot, rate, x_ddot, status)
-      integer, intent(in) :: n                         !! number of guided bodies
+      integer, intent(in) :: n                         !! number of bodies with one degree of freedom
       type(held_t), intent(in) :: held(n)              !! (n) how they are held
       type(spatial_guide_t), intent(in) :: item(n)     !! (n) the bodies, moved
       integer, intent(in) :: n_body                    !! number of bodies
@@ -214,8 +214,8 @@ contains
       x_ddot = item%ease*x_ddot
    end function second_derivative
 
-   !> Accelerations of the guided bodies under loads, with those that they have by their motion or without: then what the loads
-   !> add to them.
+   !> Accelerations of the bodies with one degree of freedom under loads, with those that they have by their motion or without: then
+   !> what the loads add to them.
    pure subroutine spatial_response(self, g, with_own, motion, a)
       class(spatial_one_dof_t), intent(in) :: self      !! the bodies, moved
       real(wp), intent(in), contiguous :: g(:, 0:)     !! (6, 0:bodies) loads [N and N.m]
@@ -236,11 +236,12 @@ contains
       end do
    end subroutine spatial_response
 
-   !> Accelerations of the guided bodies from the second derivatives of their coordinates, at the motion that is set.
+   !> Accelerations of the bodies with one degree of freedom from the second derivatives of their coordinates, at the motion that is
+   !> set.
    pure subroutine spatial_set_acceleration(self, x_ddot, motion)
       class(spatial_one_dof_t), intent(in) :: self     !! the bodies, moved
       real(wp), intent(in) :: x_ddot(self%n)          !! (n) second derivatives [rad/s^2 or m/s^2]
-      type(motion_t), intent(inout) :: motion         !! accelerations of the guided bodies are set
+      type(motion_t), intent(inout) :: motion         !! accelerations of the bodies with one degree of freedom are set
 
       call accelerate(self%n, self%held, self%item, x_ddot, ubound(motion%angle, 1), motion%rot, motion%a, motion%alpha, &
                       motion%spatial%rise)
@@ -248,7 +249,7 @@ contains
 
    !> The same on plain arrays.
    pure subroutine accelerate(n, held, item, x_ddot, n_body, rot, a, alpha, rise)
-      integer, intent(in) :: n                         !! number of guided bodies
+      integer, intent(in) :: n                         !! number of bodies with one degree of freedom
       type(held_t), intent(in) :: held(n)              !! (n) how they are held
       type(spatial_guide_t), intent(in) :: item(n)     !! (n) the bodies, moved
       real(wp), intent(in) :: x_ddot(n)                !! (n) second derivatives [rad/s^2 or m/s^2]
@@ -298,7 +299,7 @@ contains
       end do
    end subroutine spatial_read_coordinates
 
-   !> Multipliers of the rows of guided bodies' joints, which are evaluated.
+   !> Multipliers of the rows of bodies with one degree of freedom' joints, which are evaluated.
    subroutine spatial_find_multipliers(self, n_which, which, n_v, n_body, rows, mass, g, a, lambda)
       class(spatial_one_dof_t), intent(in) :: self         !! the bodies
       integer, intent(in) :: n_which                      !! how many are meant

@@ -1,4 +1,4 @@
-!> Known bodies of space: see `reduced_bodies`.
+!> Prescribed bodies of space: see `reduced_bodies`.
 !>
 !> A_b = A_a Q(f(t)),   r_b = r_a + s_a - s_b,   and the time derivatives of both,
 !>
@@ -17,7 +17,7 @@ module spatial_prescribed
    private
    public :: spatial_prescribed_t, spatial_link_t
 
-   !> One known body.
+   !> One prescribed body.
    type :: spatial_link_t
       real(wp) :: q_0(4) = 0.0_wp         !! (4) Euler parameters against the base at angle zero [1]
       real(wp) :: q_1(4) = 0.0_wp         !! (4) those at half a turn [1]
@@ -42,13 +42,13 @@ contains
    include "../../foundation/numerics/turned.inc"
    include "carried_point.inc"
 
-   !> Positions, velocities and accelerations of the known bodies at a time, up to the first body whose driver says what is no
+   !> Positions, velocities and accelerations of the prescribed bodies at a time, up to the first body whose driver says what is no
    !> finite number; nothing to do if that is their present time.
    subroutine spatial_move(self, joints, t, motion)
       class(spatial_prescribed_t), intent(inout) :: self            !! the bodies
       type(joint_slot_t), intent(in), contiguous :: joints(:)  !! (sets) joints and drivers
       real(wp), intent(in) :: t                                !! time [s]
-      type(motion_t), intent(inout) :: motion                  !! the motion of the known bodies is set, accelerations too
+      type(motion_t), intent(inout) :: motion                  !! the motion of the prescribed bodies is set, accelerations too
 
       real(wp) :: f, f_dot, f_dot_dot
       integer :: k
@@ -107,9 +107,9 @@ contains
       end associate
    end subroutine place_body
 
-   !> Power that the drivers of known bodies give to the mechanism.
+   !> Power that the drivers of prescribed bodies give to the mechanism.
    pure real(wp) function spatial_power(driven, rows, mass, g, lambda, motion) result(power)
-      integer, intent(in), contiguous :: driven(:)        !! the known bodies, and those that they guide
+      integer, intent(in), contiguous :: driven(:)        !! the prescribed bodies, and those that they guide
       type(rows_t), intent(in) :: rows                    !! the solved rows, evaluated
       real(wp), intent(in), contiguous :: mass(:, :)      !! (6, bodies) masses [kg and kg.m^2]
       real(wp), intent(in), contiguous :: g(:, 0:)        !! (6, 0:bodies) applied loads [N and N.m]

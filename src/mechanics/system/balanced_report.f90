@@ -10,7 +10,7 @@
 !>
 !> Signs: force and moment of a joint are those on the body of i; that of a driver acts on the body of j.
 !> Source: Flores et al. (2008), eqs. (2.15), (2.24). Limits: see `planar_prescribed`, `planar_one_dof`; what is read of the rows
-!> themselves, and reactions that requests tell, are found as in any other scene.
+!> themselves, and reactions that requests report, are found as in any other scene.
 module balanced_report
    use balance_plan, only: balance_plan_t, held_reading_t
    use bodies, only: of_acceleration, of_angle, of_angular_acceleration, of_angular_velocity, of_position, of_velocity
@@ -30,7 +30,7 @@ module balanced_report
    ! quantities
    integer, parameter :: force_of_joint = 1       !! force of a joint on the body of i
    integer, parameter :: no_moment = 2            !! moment of a joint that leaves a turn, about its pin
-   integer, parameter :: moment_of_joint = 3      !! moment of another one about the point that it tells
+   integer, parameter :: moment_of_joint = 3      !! moment of another one about the point that it reports
    integer, parameter :: moment_of_driver = 4     !! driving moment on the body of j
    integer, parameter :: power_of_driver = 5      !! power of a driver
    integer, parameter :: turn_of_driver = 6       !! coordinate of a driver
@@ -118,7 +118,7 @@ contains
       subroutine take(held, quantity, on_i)
          type(held_t), intent(in) :: held        !! how the body is held
          integer, intent(in) :: quantity         !! what is read, 0: nothing that follows from the balance
-         real(wp), intent(in) :: on_i            !! 1: what acts on the body of i is told, -1: on that of j [1]
+         real(wp), intent(in) :: on_i            !! 1: what acts on the body of i is reported, -1: on that of j [1]
 
          reading%code = quantity
          reading%body = held%body
@@ -177,7 +177,7 @@ contains
    end subroutine list_bodies
 
    !> Values that are read of bodies, and of joints and drivers what follows from balances. The system is evaluated; accelerations
-   !> of the guided bodies are set. No allocation.
+   !> of the bodies with one degree of freedom are set. No allocation.
    subroutine report_balanced(system, ydot, plan, n_value, values)
       class(mechanism_t), intent(inout) :: system      !! the system, evaluated
       real(wp), intent(in) :: ydot(system%n)           !! (n) derivative of its state [any]

@@ -48,7 +48,7 @@ module contact_places
 
 contains
 
-   !> Number of the ledger's quadratures before those of joints that rub and of films.
+   !> Number of the ledger's quadratures before those of joints with friction and of films.
    pure integer function n_quadratures(n_contact) result(n)
       integer, intent(in) :: n_contact  !! contacts of all sets
 
@@ -65,7 +65,7 @@ contains
    !> Number of the quadrature of what films take, the last one of the ledger, if there are any.
    pure integer function place_of_film_loss(n_contact, has_friction) result(place)
       integer, intent(in) :: n_contact  !! contacts of all sets
-      logical, intent(in) :: has_friction       !! any ideal joint rubs
+      logical, intent(in) :: has_friction       !! any ideal joint has friction
 
       place = n_quadratures(n_contact) + merge(2, 1, has_friction)
    end function place_of_film_loss

@@ -7,7 +7,7 @@
 !> whose solution is that of the complementarity problem: a contact within its limit does not slip (A x = r there); one at its
 !> limit slips against its force, r_c - (A x)_c = mu x_c with mu >= 0. Normal forces are given, so L_c is a number. A is positive
 !> semidefinite: the accelerations are unique. The forces are not where contacts share a load; those found are near the forces that
-!> the iteration begins with.
+!> the iteration starts with.
 !>
 !> Solved contact by contact (block Gauss-Seidel), each exactly: in space by the root of |x_c(mu)| = L_c (More and Sorensen).
 !> Source: F. Pfeiffer and C. Glocker, Multibody Dynamics with Unilateral Contacts (1996), section 5.3; J. J. More and
@@ -20,8 +20,8 @@ module friction_limits
 
    integer, parameter :: n_sweep = 2000               !! sweeps over all contacts, at most
    integer, parameter :: n_newton = 30                !! iterations for a root
-   real(wp), parameter :: converged = 1.0e-14_wp      !! change of a force that ends the iteration, of the greatest limit [1]
-   real(wp), parameter :: singular = 1.0e-14_wp       !! mobility taken as zero, of the greatest one [1]
+   real(wp), parameter :: converged = 1.0e-14_wp      !! change of a force that ends the iteration, of the maximum limit [1]
+   real(wp), parameter :: singular = 1.0e-14_wp       !! mobility taken as zero, of the maximum one [1]
 
 contains
 
@@ -33,7 +33,7 @@ contains
       real(wp), intent(in) :: matrix(lead, n_tangent*n) !! (lead, n_tangent n) A [1/kg]
       real(wp), intent(in) :: r(n_tangent*n)            !! (n_tangent n) r [m/s^2]
       real(wp), intent(in) :: limit(n)                  !! (n) limits, not negative [N]
-      real(wp), intent(inout) :: x(n_tangent*n)         !! (n_tangent n) forces to begin with, then those found [N]
+      real(wp), intent(inout) :: x(n_tangent*n)         !! (n_tangent n) forces to start with, then those found [N]
       real(wp), intent(out) :: against(n_tangent*n)     !! (n_tangent n) r - A x: against the sliding accelerations [m/s^2]
 
       real(wp) :: before(2), change, maximum, rest(2)

@@ -8,7 +8,7 @@
 !> friction; lost by friction in ideal joints, if any rub; taken by films, if there are any ), with the powers lambda^T Phi_t, f .
 !> v, -lambda^T Phi', c l'^2, (F_N - F_elastic) delta', F_T |v_T|, and F_T |v| of joints.
 !>
-!> Events: one function per contact of a loose joint, the penetration while free, its negative while touching; with friction
+!> Events: one function per contact of a clearance joint, the penetration while free, its negative while touching; with friction
 !> that sticks, another one per contact (`mechanism_friction`).
 !>
 !> Source: Flores et al. (2008), eqs. (2.15), (2.23), (2.24).
@@ -78,7 +78,7 @@ module mechanism
          integer, intent(out) :: status             !! outcome
       end subroutine evaluate_terms
 
-      !> Move the bodies to a state as the way of holding the constraints corrects it.
+      !> Move the bodies to a state as the stabilisation method corrects it.
       module subroutine move_corrected(self, t, y, status)
          implicit none (type, external)
          class(mechanism_t), intent(inout) :: self  !! the system
@@ -138,7 +138,7 @@ module mechanism
          class(mechanism_t), intent(inout) :: self  !! the system, its motion and multipliers set
          logical, intent(in) :: is_steady           !! forces of steady sliding: no deflections are integrated
          logical, intent(in) :: is_added            !! whether the loads have the last forces in them already
-         real(wp), intent(out) :: change            !! greatest change of a force, of the greatest force [1]
+         real(wp), intent(out) :: change            !! maximum change of a force, of the maximum force [1]
       end subroutine mechanism_friction_by_multipliers
 
       !> Event functions of friction: slip that ends, and sticking that gives way. Evaluates the system at the state.
@@ -175,7 +175,7 @@ module mechanism
          integer, intent(out) :: status             !! outcome
       end subroutine mechanism_evaluate_unheld
 
-      !> Rows that depend on others where the bodies are: those that the form of index 2 leaves out.
+      !> Rows that depend on others where the bodies are: those that the form of index 2 omits.
       module subroutine mechanism_begin_form(self)
          implicit none (type, external)
          class(mechanism_t), intent(inout) :: self  !! the system, evaluated
@@ -224,7 +224,7 @@ module mechanism
          real(wp), intent(out), contiguous :: g(:), rate(:)     !! (n_event) event functions and their rates [m, m/s]
       end subroutine mechanism_last_events
 
-      !> Leave the system at a state after events were looked for elsewhere.
+      !> Leave the system at a state after events were searched elsewhere.
       module subroutine mechanism_settle(self, t, y, g, rate)
          implicit none (type, external)
          class(mechanism_t), intent(inout) :: self  !! the system
@@ -236,7 +236,7 @@ module mechanism
 
 contains
 
-   !> Take a way of holding the constraints. The coordinates are counted.
+   !> Take a stabilisation method. The coordinates are counted.
    subroutine mechanism_take_way(self, way)
       class(mechanism_t), intent(inout) :: self         !! the system
       class(stabilisation_t), allocatable, intent(inout) :: way  !! the way, configured; gone afterwards
@@ -248,7 +248,7 @@ contains
       allocate (self%held(merge(self%linkage%n_position + self%linkage%n_rate, 0, self%way%at_stages)), source=0.0_wp)
    end subroutine mechanism_take_way
 
-   !> The length of the step that begins, for gains that follow it.
+   !> The length of the step that starts, for gains that follow it.
    subroutine mechanism_set_step(self, h)
       class(mechanism_t), intent(inout) :: self  !! the system
       real(wp), intent(in) :: h                  !! length of the step [s]
@@ -257,7 +257,7 @@ contains
       call self%way%begin_step(self%linkage, h)
    end subroutine mechanism_set_step
 
-   !> Whether the form of index 2 leaves out rows.
+   !> Whether the form of index 2 omits rows.
    pure logical function mechanism_leaves_out(self) result(does)
       class(mechanism_t), intent(in) :: self  !! the system
 

@@ -12,7 +12,7 @@ contains
       end associate
    end procedure mechanism_bristle_place
 
-   !> Place of the deflection of a joint that rubs in the state.
+   !> Place of the deflection of a joint that has friction in the state.
    module procedure mechanism_rubbing_place
       associate (rubbing => self%friction%rubbing)
          place = self%linkage%n_position + self%linkage%n_rate + rubbing%first_bristle + rubbing%bristle(joint)
@@ -61,7 +61,7 @@ contains
       end do
    end procedure mechanism_bristle_rates
 
-   !> Their scales: the greatest deflections that last.
+   !> Their scales: the maximum deflections that last.
    module procedure mechanism_bristle_weights
       integer :: k, place
 

@@ -1,7 +1,7 @@
 !> The catalogue of a system: its items and channels, and which of them are read of which set.
 !>
-!> Names are compared when it is built, once for each set; what a set tells is a list of numbers from then on (`offer`), of which
-!> those are bound that someone wants.
+!> Names are compared when it is built, once for each set; what a set reports is a list of numbers from then on (`offer`), of which
+!> those are bound that someone needs.
 module mechanism_catalogue
    use balanced_report, only: bind_balance
    use catalogue, only: catalogue_t, names_of_channels
@@ -39,7 +39,7 @@ module mechanism_catalogue
 
    character(*), parameter :: contact_channels = &
       " penetration penetration_rate normal_force friction_force state contact_point"//named_channels
-      !! channels of a loose joint that belong to its contact
+      !! channels of a clearance joint that belong to its contact
 
 contains
 
@@ -125,7 +125,7 @@ contains
       call bind_channels(system, catalogue)
    end subroutine build_catalogue
 
-   !> Bind the channels that are wanted to the sets that tell them: what a sample finds.
+   !> Bind the channels that are requested to the sets that report them: what a sample finds.
    subroutine bind_channels(system, catalogue)
       class(mechanism_t), intent(in) :: system        !! the system
       type(catalogue_t), intent(inout) :: catalogue   !! what it can report; its readings are set
@@ -196,7 +196,7 @@ contains
 
    end subroutine list_rows
 
-   !> Joints and drivers, each in the order of their columns; those that rub have the channels of friction.
+   !> Joints and drivers, each in the order of their columns; those with friction have the channels of friction.
    subroutine add_joints(system, catalogue)
       class(mechanism_t), intent(in) :: system       !! the system
       type(catalogue_t), intent(inout) :: catalogue  !! items and channels are added
@@ -252,7 +252,7 @@ contains
 
    end subroutine add_joints
 
-   !> Loose joints and their contacts, with the channels of films where there are some.
+   !> Clearance joints and their contacts, with the channels of films where there are some.
    subroutine add_clearance_joint(system, catalogue)
       class(mechanism_t), intent(in) :: system       !! the system
       type(catalogue_t), intent(inout) :: catalogue  !! items and channels are added
@@ -288,7 +288,7 @@ contains
       end do
    end subroutine add_clearance_joint
 
-   !> Take some channels out of what a kind tells.
+   !> Take some channels out of what a kind reports.
    pure subroutine take_out(names, info)
       character(*), intent(in) :: names          !! their names, each between blanks
       type(kind_info_t), intent(inout) :: info   !! the kind

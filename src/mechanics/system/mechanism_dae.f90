@@ -12,7 +12,7 @@ submodule(mechanism) mechanism_dae
 
 contains
 
-   !> Rows that are left out: none, unless some depend on others from the start.
+   !> Rows that are omitted: none, unless some depend on others from the start.
    module procedure mechanism_begin_form
       type(assembly_t) :: report
 

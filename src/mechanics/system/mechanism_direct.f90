@@ -1,12 +1,12 @@
 !> The right-hand side, and that of a planar scene none of whose bodies is unknown in full: each is known or guided
 !> (`reduced_bodies`), nothing is solved, and a coordinate's acceleration follows from the loads at once.
 !>
-!> That is what `linkage_move`, `mechanism_evaluate_loads` and `rates` of the guided bodies do for every scene, in the same order
-!> and with the same kernels; here these are inlined in one procedure. Such scenes are small, and a third of an evaluation were
-!> calls and addresses. Loads are not gathered on the rates: who reads them there asks for that (`gather_loads`).
+!> That is what `linkage_move`, `mechanism_evaluate_loads` and `rates` of the bodies with one degree of freedom do for every scene,
+!> in the same order and with the same kernels; here these are inlined in one procedure. Such scenes are small, and a third of an
+!> evaluation were calls and addresses. Loads are not gathered on the rates: who reads them there asks for that (`gather_loads`).
 !>
 !> Source: see `planar_prescribed`, `planar_one_dof`. Limits: nothing that has states or unknowns of its own but coordinates and
-!> quadratures: no bristles, no contacts that stick, no joints that rub by multipliers, no correction of stages.
+!> quadratures: no bristles, no contacts that stick, no joints with friction by multipliers, no correction of stages.
 submodule(mechanism) mechanism_direct
    use, intrinsic :: ieee_arithmetic, only: ieee_is_finite
    use clearance_set, only: clearance_slot_t, n_integrand, normal_impulse
@@ -103,14 +103,14 @@ contains
    include "sum_loads.inc"
    include "impulse_rates.inc"
 
-   !> Positions and velocities of the guided bodies.
+   !> Positions and velocities of the bodies with one degree of freedom.
    pure subroutine place_one_dof(n, n_turning, item, y, n_body, motion)
-      integer, intent(in) :: n                              !! number of guided bodies
+      integer, intent(in) :: n                              !! number of bodies with one degree of freedom
       integer, intent(in) :: n_turning                      !! those that turn
       type(planar_guide_t), intent(inout) :: item(n)        !! (n) the bodies, moved
       real(wp), intent(in) :: y(2*n)                        !! (2 n) coordinates and rates [rad or m, and per s]
       integer, intent(in) :: n_body                         !! number of bodies
-      type(motion_t), intent(inout) :: motion               !! the motion of the guided bodies is set
+      type(motion_t), intent(inout) :: motion               !! the motion of the bodies with one degree of freedom is set
 
       call place_turning(n_turning, item, y, y(n + 1:), n_body, motion%a, motion%alpha, motion%r, motion%rot, motion%v, &
                          motion%omega, motion%angle)

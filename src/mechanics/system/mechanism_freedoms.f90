@@ -5,7 +5,8 @@ submodule(mechanism_state) mechanism_freedoms
 
 contains
 
-   !> The local change that a small change of a state is. One coordinate of a guided body, and other states, are what they are.
+   !> The local change that a small change of a state is. One coordinate of a body with one degree of freedom, and other states, are
+   !> what they are.
    module procedure mechanism_to_local
       integer :: n_rate, n_turned
 
@@ -31,7 +32,7 @@ contains
       end associate
    end procedure mechanism_from_local
 
-   !> Directions that the rows leave the bodies, then one of each guided body.
+   !> Directions that the rows leave the bodies, then one of each body with one degree of freedom.
    module procedure mechanism_free_directions
       integer :: k, n_turned
 

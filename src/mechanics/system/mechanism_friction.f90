@@ -6,8 +6,8 @@
 !> v_T' = -2 kappa v_T:   A x = -(G a_0 + drift + 2 kappa v_T),   A = G K^-1 G^T,
 !>
 !> with G their tangential rows (`contact_stick_slip`), a_0 the accelerations without these forces and K the augmented matrix: one
-!> solution of the augmented equations for each of them and one with all loads. kappa, a multiple of the mechanism's pace
-!> (`mechanism_scales`), keeps the sliding velocity at round-off.
+!> solution of the augmented equations for each of them and one with all loads. kappa, a multiple of the mechanism's characteristic
+!> rate (`mechanism_scales`), keeps the sliding velocity at round-off.
 !> Where contacts share a load, as two corners of one block do, each takes the same part of what it can hold.
 !>
 !> Sliding that drivers prescribe no force can keep back: such a contact sticks only while it is at rest, where friction is any

@@ -7,7 +7,7 @@ submodule(mechanism) mechanism_holding
 
 contains
 
-   !> Move the bodies to a state as the way of holding the constraints corrects it.
+   !> Move the bodies to a state as the stabilisation method corrects it.
    module procedure move_corrected
       self%held(:) = y(:size(self%held))
       call self%way%correct_stage(self%linkage, t, self%held, status)

@@ -7,7 +7,8 @@ submodule(mechanism_state) mechanism_memory
    implicit none (type, external)
 
    ! versions of the forms of what is saved: raised where that changes
-   integer, parameter :: equations_version = 2  !! of the counters, the pace, the largest energy and the stretch of smooth time
+   integer, parameter :: equations_version = 2  !! of the counters, the characteristic rate, the largest energy and the stretch of
+                                                !! smooth time
    integer, parameter :: joint_version = 1      !! of sets of joints and drivers
    integer, parameter :: contact_version = 2    !! of sets of joints with clearance
    integer, parameter :: solver_version = 1     !! of solvers of the augmented equations
@@ -15,8 +16,8 @@ submodule(mechanism_state) mechanism_memory
 
 contains
 
-   !> List what the system saves: the counters, the pace, the largest energy and the stretch of smooth time; the way of holding the
-   !> constraints; the solver of the augmented equations and the sets that remember something.
+   !> List what the system saves: the counters, the characteristic rate, the largest energy and the stretch of smooth time; the way
+   !> of holding the constraints; the solver of the augmented equations and the sets that remember something.
    module procedure mechanism_list_memory
       type(kind_info_t) :: info
       integer :: k
@@ -103,7 +104,7 @@ contains
       call get(row, place, self%linkage%scales%late_rate)
       call get(row, place, self%friction%stick_slips%h)
       call get(row, place, self%ledger%largest)
-      if (self%ledger%largest > 0.0_wp) call self%scale_quadratures(self%ledger%largest)  ! 0: of a system not yet begun
+      if (self%ledger%largest > 0.0_wp) call self%scale_quadratures(self%ledger%largest)  ! 0: of a system not yet started
       call get(row, place, self%linkage%solution%solver%n_factorisations)
       call get(row, place, self%linkage%segment%low)
       call get(row, place, self%linkage%segment%high)

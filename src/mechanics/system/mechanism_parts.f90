@@ -1,4 +1,4 @@
-!> Parts of a mechanism beside its linkage: loose joints, friction that is solved for, what is told of energies.
+!> Parts of a mechanism beside its linkage: clearance joints, friction that is solved for, what is reported of energies.
 module mechanism_parts
    use clearance_set, only: clearance_slot_t
    use contact_places, only: event_functions_t
@@ -9,14 +9,14 @@ module mechanism_parts
    private
    public :: friction_t, ledger_t, clearance_joints_t
 
-   !> Loose joints.
+   !> Clearance joints.
    type :: clearance_joints_t
-      type(clearance_slot_t), allocatable :: sets(:)   !! loose joints, one set per combination of laws
+      type(clearance_slot_t), allocatable :: sets(:)   !! clearance joints, one set per combination of laws
       integer :: n_set = 0                             !! how many: bounds of arrays are looked up longer
-      integer :: n = 0                                 !! loose joints in all
+      integer :: n = 0                                 !! clearance joints in all
       integer :: n_contact = 0                         !! contacts of all of them
       logical :: has_films = .false.                   !! lubricant films act in some
-      real(wp) :: film_clearance = huge(1.0_wp)        !! least clearance with a film [m]
+      real(wp) :: film_clearance = huge(1.0_wp)        !! minimum clearance with a film [m]
       real(wp), allocatable :: integrands(:, :)        !! (3, contacts) power lost by contact and friction [W], normal force [N]
       type(event_functions_t) :: functions             !! which event functions their contacts have
    end type clearance_joints_t
@@ -24,10 +24,10 @@ module mechanism_parts
    !> Friction that is solved for.
    type :: friction_t
       type(stick_slip_forces_t) :: stick_slips    !! contacts whose friction remembers
-      type(rubbing_t) :: rubbing      !! ideal joints that rub
+      type(rubbing_t) :: rubbing      !! ideal joints with friction
    end type friction_t
 
-   !> What is told of energies.
+   !> What is reported of energies.
    type :: ledger_t
       logical :: is_kept = .true.         !! whether the ledger is kept
       logical :: has_energies = .true.    !! whether energies are reported, with or without a ledger

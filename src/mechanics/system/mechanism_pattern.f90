@@ -56,7 +56,7 @@ contains
                   body = place(self%linkage%rows%body(k, i))
                   if (body > 0) call add_body(n_v*n*level + n_v*(body - 1))
                end do
-               call add_entry(self%n + merge(0, m, level == 1) + i - 1)  ! of a row that is left out
+               call add_entry(self%n + merge(0, m, level == 1) + i - 1)  ! of a row that is omitted
             end do
          end do
          column(self%n + 2*m + 1) = n_entry
@@ -86,7 +86,7 @@ contains
 
    end procedure mechanism_dae_pattern
 
-   !> M^{-1} Phi_q^T, row by row, the first body of each before the second, and after them 1 of a row that is left out.
+   !> M^{-1} Phi_q^T, row by row, the first body of each before the second, and after them 1 of a row that is omitted.
    module procedure mechanism_dae_spread
       integer :: body, i, k, n
       logical :: is_left_out(self%n_row)

@@ -24,7 +24,7 @@ contains
       type(mechanism_t), intent(inout) :: system   !! the system
       real(wp), intent(in) :: t                     !! time [s]
       real(wp), intent(in) :: y(system%n)           !! (n) state [any]
-      real(wp), intent(inout) :: ydot(system%n)     !! (n) its derivative; of quadratures where they are wanted [any]
+      real(wp), intent(inout) :: ydot(system%n)     !! (n) its derivative; of quadratures where they are requested [any]
       real(wp), intent(in) :: residual              !! of the ledger at the last step [J]
       type(catalogue_t), intent(inout) :: catalogue !! values
       integer, intent(out) :: status                !! of the evaluation

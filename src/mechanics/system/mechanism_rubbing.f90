@@ -1,12 +1,12 @@
 !> Friction in the ideal joints of a mechanism.
 !>
-!> Friction forces x of the m joints that rub follow from normal forces, these from the multipliers, and these from x:
+!> Friction forces x of the m joints with friction follow from normal forces, these from the multipliers, and these from x:
 !>
 !> x_k = f_k(N_k(lambda), v_k, z_k),   lambda = lambda_0 + R (x - x_0)
 !>
 !> with f_k the law of friction (`joint_friction`), lambda_0 the multipliers of accelerations under forces x_0, and R what unit
 !> forces do to them, which is one solution of the augmented equations for each joint. The m equations are solved by Newton's
-!> iteration to 1e-12 of the greatest force; the accelerations then are those under all loads. With multipliers that are given, as
+!> iteration to 1e-12 of the maximum force; the accelerations then are those under all loads. With multipliers that are given, as
 !> those of `ida`, no equation is to be solved.
 !>
 !> What sticks to contacts (`mechanism_friction`) is found in turns with x until neither changes.
@@ -20,7 +20,7 @@ submodule(mechanism) mechanism_rubbing
    use lapack, only: dgetrf, dgetrs
    implicit none (type, external)
 
-   real(wp), parameter :: tolerance = 1.0e-12_wp   !! of the forces, of the greatest of them [1]
+   real(wp), parameter :: tolerance = 1.0e-12_wp   !! of the forces, of the maximum of them [1]
    integer, parameter :: most_iterations = 30      !! of Newton's, at most
    integer, parameter :: most_turns = 30           !! of friction in joints and of contacts that stick, at most
    real(wp), parameter :: normal_step = 1.0_wp     !! of the difference that gives the slope of a law, beyond N itself [N]
@@ -78,7 +78,7 @@ contains
       call note_power(self)
    end procedure mechanism_friction_by_multipliers
 
-   !> How the joints that rub lie, at the present motion.
+   !> How the joints with friction lie, at the present motion.
    subroutine slide(self)
       class(mechanism_t), intent(inout) :: self   !! the system, its motion set
 
@@ -131,7 +131,7 @@ contains
       call self%linkage%find_accelerations(self%loading%g, .true., self%friction%stick_slips%n_slip > 0, status)
    end subroutine solve_rubbing
 
-   !> Multipliers of the joints that rub, and what unit forces do to them.
+   !> Multipliers of the joints with friction, and what unit forces do to them.
    subroutine respond(self, status)
       class(mechanism_t), intent(inout) :: self   !! the system, accelerations found; they are lost
       integer, intent(out) :: status              !! 0: found
@@ -189,7 +189,7 @@ contains
       end associate
    end subroutine find_left
 
-   !> Multipliers of the last solution, those of the joints that rub.
+   !> Multipliers of the last solution, those of the joints with friction.
    pure subroutine take_multipliers(self, lambda)
       class(mechanism_t), intent(in) :: self     !! the system
       real(wp), intent(out) :: lambda(:, :)      !! (most_rows, joints) the multipliers, then zeros [N or N.m]
@@ -208,7 +208,7 @@ contains
    !> Add the pair of friction forces of a joint to loads on the rates.
    pure subroutine add_friction(self, k, force, g)
       class(mechanism_t), intent(in) :: self     !! the system
-      integer, intent(in) :: k                   !! number of the joint that rubs
+      integer, intent(in) :: k                   !! number of the joint that has friction
       real(wp), intent(in) :: force              !! on body j along its sliding velocity [N]
       real(wp), intent(inout) :: g(:, 0:)        !! (n_v, 0:bodies) loads [N or N.m]
 
@@ -221,7 +221,7 @@ contains
       end associate
    end subroutine add_friction
 
-   !> The greatest friction force.
+   !> The maximum friction force.
    pure real(wp) function maximum(self)
       class(mechanism_t), intent(in) :: self     !! the system
 

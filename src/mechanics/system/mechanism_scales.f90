@@ -1,10 +1,10 @@
-!> What is large and what is small in a planar scene: error scales, and the pace of the mechanism.
+!> What is large and what is small in a planar scene: error scales, and the characteristic rate of the mechanism.
 !>
-!> A mechanism moves its size L in a time that is its own. Its rate at an instant is the greatest |v|/L and |omega| of all bodies,
-!> its pace the greatest rate so far. What must be told from nothing (a speed left over, an error) is a part of pace and size, so
-!> that small and slow mechanisms are computed as large and fast ones are. The pace begins with the greatest of: the rate at the
-!> start; sqrt(|a|/L) and sqrt(|alpha|), which is where the accelerations of the start lead; one millionth of 1/end, so that what
-!> never moves has one too. Where a load jumps, the accelerations lead anew.
+!> A mechanism moves its size L in a time that is its own. Its rate at an instant is the maximum |v|/L and |omega| of all bodies,
+!> its characteristic rate the maximum rate so far. What must be reported from nothing (a speed left over, an error) is a part of
+!> characteristic rate and size, so that small and slow mechanisms are computed as large and fast ones are. The characteristic rate
+!> starts with the maximum of: the rate at the start; sqrt(|a|/L) and sqrt(|alpha|), which is where the accelerations of the start
+!> lead; one millionth of 1/end, so that what never moves has one too. Where a load jumps, the accelerations lead anew.
 submodule(mechanism_state) mechanism_scales
    use contact_memory, only: contact_memory_t
    use coordinates, only: most_rates
@@ -25,10 +25,10 @@ submodule(mechanism_state) mechanism_scales
 contains
 
    !> Error scales: lengths over the size of the bodies, angles over one radian, rates over the
-   !> greatest present rate of the mechanism, at least a hundredth of its pace, and of 1/duration of the run: what begins to move
-   !> late must not be measured by round-off. Angles are not scaled by
+   !> maximum present rate of the mechanism, at least a hundredth of its characteristic rate, and of 1/duration of the run: what
+   !> starts to move late must not be measured by round-off. Angles are not scaled by
    !> their value, so that the error does not grow as a crank counts turns. Where films act, no error of a length is more than
-   !> three thousandths of the least clearance, whatever the tolerance: implicit methods would jump over what a film resists with,
+   !> three thousandths of the minimum clearance, whatever the tolerance: implicit methods would jump over what a film resists with,
    !> which is all within the clearance. While surfaces touch,
    !> all scales are a tenth: what an impact gives back is the difference of two large energies, and
    !> its dozen steps add up. Then no rate is asked for that round-off does not allow: a contact that swings with w makes speeds
@@ -74,7 +74,7 @@ contains
 
    contains
 
-      !> The greatest noise of all contacts that touch; negative if none does.
+      !> The maximum noise of all contacts that touch; negative if none does.
       pure real(wp) function noise_of_all() result(maximum)
          integer :: slot
 
@@ -90,7 +90,7 @@ contains
 
    end procedure mechanism_weights
 
-   !> Swing of the contacts of a set that touch, times the length by whose rounding their penetration is known: the greatest.
+   !> Swing of the contacts of a set that touch, times the length by whose rounding their penetration is known: the maximum.
    pure real(wp) function noise_of(n_contact, contact, n_contact_item, n, body, length, n_body, r) result(noise)
       integer, intent(in) :: n_contact                       !! number of contacts of the set
       type(contact_memory_t), intent(in) :: contact(n_contact)  !! (n_contact) the contacts
@@ -117,9 +117,9 @@ contains
       end do
    end function noise_of
 
-   !> Scales of the coordinates of guided bodies and of their rates.
+   !> Scales of the coordinates of bodies with one degree of freedom and of their rates.
    pure subroutine weigh_one_dof(n, n_turning, length, rate, factors, position, speed)
-      integer, intent(in) :: n                    !! number of guided bodies
+      integer, intent(in) :: n                    !! number of bodies with one degree of freedom
       integer, intent(in) :: n_turning            !! those that turn, the first ones
       real(wp), intent(in) :: length              !! scale of lengths [m]
       real(wp), intent(in) :: rate                !! that rates are measured by [1/s]
@@ -141,7 +141,7 @@ contains
       end do
    end subroutine weigh_one_dof
 
-   !> Greatest rate of the mechanism in a state; of bodies whose motion is known at the present motion.
+   !> Maximum rate of the mechanism in a state; of bodies whose motion is known at the present motion.
    pure real(wp) function rate_of(self, y) result(rate)
       class(mechanism_state_t), intent(in) :: self  !! the system
       real(wp), intent(in) :: y(self%n)             !! (n) state [any]
@@ -158,7 +158,7 @@ contains
       end associate
    end function rate_of
 
-   !> Greatest rate of bodies whose motion is known: of velocities over a length, and of angular velocities.
+   !> Maximum rate of bodies whose motion is known: of velocities over a length, and of angular velocities.
    pure real(wp) function rate_of_prescribed(n, held, n_body, v, omega, length) result(rate)
       integer, intent(in) :: n                       !! number of such bodies
       type(held_t), intent(in) :: held(n)            !! (n) which they are
@@ -177,9 +177,9 @@ contains
       end do
    end function rate_of_prescribed
 
-   !> Greatest rate of guided bodies.
+   !> Maximum rate of bodies with one degree of freedom.
    pure real(wp) function rate_of_one_dof(n, n_turning, speed, length) result(rate)
-      integer, intent(in) :: n           !! number of guided bodies
+      integer, intent(in) :: n           !! number of bodies with one degree of freedom
       integer, intent(in) :: n_turning   !! those that turn, the first ones
       real(wp), intent(in) :: speed(n)   !! (n) rates of their coordinates [rad/s or m/s]
       real(wp), intent(in) :: length     !! the length [m]
@@ -200,7 +200,7 @@ contains
       rate = max(rate, sliding/length)
    end function rate_of_one_dof
 
-   !> Raise the pace to that of a state.
+   !> Raise the characteristic rate to that of a state.
    module procedure mechanism_follow_pace
       self%linkage%scales%pace = max(self%linkage%scales%pace, rate_of(self, y))
       if (present(jump)) self%linkage%scales%pace = max(self%linkage%scales%pace, rate_to_come(self, jump))
@@ -223,7 +223,7 @@ contains
       end associate
    end function rate_to_come
 
-   !> The pace at the start.
+   !> The characteristic rate at the start.
    module procedure mechanism_begin_pace
       real(wp) :: acceleration(most_rates), delta(self%clearance_joints%n_contact), rate(self%clearance_joints%n_contact), &
            ydot(size(y))

@@ -1,11 +1,11 @@
 !> What a mechanism consists of, and what stands where in its state: that of `mechanism`, which evaluates it.
 !>
-!> y = ( q, v, z ): coordinates (x, y, angle) of each body whose motion is unknown, then one of each guided body; their rates;
-!> and the quadratures: those of the energy ledger, then the impulse of each contact's normal force. Contacts with bristles have a
-!> state each, after the rates.
+!> y = ( q, v, z ): coordinates (x, y, angle) of each body whose motion is unknown, then one of each body with one degree of
+!> freedom; their rates; and the quadratures: those of the energy ledger, then the impulse of each contact's normal force. Contacts
+!> with bristles have a state each, after the rates.
 !>
-!> Here are the places in it, what is small beside it (error scales, the pace, round-off of event functions), small changes of it,
-!> where its residual has entries, and what of it a checkpoint keeps.
+!> Here are the places in it, what is small beside it (error scales, the characteristic rate, round-off of event functions), small
+!> changes of it, where its residual has entries, and what of it a checkpoint keeps.
 module mechanism_state
    use checkpoint, only: segment_t
    use dae_system, only: dae_system_t
@@ -24,10 +24,10 @@ module mechanism_state
    type, abstract, extends(dae_system_t) :: mechanism_state_t
       type(linkage_t) :: linkage                  !! bodies, ideal joints and drivers, and the solution of the equations
       type(loading_t) :: loading                  !! gravity and force elements
-      type(clearance_joints_t) :: clearance_joints                      !! loose joints
+      type(clearance_joints_t) :: clearance_joints                      !! clearance joints
       type(friction_t) :: friction                !! friction that is solved for
-      class(stabilisation_t), allocatable :: way           !! way of holding the constraints
-      type(ledger_t) :: ledger                    !! what is told of energies
+      class(stabilisation_t), allocatable :: way           !! stabilisation method
+      type(ledger_t) :: ledger                    !! what is reported of energies
       type(requests_t) :: requests                !! what is asked of the motion beside channels of its items
       integer :: n_impulse = 0                    !! contacts whose impulses are integrated: all, or none
       integer(i8) :: n_evaluations = 0            !! evaluations made
@@ -48,14 +48,15 @@ module mechanism_state
    end type mechanism_state_t
 
    interface
-      !> The pace at the start of a run: of the motion there, of what its accelerations make of it, and of the run.
+      !> The characteristic rate at the start of a run: of the motion there, of what its accelerations make of it, and of the run.
       module subroutine mechanism_begin_pace(self, t, y, end)
          implicit none (type, external)
          class(mechanism_state_t), intent(inout) :: self  !! the system
          real(wp), intent(in) :: t, y(:), end             !! time [s], (n) state [any], and end of the run [s]
       end subroutine mechanism_begin_pace
 
-      !> Raise the pace to that of a state, which the motion is of, and to where accelerations lead that have just jumped there.
+      !> Raise the characteristic rate to that of a state, which the motion is of, and to where accelerations lead that have just
+      !> jumped there.
       pure module subroutine mechanism_follow_pace(self, y, jump)
          implicit none (type, external)
          class(mechanism_state_t), intent(inout) :: self  !! the system
@@ -64,11 +65,11 @@ module mechanism_state
       end subroutine mechanism_follow_pace
 
       !> Scales of the quadratures of a scene with drivers: of works and losses the largest energy or work so far; of
-      !> impulses the momentum of all bodies at the pace. What begins from rest is measured by the energy that the error
-      !> scales of rates allow for.
+      !> impulses the momentum of all bodies at the characteristic rate. What starts from rest is measured by the energy that the
+      !> error scales of rates allow for.
       module subroutine mechanism_scale_quadratures(self, energy)
          implicit none (type, external)
-         class(mechanism_state_t), intent(inout) :: self  !! the system, its pace begun
+         class(mechanism_state_t), intent(inout) :: self  !! the system, its characteristic rate started
          real(wp), intent(in) :: energy                   !! largest energy or work so far; raises that of before [J]
       end subroutine mechanism_scale_quadratures
 
@@ -119,11 +120,11 @@ module mechanism_state
          integer, intent(in) :: slot, contact          !! its set, whose law has bristles, and its number there
       end function mechanism_bristle_place
 
-      !> Place of the deflection of a joint that rubs, by bristles, in the state.
+      !> Place of the deflection of a joint that has friction, by bristles, in the state.
       pure module integer function mechanism_rubbing_place(self, joint) result(place)
          implicit none (type, external)
          class(mechanism_state_t), intent(in) :: self  !! the system
-         integer, intent(in) :: joint                  !! its number among those that rub
+         integer, intent(in) :: joint                  !! its number among those with friction
       end function mechanism_rubbing_place
 
       !> Deflections of bristles from a state into contacts and joints.

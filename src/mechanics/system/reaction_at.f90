@@ -1,6 +1,6 @@
 !> The reaction of a joint, driver or spring at a point, along the axes of a body.
 !>
-!> With its load on the body, force F and moment M about where it tells its own, R:  M_P = M + (R - P) x F.
+!> With its load on the body, force F and moment M about where it reports its own, R:  M_P = M + (R - P) x F.
 !>
 !> Signs: what acts on the body of i, or on that of j. Source: Flores et al. (2008), eq. (2.24). Limits: none.
 module reaction_at
@@ -59,7 +59,7 @@ contains
       subroutine look(source, set, reaction)
          integer, intent(in) :: source                        !! which sets these are
          class(joint_set_t), intent(in) :: set                !! the set
-         type(reaction_request_t), intent(inout) :: reaction  !! what is looked for
+         type(reaction_request_t), intent(inout) :: reaction  !! what is searched
 
          integer :: item
 
@@ -119,7 +119,7 @@ contains
       end associate
    end subroutine find_reaction
 
-   !> The reaction of an ideal joint or a driver where it tells its own.
+   !> The reaction of an ideal joint or a driver where it reports its own.
    subroutine of_joint(linkage, set, reaction, force, moment, p)
       type(linkage_t), intent(in) :: linkage              !! the linkage at a state
       class(joint_set_t), intent(in) :: set               !! the set

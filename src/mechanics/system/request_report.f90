@@ -16,7 +16,7 @@ module request_report
 
 contains
 
-   !> Items and channels of requests. Expressions over channels that this catalogue does not have are left out.
+   !> Items and channels of requests. Expressions over channels that this catalogue does not have are omitted.
    subroutine add_requests(requests, catalogue)
       type(requests_t), intent(in) :: requests         !! what is asked
       type(catalogue_t), intent(inout) :: catalogue    !! grows; all other items and groups are there
@@ -48,7 +48,7 @@ contains
       subroutine add(room, info, offer)
          integer, intent(in) :: room                !! their room
          type(kind_info_t), intent(in) :: info      !! their channels
-         type(readings_t), intent(inout) :: offer   !! what they tell
+         type(readings_t), intent(inout) :: offer   !! what they report
 
          call catalogue%add_kind(room, info)
          call catalogue%list(room, info, offer)
@@ -60,7 +60,7 @@ contains
    subroutine add_formula(formula, catalogue, bound)
       type(formula_t), intent(in) :: formula           !! the expression
       type(catalogue_t), intent(inout) :: catalogue    !! grows
-      type(bound_formula_t), intent(out) :: bound      !! the expression in it; without a group if it cannot be told
+      type(bound_formula_t), intent(out) :: bound      !! the expression in it; without a group if it cannot be reported
 
       type(channel_t) :: channel
       integer :: k
@@ -98,7 +98,7 @@ contains
       end do
    end subroutine find_source
 
-   !> Bind what is wanted of points, places and reactions, one by one.
+   !> Bind what is requested of points, places and reactions, one by one.
    subroutine bind_requests(catalogue)
       type(catalogue_t), intent(inout) :: catalogue   !! its readings are set
 

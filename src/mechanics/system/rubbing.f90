@@ -1,4 +1,4 @@
-!> Room for the friction of ideal joints of a mechanism: which joints rub, and the small system that their forces solve.
+!> Storage for the friction of ideal joints of a mechanism: which joints rub, and the small system that their forces solve.
 module rubbing
    use stick_slip_forces, only: unit_load_t
    use joint_friction, only: most_rows
@@ -9,13 +9,13 @@ module rubbing
    private
    public :: new_rubbing, rubbing_t
 
-   !> Joints that rub.
+   !> Joints with friction.
    type :: rubbing_t
-      integer :: n = 0                                !! joints that rub
+      integer :: n = 0                                !! joints with friction
       integer :: n_bristle = 0                        !! those of them that have bristles
       integer :: first_bristle = 0                    !! deflections of contacts before theirs in the state
       integer, allocatable :: slot(:)                 !! (n) set of each
-      integer, allocatable :: place(:)                !! (n) place among the items of the set that rub
+      integer, allocatable :: place(:)                !! (n) place among the items of the set with friction
       integer, allocatable :: bristle(:)              !! (n) number of its deflection, 0: none
       real(wp), allocatable :: lambda(:, :)           !! (most_rows, n) multipliers [N or N.m]
       real(wp), allocatable :: response(:, :, :)      !! (most_rows, n, n) what a unit force of each does to those of each [any]
@@ -30,13 +30,13 @@ module rubbing
 
 contains
 
-   !> Room for the joints of solved sets that rub.
+   !> Storage for the joints of solved sets with friction.
    subroutine new_rubbing(joints, n_solved_set, a, n_row, rubbing)
       type(joint_slot_t), intent(in) :: joints(:)   !! sets of joints
       integer, intent(in) :: n_solved_set           !! those whose rows are solved for, the first ones
       real(wp), intent(in) :: a(:, 0:)              !! (n_v, 0:bodies) accelerations, for the shape of loads [any]
       integer, intent(in) :: n_row                  !! rows
-      type(rubbing_t), intent(out) :: rubbing       !! room
+      type(rubbing_t), intent(out) :: rubbing       !! workspace
 
       integer :: k, m, n
 

@@ -1,11 +1,11 @@
 !> Which contacts stick and which slip, and which way, at an instant: decided for all of them together.
 !>
-!> Candidates are contacts that have just begun without sliding, those whose slip ended, those that stick, and, where a slip ended
-!> or a contact began, those that slide slower than its speed of rest. Their friction forces are the solution of one complementarity
-!> problem (`friction_limits`), L_c = c_s F_N: contacts within their limits stick, the others slip against their forces. These have
-!> the force of sliding then, L_c = c_f F_N, and the problem is solved again, until no further contact slips. A contact that gives
-!> way slips, whatever the last digits of the forces say. While all hold, contacts that share a load take the same part of what
-!> each can hold (`solve_stick_slips`).
+!> Candidates are contacts that have just started without sliding, those whose slip ended, those that stick, and, where a slip ended
+!> or a contact started, those that slide slower than its speed of rest. Their friction forces are the solution of one
+!> complementarity problem (`friction_limits`), L_c = c_s F_N: contacts within their limits stick, the others slip against their
+!> forces. These have the force of sliding then, L_c = c_f F_N, and the problem is solved again, until no further contact slips. A
+!> contact that gives way slips, whatever the last digits of the forces say. While all hold, contacts that share a load take the
+!> same part of what each can hold (`solve_stick_slips`).
 !>
 !> Contacts that drivers move are decided before, each for itself: see `mechanism_friction`.
 !>
@@ -22,7 +22,7 @@ submodule(mechanism:mechanism_friction) slip_decision
    real(wp), parameter :: at_limit = 1.0e-9_wp   !! less of its limit: a force is at it [1]
    real(wp), parameter :: less_of_speed = 0.5_wp  !! of a slow slip, at which it ends [1]
    real(wp), parameter :: more_of_speed = 1.5_wp  !! of one against its way [1]
-   real(wp), parameter :: not_held = 1.0e-9_wp   !! sliding acceleration that counts, of the greatest that is asked for [1]
+   real(wp), parameter :: not_held = 1.0e-9_wp   !! sliding acceleration that counts, of the maximum that is asked for [1]
 
 contains
 
@@ -75,7 +75,7 @@ contains
       end do
    end function any_undecided
 
-   !> Let the candidates stick; those that begin to slide do so. Whether there is any candidate.
+   !> Let the candidates stick; those that start to slide do so. Whether there is any candidate.
    logical function choose_candidates(self, t) result(is_any)
       class(mechanism_t), intent(inout) :: self   !! the system, its motion set
       real(wp), intent(in) :: t                   !! time [s]
@@ -112,7 +112,7 @@ contains
       end do
    end function choose_candidates
 
-   !> Whether a contact is a candidate of its own; one that begins to slide, or is torn off, slides.
+   !> Whether a contact is a candidate of its own; one that starts to slide, or is torn off, slides.
    subroutine look_at_contact(self, t, slot, k, is_candidate)
       class(mechanism_t), intent(inout) :: self   !! the system, its motion set
       real(wp), intent(in) :: t                   !! time [s]
@@ -232,7 +232,7 @@ contains
       end do
    end function all_hold
 
-   !> Greatest force that a contact is asked to hold: less of one that begins to, while it chatters.
+   !> Maximum force that a contact is asked to hold: less of one that starts to, while it chatters.
    pure real(wp) function limit_of(self, set, k) result(limit)
       class(mechanism_t), intent(in) :: self           !! the system, evaluated
       class(clearance_set_t), intent(in) :: set        !! set of the contact
@@ -274,7 +274,7 @@ contains
          end do
          call find_mobilities(self, m, mobility_of_depth(self, m), nothing, status)
          if (status /= 0) return
-         r = matmul(stick_slips%matrix(:m, :m), force)  ! what no force can change is left out
+         r = matmul(stick_slips%matrix(:m, :m), force)  ! what no force can change is omitted
          asked = maxval(abs(r))
          do pass = 1, n + 1
             do c = 1, n
@@ -302,7 +302,7 @@ contains
       end associate
    end subroutine limit_listed
 
-   !> Greatest friction force of a contact on the list: that of sliding, if it slips.
+   !> Maximum friction force of a contact on the list: that of sliding, if it slips.
    real(wp) function limit_of_listed(self, at, slips) result(limit)
       class(mechanism_t), intent(in) :: self   !! the system, evaluated
       type(gripped_t), intent(in) :: at        !! a tangent of the contact

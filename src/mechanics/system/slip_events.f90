@@ -1,12 +1,12 @@
-!> When contacts begin to slip and to stick, and which way they go.
+!> When contacts start to slip and to stick, and which way they go.
 !>
 !> Events: slip s = +-1 ends where s v_T falls to zero (to round-off, so that it also ends where drivers bring it to rest; in space
 !> where it falls below what the tolerance leaves of a speed); sticking ends where |x| = c_s F_N, its rate by a difference along the
 !> motion, or where the contact moves all the same. In space a slip that has turned by a right angle within a step ends too, and
-!> goes on along its new way. What comes of an event: `slip_decision`.
+!> continues along its new way. What comes of an event: `slip_decision`.
 !>
-!> Speeds that are small are parts of the mechanism's own, its pace times its size (`mechanism_scales`); times, of the
-!> contact's own.
+!> Speeds that are small are parts of the mechanism's own, its characteristic rate times its size (`mechanism_scales`); times, of
+!> the contact's own.
 !>
 !> Source: see `mechanism_friction`. Limits: none.
 submodule(mechanism:mechanism_friction) slip_events
@@ -76,7 +76,7 @@ contains
    pure real(wp) function short_of(self, tangent, limit) result(g)
       class(mechanism_t), intent(in) :: self   !! the system
       type(tangent_t), intent(in) :: tangent       !! how the contact lies
-      real(wp), intent(in) :: limit                !! greatest force that it holds [N]
+      real(wp), intent(in) :: limit                !! maximum force that it holds [N]
 
       real(wp) :: speed
 

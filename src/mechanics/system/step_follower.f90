@@ -1,4 +1,4 @@
-!> What goes on from the end of a step: counts of turns of force elements and gears, and the ways of contacts that slide in
+!> What continues from the end of a step: counts of turns of force elements and gears, and the ways of contacts that slide in
 !> space; and whether joints and force elements are still where their rows and angles mean what they should.
 module step_follower
    use joint_set, only: joint_set_t
@@ -15,7 +15,7 @@ module step_follower
 
 contains
 
-   !> Whether something of a system goes on from step to step.
+   !> Whether something of a system continues from step to step.
    pure logical function must_follow(system)
       type(mechanism_t), intent(in) :: system   !! the system
 
@@ -80,7 +80,7 @@ contains
       if (allocated(words)) words = "joint '"//joint%names(i)%s//"' "//words
    end subroutine look_at_joint
 
-   !> A step has ended: take its end as what counts go on from.
+   !> A step has ended: take its end as what counts continue from.
    subroutine follow_motion(system)
       type(mechanism_t), intent(inout) :: system   !! the system, its motion that of the end of the step
 

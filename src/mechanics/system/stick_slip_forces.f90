@@ -1,4 +1,4 @@
-!> Room for the friction forces of contacts that stick, and the small system that they solve.
+!> Storage for the friction forces of contacts that stick, and the small system that they solve.
 module stick_slip_forces
    use kinds, only: wp
    use lapack, only: dsyev
@@ -6,13 +6,13 @@ module stick_slip_forces
    private
    public :: stick_slip_forces_t, gripped_t, new_stick_slip_forces, share_of_stick_slips, solve_stick_slips, unit_load_t
 
-   !> Loads of a unit force, and room for what they are solved in place of.
+   !> Loads of a unit force, and storage for what they are solved in place of.
    type :: unit_load_t
       real(wp), allocatable :: unit(:, :)   !! (n_v, 0:bodies) loads of a unit force [1 or m]
       real(wp), allocatable :: b(:)         !! (rows) right-hand side of the rows, kept [m/s^2 or rad/s^2]
    end type unit_load_t
 
-   !> Room for a state and its derivative.
+   !> Storage for a state and its derivative.
    type :: trial_state_t
       real(wp), allocatable :: y(:)      !! (n) state [any]
       real(wp), allocatable :: ydot(:)   !! (n) its derivative [any]
@@ -46,7 +46,7 @@ module stick_slip_forces
 
 contains
 
-   !> Room for contacts that may stick.
+   !> Storage for contacts that may stick.
    subroutine new_stick_slip_forces(n_slip, n_force, n_bristle, a, n_row, n, stick_slips)
       integer, intent(in) :: n_slip               !! contacts that may stick
       integer, intent(in) :: n_force              !! their tangents
@@ -54,7 +54,7 @@ contains
       real(wp), intent(in) :: a(:, 0:)            !! (n_v, 0:bodies) accelerations, for the shape of loads [any]
       integer, intent(in) :: n_row                !! rows
       integer, intent(in) :: n                    !! entries of the state
-      type(stick_slip_forces_t), intent(out) :: stick_slips   !! room
+      type(stick_slip_forces_t), intent(out) :: stick_slips   !! workspace
 
       stick_slips%n_slip = n_slip
       stick_slips%n_bristle = n_bristle
@@ -71,7 +71,7 @@ contains
    end subroutine new_stick_slip_forces
 
    !> Forces x with A x = r, A symmetric and positive semidefinite; where contacts share a load, the solution that uses each
-   !> to the same part of what its normal force lets it hold: least sum of x^2 / F_N. What no force can change of r is left: where
+   !> to the same part of what its normal force lets it hold: minimum sum of x^2 / F_N. What no force can change of r is left: where
    !> drivers prescribe the sliding.
    subroutine solve_stick_slips(n, lead, matrix, mobility, minimum, root, force, left, eigenvalue, work)
       integer, intent(in) :: n                      !! contacts

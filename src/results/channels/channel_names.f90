@@ -38,7 +38,7 @@ contains
    !> Name of an item as users write it; of a contact, its joint's.
    pure function item_name(catalogue, room, item) result(name)
       type(catalogue_t), intent(in) :: catalogue  !! what can be recorded
-      integer, intent(in) :: room                 !! room of the item
+      integer, intent(in) :: room                 !! workspace of the item
       integer, intent(in) :: item                 !! its number there
       character(:), allocatable :: name           !! what stands before the first dot
 
@@ -49,7 +49,7 @@ contains
    !> Label of a contact if its joint has several, else blank.
    pure function label_in_name(catalogue, room, item) result(label)
       type(catalogue_t), intent(in) :: catalogue  !! what can be recorded
-      integer, intent(in) :: room                 !! room of the item
+      integer, intent(in) :: room                 !! workspace of the item
       integer, intent(in) :: item                 !! its number there
       character(:), allocatable :: label          !! what stands between the joint and the quantity
 

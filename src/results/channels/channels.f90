@@ -35,7 +35,7 @@ module channels
    !> Finds the items that a part of a word names.
    type :: item_finder_t
       private
-      type(name_table_t) :: names(n_groups)  !! (rooms) names of the items; of equal names the first
+      type(name_table_t) :: names(n_groups)  !! (groups) names of the items; of equal names the first
    contains
       procedure :: start => start_finder
       procedure :: find => find_items
@@ -217,7 +217,7 @@ contains
       end select
    end function fits
 
-   !> Whether a quantity is told only where it is named.
+   !> Whether a quantity is reported only where it is named.
    pure logical function is_named_only(quantity)
       character(*), intent(in) :: quantity   !! name of the channel
 
@@ -315,7 +315,7 @@ contains
    pure logical function selection_has_item(self, catalogue, room, item)
       class(selection_t), intent(in) :: self      !! the selection
       type(catalogue_t), intent(in) :: catalogue  !! what could be chosen
-      integer, intent(in) :: room                 !! room of the item
+      integer, intent(in) :: room                 !! workspace of the item
       integer, intent(in) :: item                 !! its number there
 
       integer :: group

@@ -17,7 +17,7 @@ module display_units
    type :: prefix_t
       integer :: power = 0           !! of ten
       character(2) :: sign = ""      !! UTF-8
-      real(wp) :: from = 0.0_wp      !! least extent that it reads well for [the SI unit]
+      real(wp) :: from = 0.0_wp      !! minimum extent that it reads well for [the SI unit]
    end type prefix_t
 
    !> Of forces, moments, energies, powers: up to 10000 of a unit.
@@ -43,7 +43,7 @@ contains
    !> The unit to show a quantity in.
    pure function choose_unit(si, extent) result(shown)
       character(*), intent(in) :: si     !! SI unit, as in files
-      real(wp), intent(in) :: extent     !! greatest magnitude that is shown, SI [any]
+      real(wp), intent(in) :: extent     !! maximum magnitude that is shown, SI [any]
       type(display_unit_t) :: shown      !! what to show
 
       shown%symbol = pretty(si)
@@ -80,7 +80,7 @@ contains
 
       !> The first prefix that the extent is enough for.
       pure subroutine scale_by(list)
-         type(prefix_t), intent(in) :: list(:)  !! (n) prefixes, greatest first
+         type(prefix_t), intent(in) :: list(:)  !! (n) prefixes, maximum first
 
          integer :: k
 
@@ -102,7 +102,7 @@ contains
    !> A unit with a power of ten before it if its numbers would be long: one that takes no prefix, or that was asked for.
    pure function fitted_unit(unit, extent) result(shown)
       type(display_unit_t), intent(in) :: unit  !! as it is
-      real(wp), intent(in) :: extent            !! greatest magnitude that is shown, SI [any]
+      real(wp), intent(in) :: extent            !! maximum magnitude that is shown, SI [any]
       type(display_unit_t) :: shown             !! what to show
 
       integer :: power

@@ -1,7 +1,7 @@
 !> All events of a run, compactly: numbers in one array, words by their number in a list.
 !>
-!> Contacts are told when they end; `order_by_onset` gives the order in time. Equal times keep the
-!> order in which they were told.
+!> Contacts are reported when they end; `order_by_onset` gives the order in time. Equal times keep the
+!> order in which they were reported.
 module event_list
    use kinds, only: wp
    use recorder, only: event_t
@@ -46,7 +46,7 @@ module event_list
       "contact state before", &
       "contact state after"]
 
-   !> The events told so far.
+   !> The events reported so far.
    type :: event_list_t
       integer :: n = 0                            !! number of events
       real(wp), allocatable :: numbers(:, :)      !! (10, capacity) as named above, SI [any]
@@ -82,7 +82,7 @@ contains
       call encode(self, event%state_after, self%codes(5, self%n))
    end subroutine add_event
 
-   !> Make room for one more event.
+   !> Make storage for one more event.
    subroutine make_storage(self, has_capacity)
       class(event_list_t), intent(inout) :: self  !! the list
       logical, intent(out) :: has_capacity            !! false: there is no memory
@@ -198,7 +198,7 @@ contains
       end do
    end subroutine save_events
 
-   !> Take them back, instead of those told so far.
+   !> Take them back, instead of those reported so far.
    subroutine load_events(self, archive)
       class(event_list_t), intent(inout) :: self  !! the list
       type(archive_t), intent(inout) :: archive         !! holds them

@@ -29,7 +29,7 @@ module formula_words
       type(catalogue_t) :: catalogue                !! what can be recorded
       type(item_finder_t) :: items                  !! finds its items
       type(name_table_t) :: names                   !! of the requests so far
-      type(name_table_t) :: broken                  !! of those with a mistake
+      type(name_table_t) :: broken                  !! of those with an error
       type(dim_t), allocatable :: dimensions(:)     !! (requests) their dimensions
    contains
       procedure :: find => find_word
@@ -42,7 +42,7 @@ contains
       type(deck_t), intent(in) :: deck                !! the deck, for its parameters and functions
       type(catalogue_t), intent(in) :: catalogue      !! all that it can report but these requests
       type(scene_t), intent(inout) :: scene           !! the scene; its expressions over channels are set
-      type(diagnostics_t), intent(inout) :: mistakes  !! mistakes found
+      type(diagnostics_t), intent(inout) :: mistakes  !! errors found
 
       type(catalogue_words_t) :: words
       type(formula_t), allocatable :: formulas(:)
@@ -72,14 +72,14 @@ contains
       end do
    end subroutine read_formulas
 
-   !> Understand one request; without sources if it has a mistake.
+   !> Understand one request; without sources if it has an error.
    subroutine read_formula(deck, words, item, formula, dimension, mistakes)
       type(deck_t), intent(in) :: deck                 !! the deck, for its parameters and functions
       type(catalogue_words_t), intent(in) :: words     !! channels known
       type(item_t), intent(in) :: item                 !! the row
       type(formula_t), intent(out) :: formula          !! the expression
       type(dim_t), intent(inout) :: dimension          !! of its value
-      type(diagnostics_t), intent(inout) :: mistakes   !! mistakes found
+      type(diagnostics_t), intent(inout) :: mistakes   !! errors found
 
       character(*), parameter :: place = "in column value of request"
       type(fault_t), allocatable :: fault
@@ -118,8 +118,8 @@ contains
       type(expression_t), intent(in) :: expression     !! its value
       type(dim_t), intent(inout) :: dimension          !! of the value, that of the unit on return
       character(:), allocatable, intent(out) :: si     !! SI unit of its numbers
-      type(diagnostics_t), intent(inout) :: mistakes   !! mistakes found
-      type(location_t), intent(out) :: at              !! line -1: there is a mistake
+      type(diagnostics_t), intent(inout) :: mistakes   !! errors found
+      type(location_t), intent(out) :: at              !! line -1: there is an error
 
       character(*), parameter :: place = "in column unit of request"
       character(:), allocatable :: message

@@ -1,5 +1,5 @@
-!> One picture of a motion: places of bodies, forces and eccentricities of loose joints, loads; read from the catalogue, kept on a
-!> tape.
+!> One picture of a motion: places of bodies, forces and eccentricities of clearance joints, loads; read from the catalogue, kept on
+!> a archive.
 module frame_values
    use catalogue, only: catalogue_t
    use groups_of_catalogue, only: group_clearances, group_forces
@@ -73,7 +73,7 @@ contains
       end do
    end subroutine take_frame
 
-   !> Room for a picture.
+   !> Storage for a picture.
    subroutine make_storage(source, frame)
       type(frame_source_t), intent(in) :: source  !! how many numbers it has
       type(frame_t), intent(inout) :: frame       !! the picture

@@ -1,10 +1,10 @@
-!> Pictures of a motion at some instants, kept while it goes on: places of bodies, forces and eccentricities of loose joints, loads,
-!> paths.
+!> Pictures of a motion at some instants, kept while it continues: places of bodies, forces and eccentricities of clearance joints,
+!> loads, paths.
 !>
 !> A picture is that of the output instant nearest to the time asked for. A path has a place for each row of the window. A run may
 !> end before its time: figures at its end have the last row, and windows that end with the run are those before it: the latest
 !> pictures, at the intervals of the window, are kept all the time. Positions one over the other are at equal intervals also where
-!> it ends within its first window: of that, pictures are kept that are thinned as it goes on.
+!> it ends within its first window: of that, pictures are kept that are thinned as it continues.
 module frames
    use catalogue, only: catalogue_t
    use frame_values, only: bind_source, frame_source_t, frame_t, load_frame, reads_source, save_frame, take_frame
@@ -16,24 +16,24 @@ module frames
    public :: frame_keeper_t, frame_plan_t, frame_t, wanted_frames_t
 
    real(wp), parameter :: same = 1.0e-6_wp   !! what is later by less is the same picture, of the output interval [1]
-   integer, parameter :: finer = 8           !! pictures kept of a first window, for each that is wanted
+   integer, parameter :: finer = 8           !! pictures kept of a first window, for each that is requested
 
-   !> Instants that one figure wants.
+   !> Instants that one figure needs.
    type :: wanted_frames_t
       character(:), allocatable :: name     !! of the figure
       real(wp), allocatable :: times(:)     !! (n) increasing [s]
-      real(wp) :: from = 0.0_wp             !! beginning of its window [s]
-      real(wp) :: to = -1.0_wp              !! its end; before the beginning: it has no paths [s]
-      real(wp) :: length = 0.0_wp           !! of a window that is told from the end of the run; 0: it is not [s]
+      real(wp) :: from = 0.0_wp             !! start of its window [s]
+      real(wp) :: to = -1.0_wp              !! its end; before the start: it has no paths [s]
+      real(wp) :: length = 0.0_wp           !! of a window that is reported from the end of the run; 0: it is not [s]
       real(wp) :: gap = 0.0_wp              !! between its pictures; 0: there is one [s]
       logical :: has_end = .false.          !! whether it ends with the run, whenever that is
       integer :: body = -1                  !! of a point whose path is followed: its body; -1: there is none
       real(wp) :: s(3) = 0.0_wp             !! (3) the point, in the body's own frame [m]
    end type wanted_frames_t
 
-   !> What all figures want.
+   !> What all figures need.
    type :: frame_plan_t
-      type(wanted_frames_t), allocatable :: wanted(:)  !! (figures) what each wants
+      type(wanted_frames_t), allocatable :: wanted(:)  !! (figures) what each needs
       real(wp) :: every = 0.0_wp                       !! output interval [s]
       real(wp) :: first = 0.0_wp                       !! first output instant [s]
       real(wp) :: end = 0.0_wp                         !! end of the run, if nothing ends it before [s]
@@ -49,11 +49,11 @@ module frames
 
    !> Keeps them.
    type :: frame_keeper_t
-      type(frame_plan_t) :: plan                          !! what is wanted
+      type(frame_plan_t) :: plan                          !! what is requested
       type(frame_t), allocatable :: frames(:, :)          !! (most times, figures) pictures
       integer, allocatable :: n(:)                        !! (figures) how many there are of each
       type(track_t), allocatable :: tracks(:)             !! (figures) paths
-      logical :: is_wanted = .false.                      !! there are figures that want something
+      logical :: is_wanted = .false.                      !! there are figures that need something
       type(frame_source_t), private :: source                   !! where the numbers are
       type(frame_t), private :: last                      !! picture of the last row
       type(frame_t), allocatable, private :: latest(:, :) !! (most times, figures) the latest pictures, in a ring
@@ -71,10 +71,10 @@ module frames
 
 contains
 
-   !> Begin with nothing.
+   !> Start with nothing.
    subroutine start(self, plan, catalogue)
       class(frame_keeper_t), intent(out) :: self  !! the keeper
-      type(frame_plan_t), intent(in) :: plan      !! what is wanted
+      type(frame_plan_t), intent(in) :: plan      !! what is requested
       type(catalogue_t), intent(in) :: catalogue  !! what can be recorded
 
       integer :: k, most, n
@@ -128,7 +128,7 @@ contains
 
    !> Whether a time is within the first window of positions one over the other.
    pure logical function is_early(plan, wanted, t)
-      type(frame_plan_t), intent(in) :: plan       !! what is wanted
+      type(frame_plan_t), intent(in) :: plan       !! what is requested
       type(wanted_frames_t), intent(in) :: wanted  !! the figure
       real(wp), intent(in) :: t                    !! the time [s]
 
@@ -136,10 +136,10 @@ contains
                  t < plan%first + real(size(wanted%times) - 1, wp)*wanted%gap
    end function is_early
 
-   !> One more output instant of a first window. When there is no room, every other picture goes.
+   !> One more output instant of a first window. When there is no storage, every other picture goes.
    subroutine go_on(early, most, source, t, catalogue)
       type(first_window_t), intent(inout) :: early  !! the pictures
-      integer, intent(in) :: most                   !! how many are wanted
+      integer, intent(in) :: most                   !! how many are requested
       type(frame_source_t), intent(in) :: source          !! where the values are
       real(wp), intent(in) :: t                     !! time [s]
       type(catalogue_t), intent(in) :: catalogue    !! values at t
@@ -163,7 +163,7 @@ contains
       call take_frame(source, t, catalogue, early%frames(early%n))
    end subroutine go_on
 
-   !> A row of any kind: paths go on, and it is the last one.
+   !> A row of any kind: paths continue, and it is the last one.
    subroutine follow(self, t, catalogue)
       class(frame_keeper_t), intent(inout) :: self  !! the keeper
       real(wp), intent(in) :: t                     !! time [s]
@@ -208,12 +208,12 @@ contains
    end subroutine finish_frames
 
    !> Pictures of a figure whose run ended before its time: those of its first window at equal intervals if it ended within that,
-   !> else the latest ones of a window that is told from the end, those so far of another; and that of the last row where there is
-   !> room for it.
+   !> else the latest ones of a window that is reported from the end, those so far of another; and that of the last row where there
+   !> is storage for it.
    subroutine end_early(self, k, from)
       class(frame_keeper_t), intent(inout) :: self  !! the keeper
       integer, intent(in) :: k                      !! the figure
-      real(wp), intent(in) :: from                  !! beginning of its window [s]
+      real(wp), intent(in) :: from                  !! start of its window [s]
 
       integer :: before, i, j, most, slot
 

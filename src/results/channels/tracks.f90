@@ -1,7 +1,7 @@
-!> Paths of a point and of loose joints through the rows of a run.
+!> Paths of a point and of clearance joints through the rows of a run.
 !>
-!> A path is thinned as it grows: memory does not grow with the run. Where two rows of a loose joint become one, the greater force
-!> stays.
+!> A path is thinned as it grows: memory does not grow with the run. Where two rows of a clearance joint become one, the greater
+!> force stays.
 module tracks
    use kinds, only: wp
    use archive, only: archive_t
@@ -29,7 +29,7 @@ module tracks
 
 contains
 
-   !> Append a row, or join it to the last. When there is no room, rows go that are of no use any more, or every other one.
+   !> Append a row, or join it to the last. When there is no storage, rows go that are of no use any more, or every other one.
    subroutine add(self, t, x, e, f, since)
       class(track_t), intent(inout) :: self   !! the path
       real(wp), intent(in) :: t               !! time [s]
@@ -56,7 +56,7 @@ contains
       self%f(:, self%n) = f
    end subroutine add
 
-   !> Room for a path.
+   !> Storage for a path.
    subroutine make_storage(n_joint, track)
       integer, intent(in) :: n_joint          !! joints with clearance
       type(track_t), intent(inout) :: track   !! the path

@@ -32,7 +32,7 @@ module channel_spec
       real(wp) :: offset = 0.0_wp               !! added, SI [any]
       real(wp) :: modulo = -1.0_wp              !! differences are up to multiples of it; 0: not; negative: the run's way, SI [any]
       real(wp) :: absolute = -1.0_wp            !! difference allowed, SI; negative: as all [any]
-      real(wp) :: relative = -1.0_wp            !! the same, of the greatest magnitude; negative: as all [1]
+      real(wp) :: relative = -1.0_wp            !! the same, of the maximum magnitude; negative: as all [1]
       real(wp) :: turn(3, 3) = unit_matrix      !! (3, 3) frame of the columns to the world [1]
    end type spec_t
 

@@ -1,10 +1,10 @@
 !> Columns of numbers that another program wrote.
 !>
-!> Numbers stand apart by commas, semicolons, tabs or blanks; `#`, `!` and `%` begin a comment, in which names may stand; those of
+!> Numbers stand apart by commas, semicolons, tabs or blanks; `#`, `!` and `%` start a comment, in which names may stand; those of
 !> the first line, as in the program's own files, count before others. A row is a line of at least two numbers and nothing else.
 !> What stands before the first row with as many words as there are columns names them; a name may end with its unit in brackets
-!> or parentheses: `x [mm]`, `"TIME (sec)"`. Other lines are titles. A title between rows, or a time that steps back, begins
-!> another table, as in the request tables of Adams; a page that repeats its titles and goes on in time does not. `D` in a number
+!> or parentheses: `x [mm]`, `"TIME (sec)"`. Other lines are titles. A title between rows, or a time that steps back, starts
+!> another table, as in the request tables of Adams; a page that repeats its titles and continues in time does not. `D` in a number
 !> is `E`. Where semicolons or tabs part the numbers of a line, a comma is a decimal point. What is not there between two such signs
 !> is NaN.
 !>
@@ -162,7 +162,7 @@ contains
 
    contains
 
-      !> Leave out words that are blank at the end, as behind a comma there.
+      !> Omit words that are blank at the end, as behind a comma there.
       subroutine leave_out_blank()
          do i = size(words), 1, -1
             if (words(i)%s /= "") exit
@@ -224,7 +224,7 @@ contains
       end do
    end subroutine numbers_of
 
-   !> The number of a column by its name or number; 0: there is none. A name may leave out its unit.
+   !> The number of a column by its name or number; 0: there is none. A name may omit its unit.
    pure integer function find_column_of(table, word) result(k)
       type(column_table_t), intent(in) :: table   !! the table
       character(*), intent(in) :: word            !! as the user writes it

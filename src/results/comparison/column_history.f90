@@ -26,7 +26,7 @@ contains
       type(spec_t), intent(in) :: time                    !! column of the time
       type(history_t), intent(in) :: like                 !! the run that has the channels
       type(history_t), intent(out) :: history             !! the columns
-      type(error_t), allocatable, intent(out) :: error    !! no such column or channel, or a unit that does not fit
+      type(error_t), allocatable, intent(out) :: error    !! no such column or channel, or a unit that does not match
 
       character(*), parameter :: row_kind = "row_kind"  ! of the text files of a run
       character(:), allocatable :: base
@@ -100,7 +100,7 @@ contains
 
    end subroutine history_of_columns
 
-   !> Twice as much room for series.
+   !> Twice as much storage for series.
    subroutine make_storage(list)
       type(series_t), allocatable, intent(inout) :: list(:)   !! grown
 
@@ -119,7 +119,7 @@ contains
       character(*), intent(in) :: word                     !! name or number of the column
       character(*), intent(in) :: si                       !! SI unit of the channel
       real(wp), allocatable, intent(out) :: x(:)           !! (n) its numbers [any]
-      type(error_t), allocatable, intent(out) :: error     !! no such column, or a unit that does not fit
+      type(error_t), allocatable, intent(out) :: error     !! no such column, or a unit that does not match
 
       character(:), allocatable :: message, name
       type(text_t), allocatable :: known(:)

@@ -2,7 +2,7 @@
 !>
 !> Channels are compared at the output instants of the second (`differences_of_series`), where both have some. A channel differs
 !> if the
-!> greatest difference is more than what is allowed: the larger of `absolute` and `relative` times its greatest magnitude in the
+!> maximum difference is more than what is allowed: the larger of `absolute` and `relative` times its maximum magnitude in the
 !> first; or if at some instant only one of both has a number. What is round-off in the first (`channel_noise`) makes no difference.
 !> By statistics, it differs if its mean or its mean square is further apart than that (for the square: of the magnitudes'
 !> product) and
@@ -57,7 +57,7 @@ contains
       type(history_t), intent(in) :: b                      !! the second
       type(spec_t), intent(in) :: specs(:)                  !! (n) channels that are asked for; none: all
       real(wp), intent(in) :: absolute                      !! difference allowed [any]
-      real(wp), intent(in) :: relative                      !! the same, of the greatest magnitude [1]
+      real(wp), intent(in) :: relative                      !! the same, of the maximum magnitude [1]
       logical, intent(in) :: by_statistics                  !! how to judge
       type(comparison_t), intent(out) :: found              !! what was found
       type(error_t), allocatable, intent(out) :: error      !! nothing to compare
@@ -165,13 +165,13 @@ contains
       noise = noise_of_channels(units, maximum, duration)
    end function noise_of
 
-   !> The greatest magnitude of a channel in the time of both: of all rows, those at contacts too, and of the extremes between them.
+   !> The maximum magnitude of a channel in the time of both: of all rows, those at contacts too, and of the extremes between them.
    pure subroutine peak_of(run, channel, from, until, peak, at)
       type(history_t), intent(in) :: run         !! a run, or columns
       type(series_t), intent(in) :: channel      !! its channel
       real(wp), intent(in) :: from               !! first instant of the second [s]
       real(wp), intent(in) :: until              !! last one [s]
-      real(wp), intent(out) :: peak              !! the greatest magnitude; NaN: there is no number [any]
+      real(wp), intent(out) :: peak              !! the maximum magnitude; NaN: there is no number [any]
       real(wp), intent(out) :: at                !! its first instant; NaN: there is none [s]
 
       real(wp) :: begin, end

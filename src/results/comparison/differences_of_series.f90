@@ -1,10 +1,10 @@
 !> How far two time histories of the same number differ.
 !>
 !> Both are at the same instants (`series_at_output_times`). Compared are those at which both have a number; at how many only one of
-!> them has one is told. With d = b - a:
+!> them has one is reported. With d = b - a:
 !>
-!>     rms        sqrt(mean d^2)                     greatest   max |d|, and when
-!>     peaks      max |a|, max |b|, located          lag        shift tau of b(t) = a(t - tau) with the least mean square
+!>     rms        sqrt(mean d^2)                     maximum   max |d|, and when
+!>     peaks      max |a|, max |b|, located          lag        shift tau of b(t) = a(t - tau) with the minimum mean square
 !>     magnitude  sqrt(sum b^2/sum a^2) - 1          phase      acos(sum a b/sqrt(sum a^2 sum b^2))/pi
 !>
 !> The last two are measures of Sprague and Geers: the error of the size alone and that of the phase alone.
@@ -12,7 +12,7 @@
 !> of the
 !> difference to the root of the sum of squares of both halves is 1 at a significance of 5 %.
 !>
-!> Source: M. A. Sprague, T. L. Geers, Int. J. Numer. Meth. Eng. 60 (2004) 2467-2499. Limits: the lag is looked for up to a tenth
+!> Source: M. A. Sprague, T. L. Geers, Int. J. Numer. Meth. Eng. 60 (2004) 2467-2499. Limits: the lag is searched up to a tenth
 !> of
 !> the time that both have in common.
 module differences_of_series
@@ -34,7 +34,7 @@ module differences_of_series
    end type moments_t
 
    !> Differences of one number.
-   !> Components: all that is told of a channel.
+   !> Components: all that is reported of a channel.
    type :: difference_t
       character(:), allocatable :: name           !! of the number
       character(:), allocatable :: unit           !! SI
@@ -46,7 +46,7 @@ module differences_of_series
       real(wp) :: maximum = 0.0_wp               !! [any]
       real(wp) :: at = 0.0_wp                     !! when [s]
       real(wp) :: interpolation = 0.0_wp          !! what the interpolation may have added at most [any]
-      real(wp) :: peak(2) = 0.0_wp                !! (2) greatest magnitude in the rows of each; NaN: no number [any]
+      real(wp) :: peak(2) = 0.0_wp                !! (2) maximum magnitude in the rows of each; NaN: no number [any]
       real(wp) :: peak_at(2) = 0.0_wp             !! (2) when [s]
       real(wp) :: lag = 0.0_wp                    !! of b behind a; NaN: not known [s]
       real(wp) :: magnitude = 0.0_wp              !! [1]
@@ -107,11 +107,11 @@ contains
       if (all(is_known)) difference%lag = lag_of(t, a, b)
    end subroutine compare_values
 
-   !> The greatest magnitude of numbers, and when.
+   !> The maximum magnitude of numbers, and when.
    pure subroutine find_peak(t, x, peak, at)
       real(wp), intent(in) :: t(:)      !! (n) instants [s]
       real(wp), intent(in) :: x(:)      !! (n) numbers, some of them perhaps none [any]
-      real(wp), intent(out) :: peak     !! the greatest magnitude; NaN: there is no number [any]
+      real(wp), intent(out) :: peak     !! the maximum magnitude; NaN: there is no number [any]
       real(wp), intent(out) :: at       !! its first instant; NaN: there is none [s]
 
       integer :: k
@@ -150,12 +150,12 @@ contains
       end if
    end function moments_of
 
-   !> The shift of b behind a with the least mean square of what is left: whole steps of a grid, then a step of Gauss and Newton.
+   !> The shift of b behind a with the minimum mean square of what is left: whole steps of a grid, then a step of Gauss and Newton.
    function lag_of(t, a, b) result(lag)
       real(wp), intent(in) :: t(:)    !! (n) instants [s]
       real(wp), intent(in) :: a(:)    !! (n) the first [any]
       real(wp), intent(in) :: b(:)    !! (n) the second [any]
-      real(wp) :: lag                 !! NaN: a does not change, or the best shift is the greatest one [s]
+      real(wp) :: lag                 !! NaN: a does not change, or the best shift is the maximum one [s]
 
       real(wp) :: grid(n_grid), minimum, slope(n_grid), square, step, x(n_grid), y(n_grid)
       integer :: best, first, k, last

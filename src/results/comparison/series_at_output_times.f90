@@ -1,8 +1,8 @@
 !> A time history at other instants than those of its own rows, as its numbers allow.
 !>
-!> What goes on smoothly is brought there by the polynomial through six rows, which are all on the same side of a row without a
-!> number; how far that is from the one through five tells what it may add. An angle that jumps by a turn is unwound before. A state
-!> keeps the value of the row before.
+!> What continues smoothly is brought there by the polynomial through six rows, which are all on the same side of a row without a
+!> number; how far that is from the one through five reports what it may add. An angle that jumps by a turn is unwound before. A
+!> state keeps the value of the row before.
 !>
 !> Limits: between a row with a number and one without, and between two rows with different states, it is not known when the change
 !> took place: such an instant is not settled.
@@ -21,10 +21,10 @@ contains
    pure subroutine smooth_at(t, x, times, values, is_settled, worst)
       real(wp), intent(in) :: t(:)                !! (n) instants of the rows, rising, at least two [s]
       real(wp), intent(in) :: x(:)                !! (n) values [any]
-      real(wp), intent(in) :: times(:)            !! (m) instants wanted, within the others [s]
+      real(wp), intent(in) :: times(:)            !! (m) instants requested, within the others [s]
       real(wp), intent(out) :: values(:)          !! (m) the values; NaN: there is none [any]
       logical, intent(out) :: is_settled(:)       !! (m) whether it is known that there is one, or none
-      real(wp), intent(out) :: worst              !! greatest difference to the polynomial through five [any]
+      real(wp), intent(out) :: worst              !! maximum difference to the polynomial through five [any]
 
       real(wp) :: fewer
       integer :: begins(size(t)), ends(size(t)), first, i, k, n, near
@@ -60,7 +60,7 @@ contains
    pure subroutine state_at(t, x, times, values, is_settled)
       real(wp), intent(in) :: t(:)                !! (n) instants of the rows, not falling, at least two [s]
       real(wp), intent(in) :: x(:)                !! (n) states [any]
-      real(wp), intent(in) :: times(:)            !! (m) instants wanted, within the others [s]
+      real(wp), intent(in) :: times(:)            !! (m) instants requested, within the others [s]
       real(wp), intent(out) :: values(:)          !! (m) the states [any]
       logical, intent(out) :: is_settled(:)       !! (m) whether the rows on both sides agree, or those at the instant itself
 
@@ -120,7 +120,7 @@ contains
    pure integer function row_before(t, time, guess) result(k)
       real(wp), intent(in) :: t(:)     !! (n) instants of the rows [s]
       real(wp), intent(in) :: time     !! the instant [s]
-      integer, intent(in) :: guess     !! where to begin
+      integer, intent(in) :: guess     !! where to start
 
       k = guess
       if (k > 1) then
@@ -154,7 +154,7 @@ contains
    pure real(wp) function lagrange(t, x, at) result(value)
       real(wp), intent(in) :: t(:)    !! (n) abscissas [s]
       real(wp), intent(in) :: x(:)    !! (n) values [any]
-      real(wp), intent(in) :: at      !! where it is wanted [s]
+      real(wp), intent(in) :: at      !! where it is requested [s]
 
       real(wp) :: weight
       integer :: i, k

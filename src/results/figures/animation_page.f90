@@ -141,7 +141,7 @@ contains
       call page%line("],")
    end subroutine add_frames
 
-   !> Loose joints, their eccentricities and forces over the window.
+   !> Clearance joints, their eccentricities and forces over the window.
    subroutine add_track(page, catalogue, track)
       type(buffer_t), intent(inout) :: page          !! the page
       type(catalogue_t), intent(in) :: catalogue     !! what was recorded

@@ -2,7 +2,7 @@
 !>
 !> The script finds the data in `D` (`animation_page`). It projects the vertices of the outlines at each picture, draws SVG,
 !> plays and
-!> steps, turns a spatial scene where the mouse drags it, and beside it shows a loose joint with its eccentricity magnified,
+!> steps, turns a spatial scene where the mouse drags it, and beside it shows a clearance joint with its eccentricity magnified,
 !> its path and
 !> its force over the time.
 module animation_script
@@ -10,7 +10,7 @@ module animation_script
    private
    public :: page_head, page_script
 
-   !> From the document's beginning to the data; the title comes between the first two lines and the rest.
+   !> From the document's start to the data; the title comes between the first two lines and the rest.
    character(*), parameter :: page_head(*) = [character(124) :: &
       "<style>", &
       "body{font:15px 'DejaVu Sans',Verdana,sans-serif;margin:0;color:#222;background:#fff}", &

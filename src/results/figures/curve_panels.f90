@@ -13,14 +13,14 @@ module curve_panels
    private
    public :: drawn_panels, fit_abscissa, fit_side, make_panel, panel_t, range_of, shows_nothing
 
-   real(wp), parameter :: late = 1.0e-3_wp          !! least extent of a time axis, of the times [1]
-   integer, parameter :: most_overlaid = 3          !! more curves are drawn without those of the ideal twin
+   real(wp), parameter :: late = 1.0e-3_wp          !! minimum extent of a time axis, of the times [1]
+   integer, parameter :: most_overlaid = 3          !! more curves are drawn without those of the reference run with ideal joints
 
    !> A panel as it is drawn.
    type :: panel_t
       type(curve_t), allocatable :: curves(:)   !! (n) of the run
       integer, allocatable :: side(:)           !! (n) 1: their ordinate is on the left, 2: on the right
-      type(curve_t), allocatable :: ideal(:)    !! (m) of the twin
+      type(curve_t), allocatable :: ideal(:)    !! (m) of the reference run
       integer, allocatable :: ideal_side(:)     !! (m) where their ordinate is
       type(display_unit_t) :: unit(2)           !! (2) of the ordinates
       real(wp) :: less(2) = 0.0_wp              !! (2) what is taken from them, SI [any]
@@ -37,7 +37,7 @@ contains
       type(catalogue_t), intent(in) :: catalogue  !! what was recorded
       type(panel_words_t), intent(in) :: words    !! what the panel is to show
       type(curve_t), intent(in) :: curves(:)      !! (n) curves of the run
-      type(curve_t), intent(in) :: ideal(:)       !! (m) curves of the twin
+      type(curve_t), intent(in) :: ideal(:)       !! (m) curves of the reference run
       type(panel_t), intent(out) :: panel         !! the panel
 
       logical :: own(size(curves))
@@ -66,7 +66,7 @@ contains
 
    contains
 
-      !> The curves of one ordinate; components too small to be seen are left out, unless they were named one by one.
+      !> The curves of one ordinate; components too small to be seen are omitted, unless they were named one by one.
       subroutine take_side(list)
          integer, intent(in) :: list(:)  !! (any) numbers of curves
 
@@ -108,13 +108,13 @@ contains
 
    end subroutine make_panel
 
-   !> Unit and name of an ordinate, by the greatest of what it shows. Of a narrow one what differs from a round value is drawn, in
+   !> Unit and name of an ordinate, by the maximum of what it shows. Of a narrow one what differs from a round value is drawn, in
    !> the unit that is asked for or in one that fits it.
    subroutine fit_side(panel, axis, side, range)
       type(panel_t), intent(inout) :: panel        !! the panel
       type(axis_t), intent(in) :: axis             !! what is asked of the ordinate
       integer, intent(in) :: side                  !! 1 left, 2 right
-      real(wp), intent(in) :: range(2)             !! (2) least and greatest value shown, if no ends are asked for, SI [any]
+      real(wp), intent(in) :: range(2)             !! (2) minimum and maximum value shown, if no ends are asked for, SI [any]
 
       type(display_unit_t) :: unit
       type(round_value_t) :: less
@@ -221,8 +221,8 @@ contains
 
    !> Whether what a curve reaches and what an axis shows have nothing in common.
    pure function is_apart(low, high, range)
-      real(wp), intent(in) :: low(:)        !! (n) least values [any]
-      real(wp), intent(in) :: high(:)       !! (n) greatest values [any]
+      real(wp), intent(in) :: low(:)        !! (n) minimum values [any]
+      real(wp), intent(in) :: high(:)       !! (n) maximum values [any]
       real(wp), intent(in) :: range(2)      !! (2) ends of the axis [any]
       logical :: is_apart(size(low))        !! (n) whether it is so
 
@@ -262,7 +262,7 @@ contains
       unit = choose_unit(axis%si, extent)
    end function shown
 
-   !> Least and greatest value of an ordinate, curves of the twin among them.
+   !> Minimum and maximum value of an ordinate, curves of the reference run among them.
    pure function range_of(panel, side) result(range)
       type(panel_t), intent(in) :: panel  !! the panel
       integer, intent(in) :: side         !! 1 left, 2 right

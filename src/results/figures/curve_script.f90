@@ -1,7 +1,8 @@
 !> The gnuplot script of curves over the time or over another channel, in one panel or several.
 !>
 !> A curve that turns more often than the picture has columns is drawn as the range that it fills and its mean (`envelope_data`).
-!> Curves of the ideal twin are thin and dashed; where they are flat beside the run's, a second panel shows their scale.
+!> Curves of the reference run with ideal joints are thin and dashed; where they are flat beside the run's, a second panel shows
+!> their scale.
 module curve_script
    use catalogue, only: catalogue_t
    use channel_names, only: scalar_name
@@ -37,7 +38,7 @@ contains
       type(catalogue_t), intent(in) :: catalogue  !! what was recorded
       character(*), intent(in) :: title           !! of the scene, any text
       type(curve_t), intent(in) :: curves(:)      !! (n) curves of the run
-      type(curve_t), intent(in) :: ideal(:)       !! (m) curves of the ideal twin, perhaps none
+      type(curve_t), intent(in) :: ideal(:)       !! (m) curves of the reference run with ideal joints, perhaps none
       real(wp), intent(in) :: window(2)           !! (2) ends of the abscissa, SI [any]
       type(envelope_t), intent(in) :: envelope    !! ranges of curves that turn too often
       character(:), allocatable :: script         !! lines for gnuplot
@@ -88,7 +89,7 @@ contains
       script = lines%get()
    end function curve_text
 
-   !> The abscissa, which all panels have in common; it ends where the run does, also where its twin goes on.
+   !> The abscissa, which all panels have in common; it ends where the run does, also where its reference run continues.
    subroutine abscissa_lines(lines, axes, window, format)
       type(buffer_t), intent(inout) :: lines      !! the script
       type(axes_t), intent(in) :: axes            !! its unit, and what is taken from it
@@ -219,7 +220,7 @@ contains
       needs_zoom = largest_y(panel%curves) > peak_ratio*largest_y(panel%ideal) .and. span > flat_ratio*largest_y(panel%curves)
    end function needs_zoom
 
-   !> The plot command: the run's curves, then those of the twin over them.
+   !> The plot command: the run's curves, then those of the reference run over them.
    subroutine plot_lines(lines, panel, scales, envelope)
       type(buffer_t), intent(inout) :: lines      !! the script
       type(panel_t), intent(in) :: panel          !! what is drawn

@@ -56,7 +56,7 @@ contains
    end function start_frame
 
    !> The axis that a disc or gear of a row turns about, own frame of its body: z of the plane; in space the axis of its end, which,
-   !> left out, is parallel to that of i where the deck puts the bodies.
+   !> omitted, is parallel to that of i where the deck puts the bodies.
    pure function turning_axis(scene, item, tie, end) result(axis)
       type(scene_t), intent(in) :: scene  !! the scene
       type(item_t), intent(in) :: item    !! the row

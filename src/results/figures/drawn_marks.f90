@@ -1,4 +1,4 @@
-!> Marks of joints, loose joints and forces, from the tables of a scene.
+!> Marks of joints, clearance joints and forces, from the tables of a scene.
 !>
 !> A joint is a mark at its two points: what it leaves of the freedom says which; a row whose points are apart at the start is a
 !> link, of a force a spring, or a damper where nothing is elastic in it. A force at one point is a mark there. Rows that name
@@ -100,7 +100,7 @@ contains
       end if
    end subroutine measure_slide
 
-   !> Hole and journal of a loose joint, in their size: circles across its axis, for files.
+   !> Hole and journal of a clearance joint, in their size: circles across its axis, for files.
    subroutine add_bearing(mark, drawing)
       type(mark_t), intent(in) :: mark             !! the joint; axes of journal and hole are drawn along one direction
       type(drawing_t), intent(inout) :: drawing    !! gets two parts

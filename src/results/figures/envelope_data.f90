@@ -116,7 +116,7 @@ contains
       character(*), intent(in) :: path                !! its file
       type(curve_t), intent(in) :: curve              !! the curve
       real(wp), intent(in) :: window(2)               !! (2) ends of the abscissa, SI [any]
-      real(wp), intent(out) :: table(:, :)            !! (4, columns) middle, least, greatest value, mean; NaN: empty, SI [any]
+      real(wp), intent(out) :: table(:, :)            !! (4, columns) middle, minimum, maximum value, mean; NaN: empty, SI [any]
       integer, intent(out) :: n_turn                  !! turns
 
       type(number_rows_t) :: rows

@@ -43,7 +43,7 @@ contains
       text = lines%get()
    end function exponent_rows
 
-   !> Mean rates from the end of the transient to each instant, by the tangent and by a twin; NaN up to that end.
+   !> Mean rates from the end of the transient to each instant, by the tangent and by a reference run; NaN up to that end.
    pure function mean_rates(horizon) result(rate)
       type(horizon_t), intent(in) :: horizon   !! what is known
       real(wp) :: rate(size(horizon%t), 2)     !! (instants, 2) the rates [s^-1]

@@ -1,6 +1,6 @@
 !> The figure of an unwrapped film: its table and its script for gnuplot.
 !>
-!> Above: pressure over angle and place along the axis, colours and contours; the angles of the greatest pressure and of the least
+!> Above: pressure over angle and place along the axis, colours and contours; the angles of the maximum pressure and of the minimum
 !> film. Below: pressure in the middle of the bearing, and the gap.
 module field_plot
    use display_units, only: choose_unit, display_unit_t
@@ -17,9 +17,9 @@ module field_plot
    public :: write_field_plot
 
    integer, parameter :: row_step = 2                 !! of the places along the axis every second is drawn
-   integer, parameter :: contours = 8                 !! lines between no pressure and the greatest
+   integer, parameter :: contours = 8                 !! lines between no pressure and the maximum
    real(wp), parameter :: degree = pi/180.0_wp        !! [rad]
-   real(wp), parameter :: nothing = 1.0e-9_wp         !! pressures below this part of the greatest are none [1]
+   real(wp), parameter :: nothing = 1.0e-9_wp         !! pressures below this part of the maximum are none [1]
 
 contains
 

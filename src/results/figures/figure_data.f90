@@ -19,13 +19,13 @@ module figure_data
 
    !> One curve.
    type :: curve_t
-      character(:), allocatable :: path    !! file, as seen from the folder of the figures
+      character(:), allocatable :: path    !! file, as observed from the folder of the figures
       character(:), allocatable :: name    !! of the channel
       integer :: number = 0                !! of the channel among those of the figure
       integer :: x = 1                     !! column of the abscissa
       integer :: y = 0                     !! column of the ordinate
-      real(wp) :: x_range(2) = 0.0_wp      !! (2) least and greatest abscissa, SI [any]
-      real(wp) :: y_range(2) = 0.0_wp      !! (2) least and greatest ordinate, SI [any]
+      real(wp) :: x_range(2) = 0.0_wp      !! (2) minimum and maximum abscissa, SI [any]
+      real(wp) :: y_range(2) = 0.0_wp      !! (2) minimum and maximum ordinate, SI [any]
       integer :: turns = 0                 !! of the ordinate from rising to falling, or back
       logical :: is_function = .true.      !! the abscissa never falls
       integer :: n_row = 0                 !! rows of the file
@@ -35,8 +35,8 @@ module figure_data
    type :: data_file_t
       character(:), allocatable :: path            !! the file
       type(text_t), allocatable :: labels(:)       !! (n) what stands over its columns
-      real(wp), allocatable :: lowest(:)           !! (n) least value of each column, SI [any]
-      real(wp), allocatable :: highest(:)          !! (n) greatest value of each column, SI [any]
+      real(wp), allocatable :: lowest(:)           !! (n) minimum value of each column, SI [any]
+      real(wp), allocatable :: highest(:)          !! (n) maximum value of each column, SI [any]
       integer, allocatable :: turns(:)             !! (n) turns of each column from rising to falling, or back
       logical, allocatable :: falls(:)             !! (n) whether each column falls somewhere
       integer :: n_row = 0                         !! rows
@@ -262,12 +262,12 @@ contains
       end do
    end function column_of
 
-   !> Least and greatest value of a column; zero if all is round-off.
+   !> Minimum and maximum value of a column; zero if all is round-off.
    subroutine get_range(file, column, noise, range)
       type(data_file_t), intent(in) :: file  !! the file
       integer, intent(in) :: column          !! number of the column
       real(wp), intent(in) :: noise          !! less is round-off, SI [any]
-      real(wp), intent(out) :: range(2)      !! (2) least, greatest, SI [any]
+      real(wp), intent(out) :: range(2)      !! (2) minimum, maximum, SI [any]
 
       range = [file%lowest(column), file%highest(column)]
       if (all(abs(range) <= noise)) range = 0.0_wp

@@ -100,7 +100,7 @@ contains
       allocate (clause%words(0), clause%units(0), clause%limits(0))
    end subroutine empty
 
-   !> The text with the word for panels left out and their last parenthesis a cell of its own.
+   !> The text with the word for panels omitted and their last parenthesis a cell of its own.
    function merge_panels(text) result(s)
       character(*), intent(in) :: text         !! the figure
       character(:), allocatable :: s           !! the rest

@@ -29,7 +29,7 @@ contains
       type(catalogue_t), intent(in) :: catalogue  !! what was recorded
       character(*), intent(in) :: title           !! of the scene, any text
       type(curve_t), intent(in) :: curves(:)      !! (n) curves of the run
-      type(curve_t), intent(in) :: ideal(:)       !! (m) curves of the ideal twin, perhaps none
+      type(curve_t), intent(in) :: ideal(:)       !! (m) curves of the reference run with ideal joints, perhaps none
       integer, intent(in) :: n_turn               !! turns of the first curve, small wiggles apart
       type(path_t), intent(in) :: thinned         !! the path, if the run's own table has too many points
       character(:), allocatable :: script         !! lines for gnuplot
@@ -55,7 +55,7 @@ contains
       type(catalogue_t), intent(in) :: catalogue  !! what was recorded
       character(*), intent(in) :: title           !! of the scene, any text
       type(curve_t), intent(in) :: curves(:)      !! (1) curve of the run
-      type(curve_t), intent(in) :: ideal(:)       !! (0 or 1) curve of the twin
+      type(curve_t), intent(in) :: ideal(:)       !! (0 or 1) curve of the reference run
       logical, intent(in) :: is_thin              !! many turns lie one over the other
       type(path_t), intent(in) :: thinned         !! the path, if the run's own table has too many points
 

@@ -42,13 +42,13 @@ module figure_words
    integer, parameter :: figure_animation = 13   !! the moving mechanism
    integer, parameter :: most_panels = 4         !! of a figure of statistics
    integer, parameter :: longest_name = 100   !! characters of the name of a file without its ending
-   !> How the figures with arguments begin, by their kind.
+   !> How the figures with arguments start, by their kind.
    character(*), parameter :: call_words(figure_portrait:figure_animation) = [character(12) :: "portrait(", "section(", &
       "spectrum(", "histogram(", "bifurcation(", "statistics(", "film(", "mechanism(", "strip(", "coupler(", "animation("]
    character(*), parameter :: histogram_words = "impact_speed peak_force"  !! what there are histograms of
    character(*), parameter :: orbit_word = ".orbit"        !! how an orbit ends
 
-   character(*), parameter :: unknown_channel = "unknown channel"  !! how the message about one begins
+   character(*), parameter :: unknown_channel = "unknown channel"  !! how the message about one starts
 
    !> One figure.
    type :: figure_t
@@ -80,7 +80,7 @@ module figure_words
 
 contains
 
-   !> Look for mistakes in a list of figures.
+   !> Look for errors in a list of figures.
    subroutine check_figures(words, catalogue, bad_word, bad_message, hint, bad_part, figures)
       type(text_t), intent(in) :: words(:)                    !! (n) words of the deck
       type(catalogue_t), intent(in) :: catalogue              !! what can be recorded
@@ -232,7 +232,7 @@ contains
       end if
    end subroutine new_history
 
-   !> Begin a hint with the figure of another kind that was probably meant, if that would be understood.
+   !> Start a hint with the figure of another kind that was probably meant, if that would be understood.
    recursive subroutine take_nearest_call(word, catalogue, hint)
       character(*), intent(in) :: word                       !! a figure of the deck that is none
       type(catalogue_t), intent(in) :: catalogue             !! what can be recorded

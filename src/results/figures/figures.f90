@@ -34,7 +34,7 @@ module figures
    private
    public :: make_figures
 
-   character(*), parameter :: ideal_suffix = ".ideal"  !! of the files of the ideal twin
+   character(*), parameter :: ideal_suffix = ".ideal"  !! of the files of the reference run with ideal joints
 
 contains
 
@@ -81,7 +81,7 @@ contains
          if (allocated(error)) return
          if (is_written) then
             call append_text(names, file_of(list(k)))
-         else if (list(k)%kind /= figure_film) then  ! of a film that is missing the recorder tells
+         else if (list(k)%kind /= figure_film) then  ! of a film that is missing the recorder reports
             call append_text(warnings, "figure "//list(k)%word//": no values to draw: "//why_nothing(list(k)))
          end if
       end do
@@ -170,7 +170,7 @@ contains
    pure function window_of(figure, curves, ideal) result(window)
       type(figure_t), intent(in) :: figure    !! the figure
       type(curve_t), intent(in) :: curves(:)  !! (n) curves of the run
-      type(curve_t), intent(in) :: ideal(:)   !! (m) curves of the ideal twin
+      type(curve_t), intent(in) :: ideal(:)   !! (m) curves of the reference run with ideal joints
       real(wp) :: window(2)                   !! (2) SI [any]
 
       window = [minval(curves%x_range(1)), maxval(curves%x_range(2))]

@@ -55,7 +55,7 @@ contains
 
    !> The moment of a film.
    subroutine take_moment(word, request, message, hint)
-      character(*), intent(in) :: word                       !! end, least or a time with its unit
+      character(*), intent(in) :: word                       !! end, minimum or a time with its unit
       type(field_request_t), intent(inout) :: request        !! its moment is set
       character(:), allocatable, intent(inout) :: message    !! what is wrong, blank if nothing
       character(:), allocatable, intent(inout) :: hint       !! what may have been meant, may be blank
@@ -86,7 +86,7 @@ contains
       end if
    end subroutine take_moment
 
-   !> Films that were asked for and not found, in words.
+   !> Films that were asked for and not found, as text.
    function missing_films(requests, fields) result(warnings)
       type(field_request_t), intent(in) :: requests(:)  !! (n) what was asked for
       type(film_field_t), intent(in) :: fields(:)       !! (any) what was found

@@ -1,4 +1,5 @@
-!> The figure of twin runs: their distance over time, the law of its growth, the times up to which there are digits.
+!> The figure of neighbouring trajectory runs: their distance over time, the law of its growth, the times up to which there are
+!> digits.
 module horizon_plot
    use display_units, only: choose_unit, display_unit_t
    use growth, only: n_digit
@@ -17,7 +18,7 @@ module horizon_plot
 
 contains
 
-   !> The distances of the twins over time.
+   !> The distances of neighbouring trajectories over time.
    function horizon_rows(study) result(text)
       type(precision_t), intent(in) :: study   !! results
       character(:), allocatable :: text        !! whole lines
@@ -36,7 +37,7 @@ contains
       text = lines%get()
    end function horizon_rows
 
-   !> The distance of twins over time with its law and the horizons.
+   !> The distance of neighbouring trajectories over time with its law and the horizons.
    function horizon_script(study, title) result(script)
       type(precision_t), intent(in) :: study   !! results
       character(*), intent(in) :: title        !! of the scene, any text

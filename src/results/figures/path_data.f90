@@ -1,6 +1,6 @@
 !> Paths of very many points, as orbits and portraits of long runs have: what a picture can show of them.
 !>
-!> Points nearer to the last one than a part of a pixel are left out. A line that crosses the picture thousands of times would
+!> Points nearer to the last one than a part of a pixel are omitted. A line that crosses the picture thousands of times would
 !> fill it, and gnuplot takes minutes for it: of such a path the points are drawn. The more there is of either the more
 !> transparent it is, so that where the path passes often is seen among the rest.
 module path_data
@@ -60,7 +60,7 @@ contains
       call lines%add(heading)
       call lines%line("# path, points closer than half a pixel omitted, SI")
       extent = [curve%x_range(2) - curve%x_range(1), curve%y_range(2) - curve%y_range(1)]
-      if (.not. all(ieee_is_finite(extent))) extent = 0.0_wp  ! infinite numbers are left out, and no others
+      if (.not. all(ieee_is_finite(extent))) extent = 0.0_wp  ! infinite numbers are omitted, and no others
       crossings = 0.0_wp
       has_last = .false.
       n = 0

@@ -30,7 +30,7 @@ module plot_table
       integer :: style = draw_points          !! one of the above
       integer :: x = 1                        !! column of the abscissa
       integer :: y = 2                        !! column of the ordinate
-      integer :: low = 0                      !! column of the bar's half length, or of a box's begin
+      integer :: low = 0                      !! column of the bar's half length, or of a box's start
       integer :: high = 0                     !! column of a box's end
       integer :: colour = 1                   !! number of the colour
       integer :: first = 1                    !! its first row
@@ -62,7 +62,7 @@ module plot_table
 
 contains
 
-   !> Write the table and its script into a folder; nothing if it has no numbers. Panels without numbers are left out.
+   !> Write the table and its script into a folder; nothing if it has no numbers. Panels without numbers are omitted.
    subroutine write_plot(folder, title, table, is_written, error, empty)
       character(*), intent(in) :: folder                 !! of the figures
       character(*), intent(in) :: title                  !! of the scene, any text
@@ -272,7 +272,7 @@ contains
    !> differ late have their digits.
    subroutine line_lines(lines, range)
       type(buffer_t), intent(inout) :: lines      !! the script
-      real(wp), intent(in) :: range(2)            !! (2) least and greatest ordinate [the unit shown]
+      real(wp), intent(in) :: range(2)            !! (2) minimum and maximum ordinate [the unit shown]
 
       real(wp) :: ends(2)
 
@@ -286,7 +286,7 @@ contains
       end if
    end subroutine line_lines
 
-   !> Ends of an ordinate that scales itself: of what is not negative it begins at zero, if that is near.
+   !> Ends of an ordinate that scales itself: of what is not negative it starts at zero, if that is near.
    subroutine ordinate_lines(lines, table, panel, y)
       type(buffer_t), intent(inout) :: lines      !! the script
       type(plot_table_t), intent(in) :: table     !! the table
@@ -357,7 +357,7 @@ contains
       s = "($"//to_text(column)//"*"//real_text(unit%factor, 9)//")"
    end function scaled
 
-   !> Least and greatest value in some columns.
+   !> Minimum and maximum value in some columns.
    pure function range_of(table, columns) result(range)
       type(plot_table_t), intent(in) :: table  !! the table
       integer, intent(in) :: columns(:)        !! (any) columns
@@ -375,7 +375,7 @@ contains
       if (range(1) > range(2)) range = 0.0_wp
    end function range_of
 
-   !> Greatest magnitude in some columns.
+   !> Maximum magnitude in some columns.
    pure real(wp) function largest(table, columns)
       type(plot_table_t), intent(in) :: table  !! the table
       integer, intent(in) :: columns(:)        !! (any) columns

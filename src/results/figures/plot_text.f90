@@ -1,6 +1,6 @@
 !> Text that gnuplot draws as it is, whatever it holds: nothing of it is ever a command.
 !>
-!> gnuplot runs what stands between backticks in double quotes, a line that begins with `!`, and
+!> gnuplot runs what stands between backticks in double quotes, a line that starts with `!`, and
 !> files named `|command` or `<command`. Single-quoted strings know no escapes, so a string without
 !> apostrophes and control characters stays a string. A character that the font lacks makes gnuplot
 !> fill the picture with a black box, so a small white square stands for it.
@@ -27,7 +27,7 @@ contains
    !> A single-quoted string for gnuplot.
    pure function quoted(text, most) result(s)
       character(*), intent(in) :: text         !! any bytes
-      integer, intent(in), optional :: most    !! characters that there is room for
+      integer, intent(in), optional :: most    !! characters that there is storage for
       character(:), allocatable :: s           !! with its quotes
 
       character(:), allocatable :: clean
@@ -60,7 +60,7 @@ contains
       s = "'"//s//"'"
    end function quoted
 
-   !> Whether a byte begins a character of UTF-8.
+   !> Whether a byte starts a character of UTF-8.
    pure logical function starts_character(byte)
       character(1), intent(in) :: byte  !! any byte
 
@@ -83,7 +83,7 @@ contains
       end do
    end function valid_utf8
 
-   !> The character that a string begins with.
+   !> The character that a string starts with.
    pure subroutine next_character(bytes, n, code)
       character(*), intent(in) :: bytes  !! at least one byte
       integer, intent(out) :: n          !! its length in bytes, 0 if it is none

@@ -32,7 +32,7 @@ module precision_legend
    !> A row of the reasons.
    type :: note_t
       integer :: tol_sweep = 0                   !! the setting
-      integer :: sign = 0                     !! gnuplot's number of its sign, 0: the row goes on
+      integer :: sign = 0                     !! gnuplot's number of its sign, 0: the row continues
       character(:), allocatable :: words      !! what it says
    end type note_t
 
@@ -51,7 +51,7 @@ module precision_legend
 
 contains
 
-   !> Begin a page: its size, and of one panel its place above the reasons.
+   !> Start a page: its size, and of one panel its place above the reasons.
    subroutine begin(self, lines, study, name, panels, titles, with_notes)
       class(legend_t), intent(out) :: self      !! the page
       type(buffer_t), intent(inout) :: lines    !! the script

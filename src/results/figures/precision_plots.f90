@@ -1,4 +1,4 @@
-!> The figures of a comparison of settings: cost over error, its second views, the distance of twins over time.
+!> The figures of a comparison of settings: cost over error, its second views, the distance of reference runs over time.
 !>
 !> The numbers stand in `precision.dat`, a block for each setting, then the front and the choice; scripts draw from them. What
 !> is within the error of the reference is grey; a run with other contacts or another end is an open diamond; failures stand as
@@ -32,9 +32,9 @@ module precision_plots
    character(*), parameter :: tolerance_title = "error = tolerance"
 
    ! columns of the numbers
-   character(*), parameter :: at_error = "2"      !! error wanted
+   character(*), parameter :: at_error = "2"      !! error requested
    character(*), parameter :: at_cpu = "3"        !! median of the processor time
-   character(*), parameter :: at_least = "4"      !! least of it
+   character(*), parameter :: at_least = "4"      !! minimum of it
    character(*), parameter :: at_rhs = "5"        !! right-hand sides
    character(*), parameter :: at_steps = "6"      !! steps
    character(*), parameter :: at_ledger = "7"     !! residual of the ledger
@@ -137,7 +137,7 @@ contains
       end if
    end function error_label
 
-   !> The error of the reference, and the error wanted; the axis reaches to both, in whole decades.
+   !> The error of the reference, and the error requested; the axis reaches to both, in whole decades.
    subroutine add_limits(lines, study)
       type(buffer_t), intent(inout) :: lines    !! the script
       type(precision_t), intent(in) :: study    !! results
@@ -287,7 +287,7 @@ contains
       title = tol_sweep%name//trim(merge(" (steps)", "        ", tol_sweep%is_fixed))
    end function title_of
 
-   !> The choice in words.
+   !> The choice as text.
    function choice_title(study) result(words)
       type(precision_t), intent(in) :: study      !! results
       character(:), allocatable :: words          !! one line

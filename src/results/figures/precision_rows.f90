@@ -11,12 +11,13 @@ module precision_rows
       zero_of_errors, zero_of_ledgers
 
    real(wp), parameter :: min_error = 1.0e-17_wp   !! drawn for a distance of nothing [1]
-   real(wp), parameter :: decade = 0.2_wp            !! room beside an error, of it, for which the axis has another decade [1]
-   real(wp), parameter :: min_below = 0.1_wp       !! of the reference's own error, drawn for what is less: it cannot be told [1]
+   real(wp), parameter :: decade = 0.2_wp            !! workspace beside an error, of it, for which the axis has another decade [1]
+   real(wp), parameter :: min_below = 0.1_wp  !! of the reference's own error, drawn for what is less: it cannot be reported [1]
 
 contains
 
-   !> The numbers: a block for each setting, two blank lines between them, then the front from the least error on, then the choice.
+   !> The numbers: a block for each setting, two blank lines between them, then the front from the minimum error on, then the
+   !> choice.
    function numbers_of(study) result(text)
       type(precision_t), intent(in) :: study   !! results
       character(:), allocatable :: text        !! whole lines
@@ -29,8 +30,8 @@ contains
                                                                 number(zero_of_errors(study)))
       if (ieee_is_finite(zero_of_ledgers(study))) call lines%line("# zero energy errors are drawn at "// &
                                                                  number(zero_of_ledgers(study)))
-      call lines%line("# tolerance or step [1 or s], error, CPU median [s], CPU minimum [s], right-hand sides, steps, ledger, state, " // &
-                      "below")
+      call lines%line("# tolerance or step [1 or s], error, CPU median [s], CPU minimum [s], right-hand sides, steps, ledger, " // &
+                      "state, below")
       do k = 1, size(study%tol_sweeps)
          call lines%line("# "//study%tol_sweeps(k)%name)
          do i = 1, size(study%tol_sweeps(k)%tol_runs)
@@ -52,7 +53,7 @@ contains
       text = lines%get()
    end function numbers_of
 
-   !> The runs of the front, from the least error on.
+   !> The runs of the front, from the minimum error on.
    function front_of(study) result(front)
       type(precision_t), intent(in) :: study       !! results
       type(tol_run_t), allocatable :: front(:)        !! (n) runs
@@ -169,8 +170,8 @@ contains
       power = 10.0_wp**(floor(log10(x)) - 1)
    end function decade_below
 
-   !> The axis of errors, which reaches to those of all runs, of the reference, and to the one wanted, in whole decades; errors of
-   !> exactly 0 stand on its edge.
+   !> The axis of errors, which reaches to those of all runs, of the reference, and to the one requested, in whole decades; errors
+   !> of exactly 0 stand on its edge.
    pure function error_axis(study) result(ends)
       type(precision_t), intent(in) :: study   !! results
       integer :: ends(2)                       !! (2) powers of ten
@@ -206,7 +207,7 @@ contains
       end do
    end function any_ledger
 
-   !> Greatest processor time.
+   !> Maximum processor time.
    pure real(wp) function largest_cpu(study) result(x)
       type(precision_t), intent(in) :: study  !! results
 
@@ -220,7 +221,7 @@ contains
       end do
    end function largest_cpu
 
-   !> Least processor time of a run that ended.
+   !> Minimum processor time of a run that ended.
    pure real(wp) function smallest_cpu(study) result(x)
       type(precision_t), intent(in) :: study  !! results
 

@@ -23,7 +23,7 @@ contains
 
    !> The round value of an axis: no more digits than what is left over needs.
    pure function round_value(range, unit) result(less)
-      real(wp), intent(in) :: range(2)           !! (2) least and greatest value, SI [any]
+      real(wp), intent(in) :: range(2)           !! (2) minimum and maximum value, SI [any]
       type(display_unit_t), intent(in) :: unit   !! the unit that the value is round in
       type(round_value_t) :: less                !! what there is to take
 

@@ -2,7 +2,7 @@
 !>
 !> A body has the rows of [shapes] that name it. One without is drawn by the points that it carries (`body_outline`). Columns
 !> `radius`, `radius_i` and `radius_j` of a row that ties two points are circles about them, of discs and gears, in space across
-!> their axes (`drawn_axes`); of loose joints in space they are balls. What slides in a loose guide is the block of its row, and
+!> their axes (`drawn_axes`); of clearance joints in space they are balls. What slides in a loose guide is the block of its row, and
 !> only where it has points beyond it drawn by them too. Joints and forces are marks (`drawn_marks`).
 module scene_drawing
    use body_outline, only: distinct_points, outline, same_place

@@ -205,7 +205,7 @@ contains
       end associate
    end subroutine frame_lines
 
-   !> The greatest of 1, 2, 5 times a power of ten that is not above a length.
+   !> The maximum of 1, 2, 5 times a power of ten that is not above a length.
    pure real(wp) function round_below(length) result(round)
       real(wp), intent(in) :: length  !! the length, positive [any]
 

@@ -1,4 +1,4 @@
-!> A mechanism as strokes in a picture: bodies, joints by their symbols, loose joints magnified, forces as arrows.
+!> A mechanism as strokes in a picture: bodies, joints by their symbols, clearance joints magnified, forces as arrows.
 !>
 !> Each style has lines `x y colour` for gnuplot, polylines apart by a blank line. A loose round joint is a bearing with a journal
 !> in it, larger than a pin; the eccentricity is magnified by one factor for all, so that the largest clearance fills the symbol.
@@ -23,16 +23,16 @@ module scene_strokes
    integer, parameter :: style_path = 4      !! path of a point
    integer, parameter :: style_pin = 5       !! filled symbols of joints
    integer, parameter :: style_symbol = 6    !! lines of symbols, springs and links
-   integer, parameter :: style_hole = 7      !! filled holes of loose joints
+   integer, parameter :: style_hole = 7      !! filled holes of clearance joints
    integer, parameter :: style_journal = 8   !! filled journals
    integer, parameter :: style_arrow = 9     !! forces
    integer, parameter :: n_style = 9         !! styles
 
-   real(wp), parameter :: seen_aside = 0.1_wp      !! of a plane's normal in the view, below which it is seen from above [1]
+   real(wp), parameter :: seen_aside = 0.1_wp      !! of a plane's normal in the view, below which it is observed from above [1]
    real(wp), parameter :: pin_size = 0.014_wp      !! radius of a pin, of the size of the scene [1]
    real(wp), parameter :: bearing_size = 0.034_wp  !! radius of a magnified bearing, of that size [1]
    real(wp), parameter :: journal_part = 0.62_wp   !! radius of its journal, of that of the bearing [1]
-   real(wp), parameter :: arrow_size = 0.25_wp     !! of the greatest force, of the size of the scene [1]
+   real(wp), parameter :: arrow_size = 0.25_wp     !! of the maximum force, of the size of the scene [1]
    integer, parameter :: n_round = 24              !! sides of a symbol's circle
    integer, parameter :: dark = 4210752            !! colour of symbols, #404040
    integer, parameter :: red = 13715803            !! colour of forces, #d1495b
@@ -44,7 +44,7 @@ module scene_strokes
       real(wp) :: scale = 1.0_wp                  !! numbers of the picture over lengths [any/m]
       real(wp) :: magnified = 0.0_wp              !! factor of eccentricities; 0: no loose round joints [1]
       real(wp) :: force = 0.0_wp                  !! force of the longest arrow; 0: there are none [N]
-      real(wp), allocatable :: ways(:, :)         !! (2, marks) of slides: least and greatest place of j along the axis [m]
+      real(wp), allocatable :: ways(:, :)         !! (2, marks) of slides: minimum and maximum place of j along the axis [m]
       real(wp), allocatable :: walls(:, :)        !! (2, marks) of slides: from the guide's line to its walls, as `gaps` [m]
       real(wp), allocatable :: coils(:)           !! (marks) of springs and dampers: half their width [m]
       integer, allocatable :: bends(:)            !! (marks) of springs: corners of their zigzag
@@ -148,7 +148,7 @@ contains
       case (mark_plane)
          x(:, 2) = matmul(frame%a(:, :, mark%body(1)), mark%axis)
          axis = projected(view, x(:, 1) + x(:, 2)) - p(:, 1)
-         if (.not. norm2(axis) > seen_aside) return  ! seen from above, or nearly
+         if (.not. norm2(axis) > seen_aside) return  ! observed from above, or nearly
          axis = [axis(2), -axis(1)]/norm2(axis)
          call draw_hatch(canvas, symbols, p(:, 1) + (way(1) - 0.2_wp*symbols%size)*axis, &
                          p(:, 1) + (way(2) + 0.2_wp*symbols%size)*axis)
@@ -199,7 +199,7 @@ contains
       call draw_hatch(canvas, symbols, base - [1.5_wp*h, 0.0_wp], base + [1.5_wp*h, 0.0_wp])
    end subroutine draw_support
 
-   !> A line with hatching to its right, seen from its first end.
+   !> A line with hatching to its right, observed from its first end.
    subroutine draw_hatch(canvas, symbols, from, to)
       type(canvas_t), intent(inout) :: canvas  !! gets lines
       type(symbols_t), intent(in) :: symbols   !! scales

@@ -10,8 +10,8 @@ module scene_views
    private
    public :: extents_t, lay_out_views, projected, view_t
 
-   real(wp), parameter :: gap = 0.3_wp      !! between views, of the greatest extent of one [1]
-   real(wp), parameter :: minimum = 0.4_wp    !! room of a view, of that extent [1]
+   real(wp), parameter :: gap = 0.3_wp      !! between views, of the maximum extent of one [1]
+   real(wp), parameter :: minimum = 0.4_wp    !! workspace of a view, of that extent [1]
    real(wp), parameter :: above = 0.06_wp   !! of a label over the highest view of its row, of that extent [1]
 
    !> One view.
@@ -42,7 +42,7 @@ contains
       p = view%shift + [dot_product(view%right, x), dot_product(view%up, x)]
    end function projected
 
-   !> Make room for a place.
+   !> Make storage for a place.
    pure subroutine hold(self, p)
       class(extents_t), intent(inout) :: self  !! the frame
       real(wp), intent(in) :: p(2)             !! (2) the place [m]
@@ -117,7 +117,7 @@ contains
       views(4)%label = "x, y"
    end function spatial_views
 
-   !> Make room for all frames, the path and the arrows in a view.
+   !> Make storage for all frames, the path and the arrows in a view.
    subroutine measure(drawing, list, track, tips, view, extents)
       type(drawing_t), intent(in) :: drawing         !! the scene
       type(frame_t), intent(in) :: list(:)           !! (n) frames

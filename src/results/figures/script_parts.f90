@@ -18,7 +18,8 @@ module script_parts
    character(*), parameter :: colours(12) = &
       [character(7) :: "#1f6fb4", "#d1495b", "#2e8b57", "#c98a00", "#7b4fa3", "#4d4d4d", &
        "#17a2b8", "#e377c2", "#9acd32", "#8c564b", "#ff7f50", "#a0a0a0"]  !! of curves
-   character(*), parameter :: ideal_style = " with lines linewidth 1.2 dashtype (12,8) linecolor rgb '#101010' "  !! of the twin
+   character(*), &
+        parameter :: ideal_style = " with lines linewidth 1.2 dashtype (12,8) linecolor rgb '#101010' "  !! of the reference run
    character(*), parameter :: twin_colour = "1f6fb5"  !! the first of them as good as
    integer, parameter :: segment_points = 100           !! of a transparent line that are drawn at once
 
@@ -39,7 +40,7 @@ module script_parts
 
 contains
 
-   !> What every script begins with.
+   !> What every script starts with.
    subroutine preamble(lines, name, width, height)
       type(buffer_t), intent(inout) :: lines   !! the script
       character(*), intent(in) :: name         !! of the figure's files
@@ -63,40 +64,40 @@ contains
       call lines%line("")
    end subroutine preamble
 
-   !> Greatest magnitude of the ordinates.
+   !> Maximum magnitude of the ordinates.
    pure real(wp) function largest_y(curves)
       type(curve_t), intent(in) :: curves(:)  !! (n) curves
 
       largest_y = max(abs(minval(curves%y_range(1))), abs(maxval(curves%y_range(2))))
    end function largest_y
 
-   !> Greatest magnitude of a range.
+   !> Maximum magnitude of a range.
    pure real(wp) function largest(range)
-      real(wp), intent(in) :: range(2)  !! (2) least and greatest value [any]
+      real(wp), intent(in) :: range(2)  !! (2) minimum and maximum value [any]
 
       largest = maxval(abs(range))
    end function largest
 
    !> Whether nothing of a range is negative and something is as good as zero: then zero is the lower edge of its axis.
    pure logical function stands_on_zero(range)
-      real(wp), intent(in) :: range(2)  !! (2) least and greatest value [any]
+      real(wp), intent(in) :: range(2)  !! (2) minimum and maximum value [any]
 
-      real(wp), parameter :: near = 0.05_wp      ! of the greatest value [1]
-      real(wp), parameter :: unseen = 1.0e-3_wp  ! of the greatest value: less than a pixel [1]
+      real(wp), parameter :: near = 0.05_wp      ! of the maximum value [1]
+      real(wp), parameter :: unseen = 1.0e-3_wp  ! of the maximum value: less than a pixel [1]
 
       stands_on_zero = range(1) >= -unseen*range(2) .and. range(1) < near*range(2)
    end function stands_on_zero
 
    !> Whether nothing is positive and something is as good as zero: then zero is the upper edge.
    pure logical function hangs_from_zero(range)
-      real(wp), intent(in) :: range(2)  !! (2) least and greatest value [any]
+      real(wp), intent(in) :: range(2)  !! (2) minimum and maximum value [any]
 
       hangs_from_zero = stands_on_zero([-range(2), -range(1)])
    end function hangs_from_zero
 
    !> Ends of an axis that scales itself but where it ends at zero; values beyond zero that nobody sees have room all the same.
    function open_range(range) result(words)
-      real(wp), intent(in) :: range(2)         !! (2) least and greatest value [the unit shown]
+      real(wp), intent(in) :: range(2)         !! (2) minimum and maximum value [the unit shown]
       character(:), allocatable :: words       !! as `[0:*]`
 
       words = "*:*"
@@ -107,7 +108,7 @@ contains
 
    !> Ends of an axis that scales itself, or of one whose numbers do not change: a tenth of them to either side.
    function axis_range(range) result(words)
-      real(wp), intent(in) :: range(2)         !! (2) least and greatest value [the unit shown]
+      real(wp), intent(in) :: range(2)         !! (2) minimum and maximum value [the unit shown]
       character(:), allocatable :: words       !! as `[0:*]`
 
       if (.not. largest(range) > 0.0_wp) then
@@ -133,14 +134,14 @@ contains
    !> The name of an ordinate for gnuplot, smaller if it is longer than its axis.
    function label_words(label, height) result(words)
       character(*), intent(in) :: label        !! as `position less 1000 m [mm]`
-      integer, intent(in) :: height            !! room for it, in units of layout
+      integer, intent(in) :: height            !! storage for it, in units of layout
       character(:), allocatable :: words       !! in quotes, with its font
 
       integer, parameter :: usual = 15, minimum = 8  ! size of letters
       integer, parameter :: width = 12             ! of a letter of usual size, in units of layout
       integer :: i, n
 
-      n = count([(iand(ichar(label(i:i)), 192) /= 128, i=1, len(label))])  ! bytes that begin a character of UTF-8
+      n = count([(iand(ichar(label(i:i)), 192) /= 128, i=1, len(label))])  ! bytes that start a character of UTF-8
       words = quoted(label)//" font ',"//to_text(max(minimum, min(usual, usual*height/(width*max(n, 1)))))//"'"
    end function label_words
 
@@ -166,7 +167,7 @@ contains
    !> read the same. Blank: gnuplot's own are as good.
    function long_tics(axis, range) result(words)
       character(1), intent(in) :: axis            !! x or y
-      real(wp), intent(in) :: range(2)            !! (2) least and greatest value [the unit shown]
+      real(wp), intent(in) :: range(2)            !! (2) minimum and maximum value [the unit shown]
       character(:), allocatable :: words          !! commands
 
       character(:), allocatable :: distance, format
@@ -178,7 +179,7 @@ contains
 
    !> The same: their distance and the format of their numbers, blank if gnuplot's own are as good.
    subroutine find_long_tics(range, distance, format)
-      real(wp), intent(in) :: range(2)                        !! (2) least and greatest value [the unit shown]
+      real(wp), intent(in) :: range(2)                        !! (2) minimum and maximum value [the unit shown]
       character(:), allocatable, intent(out) :: distance      !! of two ticks
       character(:), allocatable, intent(out) :: format        !! of their numbers
 
@@ -232,7 +233,7 @@ contains
       if (thinned%style == "dots") then  ! a dot cannot be seen in a legend: the first point stands there
          s = s//" with dots linecolor rgb '#"//colour//"' notitle, '"//thinned%file//"' every ::0::0:0"//columns// &
              " with points pointtype 7 pointsize 0.5"
-      else  ! what is drawn at once covers itself only once, and a change of colour begins anew: colours with no visible difference
+      else  ! what is drawn at once covers itself only once, and a change of colour starts anew: colours with no visible difference
          s = s//":(int($0/"//to_text(segment_points)//")%2 ? 0x"//colour//" : 0x"//thinned%alpha//twin_colour// &
              ") with "//thinned%style//" linecolor rgb variable notitle, '"//thinned%file//"' every ::0::0:0"//columns// &
              " with "//thinned%style

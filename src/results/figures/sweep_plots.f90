@@ -127,7 +127,7 @@ contains
       end do
    end function curve_title
 
-   !> A channel once per period over the parameter: every sample of every run. Where no run of a curve is there it is left out.
+   !> A channel once per period over the parameter: every sample of every run. Where no run of a curve is there it is omitted.
    subroutine bifurcation_table(name, unit, results, table)
       character(*), intent(in) :: name                  !! of the channel
       character(*), intent(in) :: unit                  !! its unit
@@ -173,7 +173,7 @@ contains
       table%panels(1)%curves = pack(table%panels(1)%curves, table%panels(1)%curves%last >= table%panels(1)%curves%first)
    end subroutine bifurcation_table
 
-   !> Numbers over the parameter: mean and standard deviation over the runs, least and greatest value as small marks.
+   !> Numbers over the parameter: mean and standard deviation over the runs, minimum and maximum value as small marks.
    subroutine statistics_table(names, results, table)
       type(text_t), intent(in) :: names(:)              !! (n) numbers
       type(sweep_results_t), intent(in) :: results      !! what the runs gave

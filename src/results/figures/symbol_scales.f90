@@ -1,4 +1,4 @@
-!> Sizes of the symbols of a drawn mechanism, and what they tell of its motion: ways of slides, forces, magnified clearances.
+!> Sizes of the symbols of a drawn mechanism, and what they report of its motion: ways of slides, forces, magnified clearances.
 module symbol_scales
    use catalogue, only: catalogue_t
    use groups_of_catalogue, only: group_clearances, group_forces
@@ -70,7 +70,7 @@ contains
    end subroutine new_symbols
 
    !> Widths of springs and dampers, and corners of springs: in proportion to the scene, fewer and narrower where one is short, by
-   !> its greatest length, so that they are the same in all frames.
+   !> its maximum length, so that they are the same in all frames.
    pure subroutine measure_springs(drawing, list, symbols)
       type(drawing_t), intent(in) :: drawing        !! the scene
       type(frame_t), intent(in) :: list(:)          !! (n) frames
@@ -199,7 +199,7 @@ contains
       end do
    end function arrow_tips
 
-   !> The greatest force of the joints with clearance, and of the loads that are drawn, in some frames.
+   !> The maximum force of the joints with clearance, and of the loads that are drawn, in some frames.
    pure real(wp) function largest_force(symbols, list) result(force)
       type(symbols_t), intent(in) :: symbols  !! which loads are drawn
       type(frame_t), intent(in) :: list(:)    !! (n) frames

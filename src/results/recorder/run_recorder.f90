@@ -38,7 +38,7 @@ module run_recorder
    !> When a run was looked after, and how long it takes from one instant at which it can be saved to the next.
    type :: pace_t
       integer :: n_step = 0                !! steps since the clock was looked at
-      integer(i8) :: saved_at = 0          !! when it was saved, or began [ms]
+      integer(i8) :: saved_at = 0          !! when it was saved, or started [ms]
       integer(i8) :: could_save_at = 0     !! when it could be saved last [ms]
       integer(i8) :: longest = 0           !! time between two such instants [ms]
       integer(i8) :: cost = 0              !! time that it takes to save it [ms]
@@ -116,7 +116,7 @@ module run_recorder
          class(run_recorder_t), intent(inout) :: self       !! the recorder
       end subroutine forget_checkpoint
 
-      !> Write the summaries and show what is wanted of them.
+      !> Write the summaries and show what is requested of them.
       module subroutine write_summary(self, error)
          implicit none (type, external)
          class(run_recorder_t), intent(inout) :: self       !! the recorder, its run finished
@@ -358,7 +358,7 @@ contains
       self%has_started = .false.
    end subroutine conclude_run
 
-   !> What a sweep wants to know of the run; of one that never began, nothing.
+   !> What a sweep needs to know of the run; of one that never started, nothing.
    subroutine result_of_run(self, member)
       class(run_recorder_t), intent(in) :: self            !! the recorder, finished
       type(member_result_t), intent(inout) :: member       !! those lists are set that there are

@@ -59,8 +59,8 @@ contains
       end associate
    end function requested_action_by_clock
 
-   !> Write all that waits, and the checkpoint. A checkpoint that cannot be written is a failure: the run could not go on from where
-   !> its reader believes.
+   !> Write all that waits, and the checkpoint. A checkpoint that cannot be written is a failure: the run could not continue from
+   !> where its reader believes.
    module procedure save_run
       integer(i8) :: begun
 
@@ -72,7 +72,7 @@ contains
       self%is_broken = self%is_broken .or. allocated(error)
       if (allocated(error)) return
       associate (archive => saved%output)
-         call save_horizon(self%plan%horizon, archive)  ! the first: it is wanted before the recorder begins
+         call save_horizon(self%plan%horizon, archive)  ! the first: it is requested before the recorder starts
          call archive%put(self%last_time)
          call self%events%save(archive)
          call self%statistics%save(archive)

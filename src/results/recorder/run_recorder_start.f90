@@ -1,4 +1,4 @@
-!> How the files of a run begin: what they hold is chosen, and which groups are wanted.
+!> How the files of a run start: what they hold is chosen, and which groups are requested.
 submodule(run_recorder) run_recorder_start
    use channel_names, only: scalar_t
    use channels, only: list_scalars, select_channels
@@ -43,7 +43,7 @@ contains
          call self%texts%start(self%plan, catalogue, self%selection, extra_tables(self%figures, catalogue), error)
          if (allocated(error)) return
       end if
-      ! histories may want them, extremes do
+      ! histories may need them, extremes do
       self%wants_contact_rows = self%plan%with%histories .or. self%statistics%plan%is_wanted
       if (size(self%extremes%channels) + size(self%statistics%channels) > 0) then
          self%located%place = [self%extremes%places(), self%statistics%places(catalogue)]
@@ -54,7 +54,7 @@ contains
       call memory_is_for("the motion")
    end procedure start_run
 
-   !> Understand the words for channels and figures. The twin skips what it does not have.
+   !> Understand the words for channels and figures. The reference run skips what it does not have.
    subroutine choose(self, catalogue, error)
       class(run_recorder_t), intent(inout) :: self       !! the recorder
       type(catalogue_t), intent(in) :: catalogue         !! what can be recorded
@@ -97,7 +97,7 @@ contains
    !> A list without one of its words.
    function without(words, number) result(rest)
       type(text_t), intent(in) :: words(:)     !! (n) words
-      integer, intent(in) :: number            !! of the word to leave out
+      integer, intent(in) :: number            !! of the word to omit
       type(text_t), allocatable :: rest(:)     !! (n - 1) the others
 
       integer :: k

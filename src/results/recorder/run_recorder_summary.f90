@@ -15,7 +15,7 @@ submodule(run_recorder) run_recorder_summary
 
 contains
 
-   !> Write the summaries and show what is wanted of them.
+   !> Write the summaries and show what is requested of them.
    module procedure write_summary
       type(error_t), allocatable :: second
       character(:), allocatable :: json, lines

@@ -18,7 +18,7 @@ module contact_statistics
       real(wp) :: contact_fraction = 0.0_wp             !! of the time [1]
       real(wp), allocatable :: speeds(:)                !! (impacts) impact speeds [m/s]
       real(wp), allocatable :: forces(:)                !! (impacts) peak forces [N]
-      real(wp) :: max_force = -huge(1.0_wp)        !! greatest peak force in the window, whenever its contact began [N]
+      real(wp) :: max_force = -huge(1.0_wp)        !! maximum peak force in the window, whenever its contact started [N]
    end type joint_statistics_t
 
 contains
@@ -46,7 +46,7 @@ contains
    subroutine statistics_of_joints(names, events, from, until, joints)
       type(text_t), intent(in) :: names(:)                             !! (n) names of the joints
       type(event_list_t), intent(in) :: events                         !! all events
-      real(wp), intent(in) :: from                                     !! begin of the window [s]
+      real(wp), intent(in) :: from                                     !! start of the window [s]
       real(wp), intent(in) :: until                                    !! its end [s]
       type(joint_statistics_t), allocatable, intent(out) :: joints(:)  !! (n) what their contacts did
 
@@ -101,7 +101,7 @@ contains
    subroutine joint_statistics(name, events, from, until, joint)
       character(*), intent(in) :: name                  !! of the joint
       type(event_list_t), intent(in) :: events          !! all events
-      real(wp), intent(in) :: from                      !! begin of the window [s]
+      real(wp), intent(in) :: from                      !! start of the window [s]
       real(wp), intent(in) :: until                     !! its end [s]
       type(joint_statistics_t), intent(out) :: joint    !! what its contacts did
 
@@ -113,7 +113,7 @@ contains
       joint = joints(1)
    end subroutine joint_statistics
 
-   !> How many values lie between equally spaced edges from 0 to the greatest value; an edge belongs to the upper bin.
+   !> How many values lie between equally spaced edges from 0 to the maximum value; an edge belongs to the upper bin.
    pure subroutine histogram(values, edges, counts)
       real(wp), intent(in) :: values(:)       !! (any) not negative [any]
       real(wp), intent(out) :: edges(:)       !! (bins + 1) [any]

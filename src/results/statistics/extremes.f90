@@ -1,6 +1,6 @@
-!> Least and greatest values of the channels of a run with their times, their means, and what loose joints went through.
+!> Minimum and maximum values of the channels of a run with their times, their means, and what clearance joints went through.
 !>
-!> Least and greatest are those of all rows, output instants and instants of contacts, and of the extremes located between them;
+!> Minimum and maximum are those of all rows, output instants and instants of contacts, and of the extremes located between them;
 !> mean and root mean square are integrals over the time by the trapezoidal rule on the output instants. NaN is skipped: means are
 !> over the time between output instants that both have a number, and a channel that never has one has no extremes. Impacts are
 !> read from the list of events.
@@ -23,9 +23,9 @@ module extremes
 
    !> What one number went through.
    type :: extreme_t
-      real(wp) :: minimum = huge(1.0_wp)        !! least value, SI [any]
+      real(wp) :: minimum = huge(1.0_wp)        !! minimum value, SI [any]
       real(wp) :: min_time = 0.0_wp         !! when it was first there [s]
-      real(wp) :: maximum = -huge(1.0_wp)    !! greatest value, SI [any]
+      real(wp) :: maximum = -huge(1.0_wp)    !! maximum value, SI [any]
       real(wp) :: max_time = 0.0_wp      !! when it was first there [s]
       real(wp) :: last = 0.0_wp               !! value at the last output instant, SI; NaN: none [any]
       real(wp) :: integral = 0.0_wp           !! of the value over the time [any]
@@ -72,14 +72,14 @@ module extremes
    !> What the contacts of a joint went through.
    type :: joint_extremes_t
       character(:), allocatable :: name                !! of the joint
-      integer :: impacts = 0                           !! contacts that began
+      integer :: impacts = 0                           !! contacts that started
       real(wp) :: contact_fraction = 0.0_wp            !! part of the time in contact [1]
-      real(wp) :: speed = 0.0_wp                       !! greatest impact speed [m/s]
+      real(wp) :: speed = 0.0_wp                       !! maximum impact speed [m/s]
       real(wp) :: speed_onset = 0.0_wp                 !! onset of that contact [s]
-      real(wp) :: force = 0.0_wp                       !! greatest normal force [N]
+      real(wp) :: force = 0.0_wp                       !! maximum normal force [N]
       real(wp) :: force_onset = 0.0_wp                 !! onset of the contact that had it [s]
       real(wp) :: force_time = 0.0_wp                  !! when it was there [s]
-      real(wp) :: penetration = 0.0_wp                 !! greatest penetration [m]
+      real(wp) :: penetration = 0.0_wp                 !! maximum penetration [m]
       real(wp) :: penetration_onset = 0.0_wp           !! onset of the contact that had it [s]
       real(wp) :: penetration_time = 0.0_wp            !! when it was there [s]
       real(wp) :: impulse = 0.0_wp                     !! of the normal forces of all contacts [N.s]
@@ -102,12 +102,12 @@ module extremes
          type(archive_t), intent(inout) :: archive       !! holds it
       end subroutine load_extremes
 
-      !> What the contacts of all loose joints went through between two instants.
+      !> What the contacts of all clearance joints went through between two instants.
       module subroutine joints_at_extremes(catalogue, events, from, until, joints)
          implicit none (type, external)
          type(catalogue_t), intent(in) :: catalogue                      !! what can be recorded
          type(event_list_t), intent(in) :: events                        !! all events
-         real(wp), intent(in) :: from                                    !! begin of the run [s]
+         real(wp), intent(in) :: from                                    !! start of the run [s]
          real(wp), intent(in) :: until                                   !! its end [s]
          type(joint_extremes_t), allocatable, intent(out) :: joints(:)   !! (n) the joints with contacts
       end subroutine joints_at_extremes
@@ -116,7 +116,7 @@ module extremes
 
 contains
 
-   !> Begin with some numbers.
+   !> Start with some numbers.
    subroutine start_extremes(self, catalogue, channels)
       class(extremes_t), intent(inout) :: self       !! what is gathered
       type(catalogue_t), intent(in) :: catalogue     !! what can be recorded
@@ -175,7 +175,7 @@ contains
       self%last_row = max(self%last_row, t)
    end subroutine sample_extremes
 
-   !> Least and greatest values of a row.
+   !> Minimum and maximum values of a row.
    subroutine note_extremes(self, t, catalogue)
       class(extremes_t), intent(inout) :: self     !! what is gathered
       real(wp), intent(in) :: t                    !! time [s]
@@ -192,7 +192,7 @@ contains
       end do
    end subroutine note_extremes
 
-   !> Least and greatest values of a number.
+   !> Minimum and maximum values of a number.
    pure subroutine note_one(x, t, one)
       real(wp), intent(in) :: x               !! the value [any]
       real(wp), intent(in) :: t               !! time [s]
@@ -309,7 +309,7 @@ contains
       has_time = self%n_sample > 1 .and. self%t_last > self%t_first
    end function has_time
 
-   !> Greatest absolute value of a number, 0 if it never was one.
+   !> Maximum absolute value of a number, 0 if it never was one.
    pure real(wp) function size_of(self, k)
       class(extremes_t), intent(in) :: self   !! what was gathered
       integer, intent(in) :: k                !! which number

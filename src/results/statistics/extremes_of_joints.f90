@@ -1,10 +1,10 @@
-!> What loose joints went through, from the list of events.
+!> What clearance joints went through, from the list of events.
 submodule(extremes) extremes_of_joints
    implicit none (type, external)
 
 contains
 
-   !> What the contacts of all loose joints went through between two instants.
+   !> What the contacts of all clearance joints went through between two instants.
    module procedure joints_at_extremes
       type(joint_statistics_t), allocatable :: found(:)
       type(name_table_t) :: table
@@ -52,7 +52,7 @@ contains
       pure subroutine raise(x, t, maximum, onset, when)
          real(wp), intent(in) :: x            !! the value [any]
          real(wp), intent(in) :: t            !! when it was there [s]
-         real(wp), intent(inout) :: maximum  !! the greatest so far [any]
+         real(wp), intent(inout) :: maximum  !! the maximum so far [any]
          real(wp), intent(inout) :: onset     !! of its contact [s]
          real(wp), intent(inout) :: when      !! when it was there [s]
 

@@ -1,4 +1,4 @@
-!> Statistics that there are not: of a run that ended before they begin, and the spectrum of a channel that is no number, or
+!> Statistics that there are not: of a run that ended before they start, and the spectrum of a channel that is no number, or
 !> infinite, at an output instant of the window.
 module missing_statistics
    use catalogue, only: catalogue_t

@@ -3,7 +3,7 @@
 !>
 !> Of a channel x at the output instants t_k from the end of the transient on: mean and RMS by the trapezoidal rule,
 !> $$ \bar x = \frac{1}{t_n - t_1} \sum_k \tfrac12 (x_k + x_{k+1}) (t_{k+1} - t_k), \quad x_{rms}^2 = \overline{x^2}, $$
-!> the least and the greatest value, and the peak max |x|. Values that are not numbers are left out: means are over the time between
+!> the minimum and the maximum value, and the peak max |x|. Values that are not numbers are omitted: means are over the time between
 !> output instants that both have one. Contact fractions and counts come from the events: the fraction is the share of the time
 !> in which at least one contact of the joint is closed; an impact belongs to the window if its onset does.
 module statistics
@@ -66,8 +66,8 @@ module statistics
       real(wp), allocatable, private :: integral(:)       !! (n) of the values [any]
       real(wp), allocatable, private :: integral_2(:)     !! (n) of their squares [any]
       real(wp), allocatable, private :: gap(:)            !! (n) time without values [s]
-      real(wp), allocatable, private :: lowest(:)         !! (n) least values [any]
-      real(wp), allocatable, private :: highest(:)        !! (n) greatest values [any]
+      real(wp), allocatable, private :: lowest(:)         !! (n) minimum values [any]
+      real(wp), allocatable, private :: highest(:)        !! (n) maximum values [any]
       real(wp), allocatable, private :: series(:, :)      !! (m, n_sample or more) channels of the spectra, SI [any]
    contains
       procedure :: start => start_statistics
@@ -113,7 +113,7 @@ module statistics
 
 contains
 
-   !> Understand the words and begin; words that the catalogue does not know are skipped.
+   !> Understand the words and start; words that the catalogue does not know are skipped.
    subroutine start_statistics(self, plan, catalogue, sections, spectra)
       class(statistics_t), intent(inout) :: self        !! what is gathered
       type(statistics_plan_t), intent(in) :: plan       !! what is asked for
@@ -183,7 +183,7 @@ contains
       end do
    end subroutine sample_statistics
 
-   !> Least and greatest values of an instant, which may be one of a contact.
+   !> Minimum and maximum values of an instant, which may be one of a contact.
    subroutine note_extremes(self, t, catalogue)
       class(statistics_t), intent(inout) :: self  !! what is gathered
       real(wp), intent(in) :: t                   !! time [s]
@@ -201,7 +201,7 @@ contains
       end do
    end subroutine note_extremes
 
-   !> An instant once per period; nothing is kept if no statistics are wanted.
+   !> An instant once per period; nothing is kept if no statistics are requested.
    subroutine poincare_statistics(self, t, catalogue)
       class(statistics_t), intent(inout) :: self  !! what is gathered
       real(wp), intent(in) :: t                   !! time [s]

@@ -1,4 +1,4 @@
-!> What a run whose accuracy was asked for knows of its errors, in words and for scripts.
+!> What a run whose accuracy was asked for knows of its errors, as text and for scripts.
 module accuracy_text
    use accuracy_results, only: accuracy_t, claim_none, claim_reached, claim_whole, claim_window, claim_words
    use channel_noise, only: known_text

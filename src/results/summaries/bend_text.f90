@@ -1,4 +1,4 @@
-!> Where settings of a comparison do not do as they are asked, and why, in words.
+!> Where settings of a comparison do not do as they are asked, and why, as text.
 module bend_text
    use kinds, only: wp
    use precision_results, only: bend_lost, bend_luck, bend_scatter, bend_short, bend_steps, bend_t, bend_violation, tol_sweep_t, &
@@ -9,7 +9,7 @@ module bend_text
    private
    public :: add_bends, bends_of
 
-   real(wp), parameter :: held = 1.1_wp      !! steps up to so many times the fewest that are possible are the deck's greatest [1]
+   real(wp), parameter :: held = 1.1_wp      !! steps up to so many times the fewest that are possible are the deck's maximum [1]
 
 contains
 
@@ -27,7 +27,7 @@ contains
       end do
    end subroutine add_bends
 
-   !> Runs whose steps the deck's greatest one holds, so that their tolerance changes nothing, and stretches of tolerances or steps
+   !> Runs whose steps the deck's maximum one holds, so that their tolerance changes nothing, and stretches of tolerances or steps
    !> over which errors do not fall.
    function bends_of(study) result(remarks)
       type(precision_t), intent(in) :: study        !! results
@@ -57,7 +57,7 @@ contains
 
    !> From what to what a bend goes.
    function stretch(tol_sweep, bend) result(words)
-      type(tol_sweep_t), intent(in) :: tol_sweep       !! the ladder
+      type(tol_sweep_t), intent(in) :: tol_sweep       !! the tolerance sweep
       type(bend_t), intent(in) :: bend           !! its bend
       character(:), allocatable :: words         !! as `1e-4 to 1e-7`
 
@@ -67,7 +67,7 @@ contains
 
    !> Why.
    function cause_text(tol_sweep, bend) result(words)
-      type(tol_sweep_t), intent(in) :: tol_sweep       !! the ladder
+      type(tol_sweep_t), intent(in) :: tol_sweep       !! the tolerance sweep
       type(bend_t), intent(in) :: bend           !! its bend
       character(:), allocatable :: words         !! one clause
 

@@ -1,4 +1,4 @@
-!> The statistics of a comparison of settings beyond the time that is compared, in words.
+!> The statistics of a comparison of settings beyond the time that is compared, as text.
 module beyond_text
    use batch_means, only: estimate_t
    use, intrinsic :: ieee_arithmetic, only: ieee_is_finite

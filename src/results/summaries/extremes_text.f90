@@ -1,4 +1,4 @@
-!> The extremes of a run in the summaries: a table of the channels and one of the loose joints.
+!> The extremes of a run in the summaries: a table of the channels and one of the clearance joints.
 module extremes_text
    use catalogue, only: catalogue_t
    use channel_names, only: scalar_name
@@ -75,7 +75,7 @@ contains
 
    end subroutine channel_table
 
-   !> The table of the loose joints for people: greatest values, each with its time, that of a speed being the onset.
+   !> The table of the clearance joints for people: maximum values, each with its time, that of a speed being the onset.
    subroutine joint_table(lines, joints)
       type(buffer_t), intent(inout) :: lines          !! the summary
       type(joint_extremes_t), intent(in) :: joints(:) !! (n) the joints with contacts
@@ -133,7 +133,7 @@ contains
       end do
    end function channel_objects
 
-   !> What the loose joints went through as objects.
+   !> What the clearance joints went through as objects.
    function joint_objects(joints) result(objects)
       type(joint_extremes_t), intent(in) :: joints(:) !! (n) the joints with contacts
       type(text_t), allocatable :: objects(:)         !! (n) objects as text

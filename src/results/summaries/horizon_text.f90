@@ -1,4 +1,4 @@
-!> The largest Lyapunov exponent and the horizon in words, and for scripts.
+!> The largest Lyapunov exponent and the horizon as text, and for scripts.
 module horizon_text
    use batch_means, only: estimate_t
    use exponent, only: exponent_t, horizon_t, verdict, verdict_apart, verdict_differ, verdict_together, verdict_unclear, &

@@ -29,7 +29,7 @@ module json_text
 
 contains
 
-   !> Begin an object.
+   !> Start an object.
    subroutine start_object(self, depth)
       class(json_object_t), intent(inout) :: self  !! the object
       integer, intent(in) :: depth                 !! objects around it

@@ -1,4 +1,4 @@
-!> Films at a steady state and small motions about it, in words and for scripts.
+!> Films at a steady state and small motions about it, as text and for scripts.
 module linear_text
    use, intrinsic :: ieee_arithmetic, only: ieee_is_finite
    use json_text, only: json_object_t
@@ -37,7 +37,7 @@ contains
       if (linear%is_searched) call lines%line("whirl      "//linear%onset_words)
    end subroutine linear_lines
 
-   !> A film in words.
+   !> A film as text.
    function film_lines(film) result(words)
       type(film_coefficients_t), intent(in) :: film  !! the film
       type(text_t), allocatable :: words(:)          !! (2 to 5) lines
@@ -59,13 +59,13 @@ contains
       call append_text(words, "rigid rotor: "//rotor_words(film))
    end function film_lines
 
-   !> The entries of a matrix; those within the error of the greatest as zero.
+   !> The entries of a matrix; those within the error of the maximum as zero.
    function entries(matrix, error) result(words)
       real(wp), intent(in) :: matrix(2, 2)   !! (2, 2) the matrix [any]
-      real(wp), intent(in) :: error          !! of the greatest entry, as a part of it [1]
+      real(wp), intent(in) :: error          !! of the maximum entry, as a part of it [1]
       character(:), allocatable :: words     !! as `xx 1.5 xy 2 ...`
 
-      real(wp), parameter :: round_off = 1.0e-12_wp  ! of the greatest entry at least [1]
+      real(wp), parameter :: round_off = 1.0e-12_wp  ! of the maximum entry at least [1]
       real(wp) :: value
       integer :: k
 

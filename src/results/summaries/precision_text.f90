@@ -1,4 +1,4 @@
-!> The results of a comparison of settings in words.
+!> The results of a comparison of settings as text.
 module precision_text
    use bend_text, only: add_bends
    use beyond_text, only: add_statistics
@@ -20,7 +20,7 @@ module precision_text
 
 contains
 
-   !> What a reader wants to know first.
+   !> What a reader needs to know first.
    function precision_summary(study, title) result(text)
       type(precision_t), intent(in) :: study     !! results
       character(*), intent(in) :: title          !! of the scene
@@ -79,7 +79,7 @@ contains
       words = trim(adjustl(words))
    end function flags_of
 
-   !> The budget in words, blank if there is none.
+   !> The budget as text, blank if there is none.
    function budget_text(study) result(words)
       type(precision_t), intent(in) :: study      !! results
       character(:), allocatable :: words          !! as ` 60 s`
@@ -179,7 +179,7 @@ contains
 
    !> How fast neighbouring starts part.
    function growth_words(growth) result(words)
-      type(growth_t), intent(in) :: growth        !! what the twins tell
+      type(growth_t), intent(in) :: growth        !! what reference runs report
       character(:), allocatable :: words          !! a sentence
 
       if (growth%is_exponential) then
@@ -252,9 +252,9 @@ contains
       if (ieee_is_finite(x)) word = real_text(x, 3)
    end function figures
 
-   !> The rung of the least error, 0 if there is none.
+   !> The run of the minimum error, 0 if there is none.
    pure integer function min_error(tol_sweep, kind) result(best)
-      type(tol_sweep_t), intent(in) :: tol_sweep        !! the ladder
+      type(tol_sweep_t), intent(in) :: tol_sweep        !! the tolerance sweep
       integer, intent(in) :: kind                 !! of error
 
       integer :: k
@@ -299,7 +299,7 @@ contains
 
    !> The end of a range of runs.
    function range_end(tol_runs, i, n) result(words)
-      type(tol_run_t), intent(in) :: tol_runs(:)        !! (runs) of a ladder
+      type(tol_run_t), intent(in) :: tol_runs(:)        !! (runs) of a tolerance sweep
       integer, intent(in) :: i                    !! first run
       integer, intent(in) :: n                    !! last run
       character(:), allocatable :: words          !! blank if it is one run
@@ -353,7 +353,7 @@ contains
 
    !> A setting as a deck has it.
    function settings_text(tol_sweep, tol_run) result(words)
-      type(tol_sweep_t), intent(in) :: tol_sweep        !! the ladder
+      type(tol_sweep_t), intent(in) :: tol_sweep        !! the tolerance sweep
       type(tol_run_t), intent(in) :: tol_run            !! its run
       character(:), allocatable :: words          !! as `method = verner, tolerance = 1e-6`
 

@@ -1,4 +1,4 @@
-!> Tables of report.html: extremes, loose joints, impacts, statistics, cost and error. Numbers are in units that read well.
+!> Tables of report.html: extremes, clearance joints, impacts, statistics, cost and error. Numbers are in units that read well.
 module report_tables
    use catalogue, only: catalogue_t
    use channel_noise, only: shown_value => shown
@@ -19,7 +19,7 @@ module report_tables
    public :: cost_table, extremes_table, head, impact_table, joint_table, number_table, row
 
    integer, parameter :: most_channels = 2000  !! in the table of extremes
-   integer, parameter :: most_joints = 500     !! in the table of loose joints
+   integer, parameter :: most_joints = 500     !! in the table of clearance joints
    integer, parameter :: most_impacts = 200    !! in the table of impacts
    integer, parameter :: digits = 5            !! of a number
 
@@ -43,7 +43,7 @@ contains
       call lines%line("<tr><td>"//escaped(name, .true.)//"</td><td class=""text"">"//escaped(words, .true.)//"</td></tr>")
    end subroutine row
 
-   !> The beginning of a table.
+   !> The start of a table.
    subroutine begin_table(lines, columns)
       type(buffer_t), intent(inout) :: lines      !! the page
       character(*), intent(in) :: columns(:)      !! (n) their names
@@ -60,7 +60,7 @@ contains
    !> Its end.
    subroutine end_table(lines, left_out, where)
       type(buffer_t), intent(inout) :: lines  !! the page
-      integer, intent(in) :: left_out         !! rows that there was no room for
+      integer, intent(in) :: left_out         !! rows that there was no storage for
       character(*), intent(in) :: where       !! where they are
 
       call lines%line("</tbody></table></div>")
@@ -145,7 +145,7 @@ contains
       call end_table(lines, size(extremes%channels) - n, "run.h5, /extremes/channels")
    end subroutine values_table
 
-   !> What the loose joints went through.
+   !> What the clearance joints went through.
    subroutine joint_table(lines, joints, time_end)
       type(buffer_t), intent(inout) :: lines            !! the page
       type(joint_extremes_t), intent(in) :: joints(:)   !! (n) the joints with contacts

@@ -36,7 +36,7 @@ module summary_writer
       type(number_t), allocatable :: numbers(:) !! (l) the statistics
       type(text_t), allocatable :: warnings(:)  !! (k) what a careful reader should know, and what was not made
       type(extremes_t) :: extremes              !! what the channels went through
-      type(joint_extremes_t), allocatable :: joints(:)  !! (j) what the loose joints went through
+      type(joint_extremes_t), allocatable :: joints(:)  !! (j) what the clearance joints went through
    end type outcome_t
 
 contains

@@ -1,8 +1,8 @@
 !> The file of a checkpoint, `checkpoint.h5` in the directory of the run: what the run remembers, and whose it is.
 !>
 !> It is written whole beside its place and then renamed, after all that the run has written is on the disk: there is the one before
-!> or this one, and the run's files hold at least what it tells of. Its checksum is looked at before it is
-!> read. Deck, included files, settings and program stand in it; a run of another deck or program is told what differs.
+!> or this one, and the run's files hold at least what it reports of. Its checksum is looked at before it is
+!> read. Deck, included files, settings and program stand in it; a run of another deck or program is reported what differs.
 module checkpoint_file
    use checksum, only: seal_none, seal_right, seal_state
    use errors, only: error_t, exit_file, exit_usage, set_error
@@ -22,7 +22,7 @@ module checkpoint_file
    public :: checkpoint_name, read_checkpoint, write_checkpoint
 
    character(*), parameter :: checkpoint_name = "checkpoint.h5"     !! file in the directory of the run
-   character(*), parameter :: filetype = "gudgeon checkpoint"       !! what it says of itself
+   character(*), parameter :: filetype = "gudgeon checkpoint"       !! description of it
    integer, parameter :: n_belonging = 7                            !! texts that say whose it is
    !> What they are.
    character(*), parameter :: belonging(n_belonging) = [character(28) :: "version of gudgeon", "sources of gudgeon", "compiler", &
@@ -72,7 +72,7 @@ contains
       call end_whole_file(path, file, status, error)
    end subroutine write_checkpoint
 
-   !> Write a tape.
+   !> Write an archive.
    subroutine put_archive(file, name, archive, long_name, status)
       integer(hid_t), intent(in) :: file     !! the file
       character(*), intent(in) :: name       !! of the dataset
@@ -107,7 +107,7 @@ contains
 
    !> Read the checkpoint of a directory, which must be that of a run with this plan.
    subroutine read_checkpoint(plan, saved, error)
-      type(output_plan_t), intent(in) :: plan             !! the run that would go on
+      type(output_plan_t), intent(in) :: plan             !! the run that would continue
       type(saved_run_t), intent(out) :: saved             !! what was remembered
       type(error_t), allocatable, intent(out) :: error    !! there is none, or it is that of another run; what differs
 
@@ -177,7 +177,7 @@ contains
       end do
    end subroutine read_memory
 
-   !> Read a tape.
+   !> Read an archive.
    subroutine get_archive(file, name, archive, status)
       integer(hid_t), intent(in) :: file     !! the file
       character(*), intent(in) :: name       !! of the dataset
@@ -188,11 +188,11 @@ contains
       archive%n = size(archive%row)
    end subroutine get_archive
 
-   !> Name the first difference between the run that was saved and the one that would go on.
+   !> Name the first difference between the run that was saved and the one that would continue.
    subroutine compare(path, there, here, error)
       character(*), intent(in) :: path                    !! of the checkpoint
       type(text_t), intent(in) :: there(:)                !! (n_belonging) whose it is
-      type(text_t), intent(in) :: here(:)                 !! (n_belonging) who would go on
+      type(text_t), intent(in) :: here(:)                 !! (n_belonging) who would continue
       type(error_t), allocatable, intent(out) :: error    !! what differs
 
       character(:), allocatable :: difference
@@ -242,7 +242,7 @@ contains
 
    !> Characters up to the end of a line.
    pure integer function length_of_line(text) result(n)
-      character(*), intent(in) :: text          !! from the beginning of the line
+      character(*), intent(in) :: text          !! from the start of the line
 
       n = index(text, new_line("a")) - 1
       if (n < 0) n = len(text)

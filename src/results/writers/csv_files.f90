@@ -1,6 +1,6 @@
 !> Time histories and events as comma-separated values: each `.dat` file once more, for programs that read nothing else.
 !>
-!> The first line has the names of the columns, `channel[unit]`; the other lines of the heading are left out. Numbers and words
+!> The first line has the names of the columns, `channel[unit]`; the other lines of the heading are omitted. Numbers and words
 !> are those of the `.dat` file, character by character; a cell of what is not known (`NaN`) is empty. Source: RFC 4180; no name
 !> or word has a comma, a quote or a blank.
 module csv_files
@@ -19,7 +19,7 @@ module csv_files
    type :: place_t
       integer(i8) :: line = 1          !! number of the line
       logical :: is_at_start = .true.  !! nothing of the line has been read
-      logical :: is_heading = .false.  !! it begins with `#`
+      logical :: is_heading = .false.  !! it starts with `#`
       logical :: has_word = .false.    !! a word of it has been taken
       logical :: is_between = .false.  !! blanks have been read since
       integer :: n_missing = 0         !! characters of `NaN` that were read and wait; negative: the word is another
@@ -61,7 +61,7 @@ contains
       integer(i8) :: at, length
       integer :: code, n, status, unit
 
-      code = remove_file(to)  ! of a run that went on
+      code = remove_file(to)  ! of a run that continued
       open (newunit=unit, file=from, status="old", action="read", access="stream", form="unformatted", iostat=status)
       if (status /= 0) then
          call fail_file(error, "cannot read", from, code, "")
@@ -88,7 +88,7 @@ contains
    !> Characters of a `.dat` file as those of the other.
    subroutine take(store, place, text)
       character(*), intent(in) :: store                !! what was read
-      type(place_t), intent(inout) :: place            !! where in a line it begins, and then ends
+      type(place_t), intent(inout) :: place            !! where in a line it starts, and then ends
       character(:), allocatable, intent(out) :: text   !! the same with commas
 
       character(:), allocatable :: line
@@ -146,7 +146,7 @@ contains
          end associate
       end subroutine take_character
 
-      !> The end of a word: `NaN` leaves nothing, what only began like it is told.
+      !> The end of a word: `NaN` leaves nothing, what only started like it is reported.
       subroutine end_word()
          character(*), parameter :: missing = "NaN"
          integer :: i

@@ -20,14 +20,14 @@ module hdf5_calls
    integer(hid_t) :: link = -1              !! properties of a new name that makes the groups above it
    integer(hid_t) :: of_fixed_size = -1     !! those of a dataset that does not grow
 
-   integer(size_t), parameter :: bytes_of_names = 1024  !! for the names in the root group, with room for what comes at the end
+   integer(size_t), parameter :: bytes_of_names = 1024  !! for the names in the root group, with storage for what comes at the end
 
    interface
       !> Whether so many bytes could be had at once: 1 or 0.
       integer(c_int) function c_has_capacity(bytes) bind(c, name="gudgeon_has_room")
          import :: c_int, c_int64_t
          implicit none (type, external)
-         integer(c_int64_t), value :: bytes  !! that are wanted
+         integer(c_int64_t), value :: bytes  !! that are requested
       end function c_has_capacity
 
       !> Set the driver that writes metadata in order (ordered_file.c). Negative: failed.

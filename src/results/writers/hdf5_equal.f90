@@ -17,7 +17,7 @@ module hdf5_equal
 
 contains
 
-   !> Compare two files, some groups left out.
+   !> Compare two files, some groups omitted.
    subroutine compare_files(one, other, left_out, n, difference)
       character(*), intent(in) :: one                       !! path of a file
       character(*), intent(in) :: other                     !! path of the other

@@ -1,4 +1,4 @@
-!> The table /events of run.h5: one record per event, appended in the order told, sorted at the end.
+!> The table /events of run.h5: one record per event, appended in the order reported, sorted at the end.
 module hdf5_events
    use catalogue, only: catalogue_t
    use groups_of_catalogue, only: n_groups

@@ -1,4 +1,4 @@
-!> The group /extremes of run.h5: what the channels and the loose joints of a run went through.
+!> The group /extremes of run.h5: what the channels and the clearance joints of a run went through.
 module hdf5_extremes
    use catalogue, only: catalogue_t
    use channel_names, only: scalar_name

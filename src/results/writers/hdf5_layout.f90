@@ -99,7 +99,8 @@ contains
       path = segment(path, 2)
    end function link_path
 
-   !> How many rows make a block: the more, the less they cost, but the file of a short motion has no room for many that never come.
+   !> How many rows make a block: the more, the less they cost, but the file of a short motion has no storage for many that never
+   !> come.
    pure integer function rows_of_block(catalogue, n_instant)
       type(catalogue_t), intent(in) :: catalogue  !! what can be recorded
       integer(i8), intent(in) :: n_instant        !! output instants that are to come
@@ -225,7 +226,7 @@ contains
       if (room == group_contacts) path = "clearances/contact_label"
    end function scale_of
 
-   !> Path of the scale of an item's numbers, made when it is first wanted.
+   !> Path of the scale of an item's numbers, made when it is first requested.
    subroutine find_components(file, n, scales, path, status)
       integer(hid_t), intent(in) :: file                 !! the file
       integer, intent(in) :: n                           !! numbers of an item, more than one
@@ -251,7 +252,7 @@ contains
    !> Some of a list of strings.
    pure function picked(list, numbers) result(some)
       type(text_t), intent(in) :: list(:)        !! (n) strings
-      integer, intent(in) :: numbers(:)          !! (m) numbers of those wanted
+      integer, intent(in) :: numbers(:)          !! (m) numbers of those requested
       type(text_t), allocatable :: some(:)       !! (m) those
 
       integer :: k

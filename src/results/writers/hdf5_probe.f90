@@ -72,7 +72,7 @@ contains
       call h5gclose_f(group, closed)
    end subroutine read_group
 
-   !> Go on with the sums up to some number of rows.
+   !> Continue with the sums up to some number of rows.
    subroutine extend_sums(self, datasets, n, status)
       class(row_sums_t), intent(inout) :: self      !! the sums
       integer(hid_t), intent(in) :: datasets(:)     !! the open datasets, always the same

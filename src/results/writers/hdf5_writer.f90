@@ -64,7 +64,7 @@ module hdf5_writer
       type(accuracy_t) :: accuracy                     !! what is known of the errors
       logical :: with_histories = .true.               !! whether rows are kept
       logical :: is_broken = .false.                   !! a write failed: nothing more is written
-      type(row_sums_t) :: sums                         !! of the rows that a checkpoint tells of
+      type(row_sums_t) :: sums                         !! of the rows that a checkpoint reports of
    contains
       procedure, public :: start => start_file
       procedure, public :: sample => sample_file
@@ -88,7 +88,7 @@ contains
       integer :: block, closed, status
 
       self%path = plan%directory//"/run.h5"
-      if (plan%life%goes_on) self%path = self%path//".part"  ! that of the run that goes on stays until its rows are here
+      if (plan%life%goes_on) self%path = self%path//".part"  ! that of the run that continues stays until its rows are here
       self%with_histories = plan%with%histories
       self%accuracy = plan%accuracy
       block = rows_of_block(catalogue, plan%n_instant)
@@ -266,7 +266,7 @@ contains
       end do
       call self%events%append(events, status)
       if (status >= 0) call flush_file(self, status)
-      ! the last to grow: what /time tells of is there
+      ! the last to grow: what /time reports of is there
       call write_rows(self%time, [integer(hsize_t) ::], self%times(1:self%waiting), self%written, self%waiting, status)
       if (status >= 0) call flush_file(self, status)
       if (status < 0) then
@@ -329,7 +329,7 @@ contains
       type(catalogue_t), intent(in) :: catalogue         !! what can be recorded
       type(number_t), intent(in) :: numbers(:)           !! (any) the statistics
       type(extremes_t), intent(in) :: extremes           !! what the channels went through
-      type(joint_extremes_t), intent(in) :: joints(:)    !! (any) what the loose joints went through
+      type(joint_extremes_t), intent(in) :: joints(:)    !! (any) what the clearance joints went through
       type(film_field_t), intent(in) :: fields(:)        !! (any) films
       type(text_t), intent(in) :: warnings(:)            !! (any) what a careful reader should know
       type(error_t), allocatable, intent(out) :: error   !! it cannot be written

@@ -13,7 +13,7 @@ module history_extremes
 
 contains
 
-   !> The extremes; a run that goes on has none yet.
+   !> The extremes; a run that continues has none yet.
    subroutine read_extremes(file, history, status)
       integer(hid_t), intent(in) :: file            !! the file
       type(history_t), intent(inout) :: history     !! its numbers take their extremes

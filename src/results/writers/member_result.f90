@@ -15,7 +15,7 @@ module member_result
       real(wp), allocatable :: poincare_times(:)        !! (m) instants once per period [s]
       real(wp), allocatable :: poincare_samples(:, :)          !! (q, m) the channels at them, SI [any]
       type(text_t), allocatable :: warnings(:)        !! (w) what a careful reader should know
-      real(wp) :: cpu_start = 0.0_wp                  !! processor time until the motion begins [s]
+      real(wp) :: cpu_start = 0.0_wp                  !! processor time until the motion starts [s]
       real(wp) :: cpu_run = 0.0_wp                    !! processor time of the motion and of what is written of it [s]
    contains
       procedure :: complete => complete_result

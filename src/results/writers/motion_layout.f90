@@ -74,7 +74,7 @@ contains
       !> Cells of one kind.
       subroutine make_kind(name, offsets, connectivity)
          character(*), intent(in) :: name           !! of the group
-         integer, intent(in) :: offsets(:)          !! (cells + 1) where the points of each cell begin
+         integer, intent(in) :: offsets(:)          !! (cells + 1) where the points of each cell start
          integer, intent(in) :: connectivity(:)     !! (any) points, from 0
 
          call long_dataset(file, root_group//"/"//name//"/NumberOfCells", [size(offsets) - 1], status)
@@ -90,7 +90,7 @@ contains
       type(drawing_t), intent(in) :: drawing               !! outlines
       logical, intent(in) :: are_faces                     !! faces, not lines
       integer, allocatable, intent(out) :: vertices(:)     !! (any) their points, from 0
-      integer, allocatable, intent(out) :: first(:)        !! (strokes + 1) where those of each begin, from 0
+      integer, allocatable, intent(out) :: first(:)        !! (strokes + 1) where those of each start, from 0
       integer, allocatable, intent(inout) :: bodies(:)     !! (any) grown
 
       integer, allocatable :: of(:)

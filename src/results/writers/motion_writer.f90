@@ -2,7 +2,7 @@
 !>
 !> As of run.h5, steps wait in memory until there is a block of them, or ten seconds have passed, and a block finds its space
 !> before it is written. Then `NSteps` is written and after it the times, each in a flush of its own: a run that is killed,
-!> whenever, leaves a file that can be read, with as many steps as it has times. (VTK 9.7 has room for `NSteps` times and writes
+!> whenever, leaves a file that can be read, with as many steps as it has times. (VTK 9.7 has storage for `NSteps` times and writes
 !> beyond it where there are more; between the two flushes there are fewer, and it takes those that lack as 0.)
 module motion_writer
    use catalogue, only: catalogue_t
@@ -50,7 +50,7 @@ module motion_writer
       integer :: waiting = 0                            !! steps in memory
       integer :: written = 0                            !! steps in the file
       integer(i8) :: flushed_at = 0                     !! clock at the last flush
-      type(row_sums_t) :: sums(most_growing)            !! of the rows that a checkpoint tells of
+      type(row_sums_t) :: sums(most_growing)            !! of the rows that a checkpoint reports of
       real(wp), allocatable :: r(:, :)                  !! (3, 0:bodies) centres of mass [m]
       real(wp), allocatable :: a(:, :, :)               !! (3, 3, 0:bodies) orientations [1]
       real(wp), allocatable :: v(:, :)                  !! (3, 0:bodies) velocities [m/s]
@@ -76,7 +76,7 @@ contains
       integer :: block, closed, status
 
       self%path = plan%directory//"/"//motion_name
-      if (plan%life%goes_on) self%path = self%path//".part"  ! that of the run that goes on stays until its steps are here
+      if (plan%life%goes_on) self%path = self%path//".part"  ! that of the run that continues stays until its steps are here
       self%drawing = plan%looks%drawing
       call self%reader%bind(catalogue)
       status = enter_file(self%path)
@@ -262,7 +262,7 @@ contains
       status = 0
       do k = 1, most_growing
          associate (this => self%list(k))
-            if (k == most_growing) then  ! the times: what they tell of is there
+            if (k == most_growing) then  ! the times: what they report of is there
                if (status >= 0) call flush_file(self, status)
                call set_steps(self%file, self%written + self%waiting, status)
                if (status >= 0) call flush_file(self, status)

@@ -1,4 +1,4 @@
-!> What a recorder is told before a run: where its files go and what they say of the run.
+!> What a recorder is reported before a run: where its files go and what they say of the run.
 module output_plan
    use accuracy_results, only: accuracy_t
    use drawing, only: drawing_t
@@ -29,8 +29,8 @@ module output_plan
       character(:), allocatable :: libraries           !! names and versions
       character(:), allocatable :: command             !! the command line
       character(:), allocatable :: flags               !! what it was compiled with
-      character(:), allocatable :: kernels             !! of the BLAS, as it calls them; blank: it does not tell
-      character(:), allocatable :: choices             !! options that decide what is written, in words
+      character(:), allocatable :: kernels             !! of the BLAS, as it calls them; blank: it does not report
+      character(:), allocatable :: choices             !! options that decide what is written, as text
       type(text_t), allocatable :: parameter_names(:)  !! (m) parameters of the deck
       type(text_t), allocatable :: parameter_texts(:)  !! (m) their values in force, as written
    end type origin_t
@@ -50,30 +50,30 @@ module output_plan
       logical :: warnings = .true.          !! print warnings on the standard error
    end type written_t
 
-   !> How long a run may last, and whether it can go on another time.
+   !> How long a run may last, and whether it can continue another time.
    type :: lifetime_t
       logical :: is_saved = .false.         !! it is saved now and then, and when it is asked to end
-      logical :: goes_on = .false.          !! it goes on from what an earlier run has saved
+      logical :: goes_on = .false.          !! it continues from what an earlier run has saved
       logical :: is_concluded_later = .false.  !! figures and summary are made when they are asked for, not when the motion ends
-      integer(i8) :: begun = 0              !! when the program began, on the clock of `clock_ms` [ms]
+      integer(i8) :: begun = 0              !! when the program started, on the clock of `clock_ms` [ms]
       real(wp) :: walltime = 0.0_wp         !! time from then on after which it ends; 0: none is set [s]
       real(wp) :: resumed_from = 0.0_wp     !! with `goes_on`: time of the motion at which that was saved [s]
       real(wp) :: stop_at = huge(1.0_wp)    !! time of the motion after which it is saved and ends [s]
    end type lifetime_t
 
-   !> What the mechanism looks like, and when, if someone wants to see it.
+   !> What the mechanism looks like, and when, if someone needs to see it.
    type :: looks_t
       type(drawing_t) :: drawing    !! outlines and joints
-      type(frame_plan_t) :: frames  !! instants that figures want
+      type(frame_plan_t) :: frames  !! instants that figures need
    end type looks_t
 
    !> The plan. Strings and lists that are not allocated count as empty.
-   !> Components: all that the cli tells a recorder, which is one argument for this reason.
+   !> Components: all that the cli reports a recorder, which is one argument for this reason.
    type :: output_plan_t
       character(:), allocatable :: directory           !! of the run, which exists and is ours
       type(origin_t) :: origin                         !! where the run comes from
       character(:), allocatable :: title               !! of the scene
-      character(:), allocatable :: suffix              !! of text files' names: blank, or `.ideal` for the ideal twin
+      character(:), allocatable :: suffix  !! of text files' names: blank, or `.ideal` for the reference run with ideal joints
       integer :: n_freedom = 0                         !! degrees of freedom at the start, of drivers none
       integer(i8) :: n_instant = 0                     !! output instants up to the end of the motion
       real(wp) :: moved = 0.0_wp                       !! how far assembly moved a body from where the deck puts it [m]
@@ -86,7 +86,7 @@ module output_plan
       type(horizon_t) :: horizon                       !! how long digits mean anything; without times: it was not asked for
       type(written_t) :: with                          !! what is written
       type(lifetime_t) :: life                         !! how long it may last
-      character(:), allocatable :: contact_rows        !! rows at the instants of contacts in words; blank: there are no contacts
+      character(:), allocatable :: contact_rows        !! rows at the instants of contacts as text; blank: there are no contacts
       integer :: show = show_summary                   !! what to print at the end, one of the above
    contains
       procedure :: complete => complete_plan
@@ -137,7 +137,7 @@ contains
       if (.not. allocated(list)) allocate (list(0))
    end subroutine fill_list
 
-   !> Whether the files are those of the ideal twin, which lie beside the run's own.
+   !> Whether the files are those of the reference run with ideal joints, which lie beside the run's own.
    pure logical function is_twin(self)
       class(output_plan_t), intent(in) :: self  !! the plan
 

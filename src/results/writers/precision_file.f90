@@ -1,4 +1,4 @@
-!> Writes precision.h5: every run of a comparison of settings, its costs and errors, the reference, twins and choice.
+!> Writes precision.h5: every run of a comparison of settings, its costs and errors, the reference, reference runs and choice.
 !>
 !> The file is written whole, under another name first, so that there is never half of it.
 module precision_file
@@ -53,7 +53,7 @@ contains
       call end_whole_file(path, file, status, error)
    end subroutine write_precision
 
-   !> The settings and what their runs tell together.
+   !> The settings and what their runs report together.
    subroutine write_tol_sweeps(file, study, status)
       integer(hid_t), intent(in) :: file          !! the file
       type(precision_t), intent(in) :: study      !! results
@@ -229,7 +229,7 @@ contains
 
    end subroutine write_statistics
 
-   !> The twins.
+   !> reference runs.
    subroutine write_growth(file, study, status)
       integer(hid_t), intent(in) :: file          !! the file
       type(precision_t), intent(in) :: study      !! results

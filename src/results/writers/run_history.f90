@@ -1,6 +1,6 @@
 !> Reading a run.h5 back: every number that it holds as a time history by its name, and its impacts.
 !>
-!> Limits: as many rows as /time has, so that a run that goes on, or was killed, can be read.
+!> Limits: as many rows as /time has, so that a run that continues, or was killed, can be read.
 module run_history
    use checksum, only: seal_none, seal_state, seal_wrong, survives
    use errors, only: error_t, exit_file, set_error
@@ -137,7 +137,7 @@ contains
    !> Whether the file has something of some name at its top.
    logical function has_top(file, name)
       integer(hid_t), intent(in) :: file   !! the file
-      character(*), intent(in) :: name     !! what is looked for
+      character(*), intent(in) :: name     !! what is searched
 
       integer :: status
 
@@ -229,7 +229,7 @@ contains
       call h5dclose_f(dataset, closed)
    end subroutine shape_of
 
-   !> A quantity of all items of a group; numbers that an item does not have are left out. A request is there
+   !> A quantity of all items of a group; numbers that an item does not have are omitted. A request is there
    !> even if none of its values is a number.
    subroutine read_quantity(file, path, quantity, items, shape, history, status)
       integer(hid_t), intent(in) :: file            !! the file

@@ -1,7 +1,7 @@
 !> The journal of a sweep: what it is of, and what every run gave, each written as soon as the run has ended.
 !>
 !> It is the memory of a sweep that was killed: a later one of the same model takes from here what is done. And it is what the
-!> parts of a sweep leave behind for `gudgeon merge`. It begins with a line that says what it is, then come blocks: four
+!> parts of a sweep leave behind for `gudgeon merge`. It starts with a line that says what it is, then come blocks: four
 !> characters, the number of bytes, their checksum, the bytes, the four characters again. A block that was cut off or damaged does
 !> not count, and neither does what comes after it: those runs are made again.
 module sweep_journal
@@ -257,7 +257,7 @@ contains
       end do
    end subroutine unpack_origin
 
-   !> In what two sweeps differ, in words; blank: they are of the same.
+   !> In what two sweeps differ, as text; blank: they are of the same.
    pure function differences(a, b) result(words)
       type(origin_of_sweep_t), intent(in) :: a   !! one
       type(origin_of_sweep_t), intent(in) :: b   !! the other

@@ -1,5 +1,5 @@
-!> The results of a sweep: numbers of every run, and over the runs of each case their mean, standard deviation, least and
-!> greatest value.
+!> The results of a sweep: numbers of every run, and over the runs of each case their mean, standard deviation, minimum and
+!> maximum value.
 !>
 !> Runs are numbered case by case, so that what is written does not depend on which of them ended first. The standard
 !> deviation is that of the sample, over n - 1; of one run it is not known.
@@ -185,7 +185,7 @@ contains
       end associate
    end function poincare_of
 
-   !> A number over the runs of a case that have it: how many, and mean, deviation, least and greatest.
+   !> A number over the runs of a case that have it: how many, and mean, deviation, minimum and maximum.
    pure subroutine case_numbers(self, case_number, number, n, spread)
       class(sweep_results_t), intent(in) :: self     !! the results
       integer, intent(in) :: case_number             !! of the case

@@ -72,7 +72,7 @@ contains
       if (.not. plan%life%goes_on) call self%file%append(heading%get(), error)
    end subroutine start_table
 
-   !> The `#` lines that every file of a run begins with.
+   !> The `#` lines that every file of a run starts with.
    function file_heading(plan) result(lines)
       type(output_plan_t), intent(in) :: plan  !! what the file says of the run
       character(:), allocatable :: lines       !! whole lines

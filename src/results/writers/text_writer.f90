@@ -131,7 +131,7 @@ contains
       call self%tables(n)%start(plan%directory//"/"//name, columns, with_kinds(plan, catalogue), self%block, plan, catalogue, error)
    end subroutine add_table
 
-   !> Whether there may be rows at contacts: the ideal twin may have none.
+   !> Whether there may be rows at contacts: the reference run with ideal joints may have none.
    pure logical function with_kinds(plan, catalogue)
       type(output_plan_t), intent(in) :: plan       !! what the files say of the run
       type(catalogue_t), intent(in) :: catalogue    !! what can be recorded
@@ -143,7 +143,7 @@ contains
    function columns_of_item(catalogue, selection, room, item) result(columns)
       type(catalogue_t), intent(in) :: catalogue    !! what can be recorded
       type(selection_t), intent(in) :: selection    !! what is
-      integer, intent(in) :: room                   !! room of the item
+      integer, intent(in) :: room                   !! workspace of the item
       integer, intent(in) :: item                   !! its number there
       type(scalar_t), allocatable :: columns(:)     !! (n) numbers in the order of the catalogue
 
@@ -162,7 +162,7 @@ contains
    subroutine append_columns(catalogue, selection, room, item, columns)
       type(catalogue_t), intent(in) :: catalogue                  !! what can be recorded
       type(selection_t), intent(in) :: selection                  !! what is
-      integer, intent(in) :: room                                 !! room of the item
+      integer, intent(in) :: room                                 !! workspace of the item
       integer, intent(in) :: item                                 !! its number there
       type(scalar_t), allocatable, intent(inout) :: columns(:)    !! (n) numbers
 
@@ -239,7 +239,7 @@ contains
       if (self%with_events) call archive%put(self%events%length)
    end subroutine save_files
 
-   !> Go on with the files of an earlier run where they stood when it was saved.
+   !> Continue with the files of an earlier run where they stood when it was saved.
    subroutine go_on_with_files(self, archive, error)
       class(text_writer_t), intent(inout) :: self        !! the files, started
       type(archive_t), intent(inout) :: archive                !! holds where they stood

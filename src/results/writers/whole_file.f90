@@ -48,7 +48,7 @@ contains
       call text_attribute(file, "filetype", filetype, status)
    end subroutine begin_whole_file
 
-   !> Put it in its place, or tell that it could not be written.
+   !> Put it in its place, or report that it could not be written.
    subroutine end_whole_file(path, file, status, error)
       character(*), intent(in) :: path                      !! of the file
       integer(hid_t), intent(in) :: file                    !! the file; closed here if it is open

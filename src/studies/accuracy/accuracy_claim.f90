@@ -1,7 +1,7 @@
 !> What the runs of a search for a tolerance allow to be claimed of the one that was taken: errors, extremes, up to which time.
 !>
 !> With d the greater one of the differences to the run before it and to the one that confirms it, c d is claimed: c is greater
-!> where round-off, not the tolerance, makes d. Of a channel it is its own difference, but at least a part of the greatest of its
+!> where round-off, not the tolerance, makes d. Of a channel it is its own difference, but at least a part of the maximum of its
 !> kind.
 module accuracy_claim
    use accuracy_results, only: accuracy_t, claim_none, claim_reached, claim_whole, claim_window
@@ -18,12 +18,12 @@ module accuracy_claim
 
    real(wp), parameter :: safety = 3.0_wp            !! of differences, for the error claimed [1]
    real(wp), parameter :: for_chance = 6.0_wp        !! the same where round-off, not the tolerance, makes them [1]
-   real(wp), parameter :: of_kind = 0.3_wp           !! of the greatest error of its kind that a channel has at least [1]
+   real(wp), parameter :: of_kind = 0.3_wp           !! of the maximum error of its kind that a channel has at least [1]
    real(wp), parameter :: lost = 1.0e-2_wp           !! error above which a motion has been lost on the way [1]
 
 contains
 
-   !> What the runs tell.
+   !> What the runs report.
    subroutine set_claim(search, found)
       type(search_t), intent(in) :: search         !! the runs
       type(accuracy_t), intent(inout) :: found     !! the claim is set
@@ -67,7 +67,7 @@ contains
             if (found%until <= run%t(1)) found%claim = claim_none
          end if
          if (found%claim == claim_none) then
-            found%worst = 0   ! nothing is told of channels
+            found%worst = 0   ! nothing is reported of channels
             return
          end if
          found%error = found%evidence%factor*maxval(by_instant, mask=run%t(:n) <= found%until)

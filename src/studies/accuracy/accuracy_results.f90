@@ -18,16 +18,16 @@ module accuracy_results
       character(:), allocatable :: name    !! as `slider.position.x`
       character(:), allocatable :: unit    !! SI, `1` if none
       real(wp) :: scale = 0.0_wp           !! what relative errors of the channel are parts of [any]
-      real(wp) :: error = 0.0_wp           !! greatest error of the channel, and half the interval of its extremes [any]
-      real(wp) :: minimum = 0.0_wp           !! least value [any]
-      real(wp) :: most = 0.0_wp            !! greatest value [any]
+      real(wp) :: error = 0.0_wp           !! maximum error of the channel, and half the interval of its extremes [any]
+      real(wp) :: minimum = 0.0_wp           !! minimum value [any]
+      real(wp) :: most = 0.0_wp            !! maximum value [any]
    end type extreme_t
 
    !> What the claim rests on.
    type :: evidence_t
       character(:), allocatable :: coarser           !! run at the tolerance before: `verner 1e-8`
       character(:), allocatable :: confirmation      !! what confirms it: `adams 1e-9`; blank: nothing
-      real(wp) :: apart(2) = 0.0_wp                  !! (2) greatest relative difference to each of them up to `until` [1]
+      real(wp) :: apart(2) = 0.0_wp                  !! (2) maximum relative difference to each of them up to `until` [1]
       real(wp) :: factor = 0.0_wp                    !! of differences, in the errors claimed [1]
       real(wp) :: other_from = 0.0_wp                !! time from which these runs meet other contacts; NaN: never [s]
       real(wp) :: residual = 0.0_wp                  !! of the ledger, over the largest energy; NaN: not known [1]
@@ -37,15 +37,15 @@ module accuracy_results
 
    !> All of it.
    type :: accuracy_t
-      real(wp) :: asked = 0.0_wp                     !! greatest relative error asked for; 0: not asked for [1]
+      real(wp) :: asked = 0.0_wp                     !! maximum relative error asked for; 0: not asked for [1]
       integer :: claim = claim_none                  !! one of the above
       real(wp) :: tolerance = 0.0_wp                 !! that was chosen [1]
       real(wp) :: until = 0.0_wp                     !! last time that is claimed [s]
       real(wp) :: end = 0.0_wp                       !! last instant of the run [s]
-      real(wp) :: error = 0.0_wp                     !! greatest relative error up to then, with the safety factor [1]
+      real(wp) :: error = 0.0_wp                     !! maximum relative error up to then, with the safety factor [1]
       real(wp) :: error_at_end = 0.0_wp              !! the same up to the end; 1 or more: no digit is right [1]
       real(wp) :: asked_until = 0.0_wp               !! up to when the error asked for holds; negative: never [s]
-      integer :: worst = 0                           !! number of the channel whose error is greater first, else the greatest
+      integer :: worst = 0                           !! number of the channel whose error is greater first, else the maximum
       character(:), allocatable :: reason            !! why no more was reached; blank: it was
       type(evidence_t) :: evidence                   !! what all that rests on
       type(growth_t) :: growth                       !! of neighbouring starts; reason set: not known

@@ -7,10 +7,10 @@
 !> run of the same one at a hundredth of the tolerance. The error claimed is the greater difference times a safety factor, a
 !> greater one where round-off makes the differences: they are chance there. What confirms starts beside it by as much as numbers
 !> are rounded by, each coordinate and rate by a part of itself (what is zero stays so: a symmetric start is one): what a motion
-!> makes of that, as of a spin that is none until contacts begin together, is in the difference, while the errors of the runs
+!> makes of that, as of a spin that is none until contacts start together, is in the difference, while the errors of the runs
 !> would else be alike in it. Where no tolerance keeps it to the end it is claimed
 !> up to the last instant to which it is kept. Where a condition ends the run, but not another integrator's that goes the same
-!> way, an error meets it and not the motion: the search goes on with tighter tolerances.
+!> way, an error meets it and not the motion: the search continues with tighter tolerances.
 !>
 !> Limits: an error that all of these runs share, as of a start or of a law, is none here.
 module accuracy_search
@@ -32,12 +32,12 @@ module accuracy_search
    public :: find_accuracy
 
    real(wp), parameter :: step = 0.1_wp              !! from a tolerance to the next [1]
-   real(wp), parameter :: coarsest = 1.0e-4_wp       !! greatest tolerance of a first run [1]
-   real(wp), parameter :: finest = 1.0e-11_wp        !! least tolerance of a first run: below, others must be to be had [1]
-   real(wp), parameter :: first_part = 3.0_wp        !! of the greatest difference allowed: for the first one [1]
+   real(wp), parameter :: coarsest = 1.0e-4_wp       !! maximum tolerance of a first run [1]
+   real(wp), parameter :: finest = 1.0e-11_wp        !! minimum tolerance of a first run: below, others must be to be had [1]
+   real(wp), parameter :: first_part = 3.0_wp        !! of the maximum difference allowed: for the first one [1]
    real(wp), parameter :: tightest_part = 1.0e-2_wp  !! of the tolerance, of a run of the same integrator that confirms [1]
    integer, parameter :: attempts = 4                !! tolerances of the other integrator
-   real(wp), parameter :: until_taken = 0.5_wp       !! part of the budget at whose end no third or further run is begun [1]
+   real(wp), parameter :: until_taken = 0.5_wp       !! part of the budget at whose end no third or further run is started [1]
    real(wp), parameter :: dear = 4.0_wp              !! time of another integrator over that of the run's own, for a forecast [1]
    real(wp), parameter :: for_one = 0.6_wp           !! of the time left, that the first run of another integrator may take [1]
    real(wp), parameter :: much_looser = 1.0e2_wp     !! tolerance after one that was late, over its own [1]
@@ -45,7 +45,7 @@ module accuracy_search
    real(wp), parameter :: idle = 0.5_wp              !! of the difference before: it no longer falls [1]
    integer, parameter :: patience = 2                !! pairs of runs in which nothing is gained before the search ends
    real(wp), parameter :: rounding = 4.0_wp*eps     !! of the start of what confirms, as a part of each coordinate [1]
-   real(wp), parameter :: beside = 1.0e-9_wp         !! perturbation of the twins that tell why digits end [1]
+   real(wp), parameter :: beside = 1.0e-9_wp         !! perturbation of reference runs that report why digits end [1]
 
    character(*), parameter :: others(3) = [character(6) :: "verner", "adams", "bdf"]       !! what confirms, in this order
    character(*), parameter :: no_gain = "tighter tolerances do not reduce the error: round-off"      !! the same
@@ -58,7 +58,7 @@ contains
    !> Find the tolerance. Without any run that came to its end no tolerance is found, and the reason is that of the last.
    subroutine find_accuracy(job, budget, method, asked, stride, display, found)
       type(job_t), intent(inout) :: job               !! what runs share
-      type(time_budget_t), intent(in) :: budget       !! the time, begun
+      type(time_budget_t), intent(in) :: budget       !! the time, started
       character(*), intent(in) :: method              !! the integrator
       integer, intent(in) :: asked(:, :)              !! (3, n) group, component, item of the channels
       integer, intent(in) :: stride                   !! output instants from one that is compared to the next
@@ -103,7 +103,7 @@ contains
       type(job_t), intent(inout) :: job               !! what runs share
       type(time_budget_t), intent(in) :: budget       !! the time
       character(*), intent(in) :: method              !! the integrator
-      real(wp), intent(in) :: first                   !! greatest tolerance [1]
+      real(wp), intent(in) :: first                   !! maximum tolerance [1]
       type(progress_t), intent(inout) :: display      !! shows how far it is
       type(search_t), intent(inout) :: search         !! two runs are found, or one, or none
 

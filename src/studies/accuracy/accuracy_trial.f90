@@ -12,7 +12,7 @@ module accuracy_trial
    private
    public :: agreement, ends_falsely, is_better, make_trial, no_time, same, search_t, trial_t
 
-   real(wp), parameter :: same = 3.0_wp              !! ratio below which the difference of two tolerances tells nothing [1]
+   real(wp), parameter :: same = 3.0_wp  !! ratio below which the difference of two tolerances carries no information [1]
    character(*), parameter :: no_time = "time budget exhausted"  !! why no more was reached
 
    !> A run of the search.
@@ -31,7 +31,7 @@ module accuracy_trial
       integer, allocatable :: asked(:, :)      !! (3, n) group, component, item of the channels
       integer :: stride = 1                    !! output instants from one that is compared to the next
       real(wp), allocatable :: scale(:)        !! (kinds) scales of the channels [any]
-      real(wp) :: limit = 0.0_wp               !! greatest difference allowed [1]
+      real(wp) :: limit = 0.0_wp               !! maximum difference allowed [1]
       logical :: is_false_end = .false.  !! another integrator goes the way of the run that is taken, and ends elsewhere
       integer :: runs = 0                      !! runs made
       character(:), allocatable :: reason      !! why no more was reached; blank: it was
@@ -71,7 +71,7 @@ contains
       end if
    end subroutine make_trial
 
-   !> Up to when two runs agree, and their greatest difference.
+   !> Up to when two runs agree, and their maximum difference.
    function agreement(run, other, search) result(time_and_difference)
       type(kept_channels_t), intent(in) :: run     !! a run
       type(kept_channels_t), intent(in) :: other   !! another one
@@ -106,7 +106,7 @@ contains
 
    !> Whether two runs agree longer than two others, or as long and better.
    pure logical function is_better(now, best)
-      real(wp), intent(in) :: now(2)    !! (2) time and greatest difference [s, 1]
+      real(wp), intent(in) :: now(2)    !! (2) time and maximum difference [s, 1]
       real(wp), intent(in) :: best(2)   !! (2) those of the others [s, 1]
 
       is_better = now(1) > best(1) .or. (now(1) >= best(1) .and. now(2) < best(2))

@@ -1,8 +1,8 @@
 !> How far the channels of two runs differ.
 !>
 !> Differences of channels are measured by the scale of their kind: of positions, velocities and reactions as in `run_difference`
-!> (velocities and reactions of all rows), of all else the greatest magnitude of what has the same unit in the same room of the
-!> catalogue (what turns counts at the greatest radius of gyration), of energies the ledger's yardstick. Angles that jump by a turn
+!> (velocities and reactions of all rows), of all else the maximum magnitude of what has the same unit in the same room of the
+!> catalogue (what turns counts at the maximum radius of gyration), of energies the ledger's yardstick. Angles that jump by a turn
 !> differ by less than half a turn; as long as they go all round they have no extremes.
 module channel_difference
    use, intrinsic :: ieee_arithmetic, only: ieee_is_finite
@@ -61,9 +61,9 @@ contains
       class(kept_channels_t), intent(in) :: run      !! the run
       class(kept_channels_t), intent(in) :: other    !! another one
       real(wp), intent(in) :: scale(:)               !! (kinds) scales [any]
-      real(wp), intent(in) :: until                  !! time up to which those of each channel are wanted [s]
-      real(wp), intent(inout) :: by_instant(:)       !! (instants of the run) greatest of all channels, over the scale [1]
-      real(wp), intent(inout) :: by_channel(:)       !! (n) greatest of a channel up to that time [any]
+      real(wp), intent(in) :: until                  !! time up to which those of each channel are requested [s]
+      real(wp), intent(inout) :: by_instant(:)       !! (instants of the run) maximum of all channels, over the scale [1]
+      real(wp), intent(inout) :: by_channel(:)       !! (n) maximum of a channel up to that time [any]
       integer, intent(inout) :: worst(:)             !! (instants of the run) number of the channel that has it
 
       real(wp) :: d
@@ -73,7 +73,7 @@ contains
          do k = 1, size(run%kind)
             d = apart(run%series%x(k, i), other%series%x(k, i))
             if (run%goes_round(k)) d = min(d, abs(turn - d))
-            if (run%state_of(k) > 0 .and. d >= not_alike) d = 0.0_wp   ! it touches in one run only: its force tells
+            if (run%state_of(k) > 0 .and. d >= not_alike) d = 0.0_wp   ! it touches in one run only: its force reports
             d = max(d, of_extremes(k, [run%series%low(k, i), run%series%high(k, i)], &
                                    [other%series%low(k, i), other%series%high(k, i)]))
             call raise(i, k, d)
@@ -93,7 +93,7 @@ contains
       !> place of a contact that has not touched yet in one.
       real(wp) function of_extremes(k, range, other_range) result(d)
          integer, intent(in) :: k                    !! number of the channel
-         real(wp), intent(in) :: range(2)            !! (2) least and greatest value; the least is greater: there are none [any]
+         real(wp), intent(in) :: range(2)            !! (2) minimum and maximum value; the minimum is greater: there are none [any]
          real(wp), intent(in) :: other_range(2)      !! (2) the same of the other run [any]
 
          real(wp) :: span

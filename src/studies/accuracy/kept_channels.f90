@@ -41,10 +41,10 @@ module kept_channels
    !> Values of the channels, and their extremes.
    type :: series_t
       real(wp), allocatable :: x(:, :)            !! (n, capacity) values at the instants that are kept [any]
-      real(wp), allocatable :: low(:, :)          !! (n, capacity) least value up to there [any]
-      real(wp), allocatable :: high(:, :)         !! (n, capacity) greatest value up to there [any]
-      real(wp), allocatable :: minimum(:)           !! (n) least value of all rows [any]
-      real(wp), allocatable :: most(:)            !! (n) greatest value of all rows [any]
+      real(wp), allocatable :: low(:, :)          !! (n, capacity) minimum value up to there [any]
+      real(wp), allocatable :: high(:, :)         !! (n, capacity) maximum value up to there [any]
+      real(wp), allocatable :: minimum(:)           !! (n) minimum value of all rows [any]
+      real(wp), allocatable :: most(:)            !! (n) maximum value of all rows [any]
    end type series_t
 
    !> What is kept. Set `arm`, `asked` and `stride` before it starts.
@@ -56,7 +56,7 @@ module kept_channels
       type(channel_kind_t), allocatable :: further(:)  !! (any) the further kinds
       logical, allocatable :: goes_round(:)       !! (n) an angle that jumps by a turn
       real(wp), allocatable :: factor_of(:)       !! (n) to the unit of its kind [any]
-      real(wp), allocatable :: magnitude(:)       !! (kinds) greatest magnitude, in the unit of the kind [any]
+      real(wp), allocatable :: magnitude(:)       !! (kinds) maximum magnitude, in the unit of the kind [any]
       type(series_t) :: series                    !! values of the channels
       type(summary_t) :: summary                  !! how the run went
       integer(i8), private :: n_sample = 0        !! output instants so far
@@ -157,7 +157,7 @@ contains
       end select
    end function class_of
 
-   !> What makes angles ways, and moments forces: the radius of gyration of a body, elsewhere the greatest one. A turn of a
+   !> What makes angles ways, and moments forces: the radius of gyration of a body, elsewhere the maximum one. A turn of a
    !> radian changes Euler parameters by a half at most.
    pure real(wp) function factor_to(self, group, item) result(factor)
       class(kept_channels_t), intent(in) :: self     !! the recorder

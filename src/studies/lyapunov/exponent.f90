@@ -5,8 +5,8 @@
 !> behind a transient, with an interval of 95 % from the slopes over batches of equal length. Where swings of |w| keep step with
 !> the batches, all of these slopes are wrong alike: then the slope of the whole stretch is not within the interval, and it is
 !> taken, with what both differ by as half of its interval. Where |w| changes by no more than t^2 would over the stretch, the
-!> exponent is not told from zero: regular motions grow like a power of time. An error e made at any time has grown to e R(t) at
-!> most, R the greatest ratio of |w(t)| to |w(s)| of any s before: up to e R(t) = 10^-k there can be k digits.
+!> exponent is not reported from zero: regular motions grow like a power of time. An error e made at any time has grown to e R(t) at
+!> most, R the maximum ratio of |w(t)| to |w(s)| of any s before: up to e R(t) = 10^-k there can be k digits.
 !>
 !> Source: G. Benettin, L. Galgani, A. Giorgilli, J.-M. Strelcyn, Meccanica 15 (1980) 9-30; batches: see `batch_means`.
 !> Limits: the interval knows of what varies within the stretch; it is that of an attractor if the stretch has gone all over it.
@@ -41,15 +41,15 @@ module exponent
       real(wp) :: tolerance = 0.0_wp                !! of the motions [1]
       real(wp) :: asked = 0.0_wp                    !! tolerance of the run that it is for; 0: none [1]
       type(exponent_t) :: tangent                   !! by the tangent, with the jumps at events
-      type(exponent_t) :: twin                      !! by a twin that is brought near again and again
+      type(exponent_t) :: twin                      !! by a neighbouring trajectory that is brought near again and again
       integer :: n_crossed = 0                      !! events with a jump of the tangent
       integer :: n_grazed = 0                       !! events whose jump is not known: they graze
       integer :: n_together = 0                     !! instants of several events
-      integer :: n_renewed = 0                      !! times that the twin was brought near again
+      integer :: n_renewed = 0                      !! times that the neighbouring trajectory was brought near again
       real(wp) :: digits(n_digit) = 0.0_wp          !! (k) time up to which doubles can have k digits; NaN: beyond [s]
       real(wp) :: run_digits(n_digit) = 0.0_wp      !! (k) the same of a run of tolerance `asked` [s]
       logical :: is_cut = .false.                   !! the instants end where the time was up
-      logical :: with_twin = .false.                !! the twin was asked for
+      logical :: with_twin = .false.                !! the neighbouring trajectory was asked for
       logical :: is_agreed = .false.                !! both methods are known, and agree within their intervals
    end type horizon_t
 
@@ -87,7 +87,7 @@ contains
       exponent%reason = "too few times after the transient"
    end subroutine find_exponent
 
-   !> What the exponent means; of the tangent if it is known, else of the twin, and nothing where they differ.
+   !> What the exponent means; of the tangent if it is known, else of the neighbouring trajectory, and nothing where they differ.
    pure integer function verdict(horizon)
       type(horizon_t), intent(in) :: horizon   !! what is known
 

@@ -1,9 +1,9 @@
 !> The largest Lyapunov exponent by two methods that share nothing but the mechanism.
 !>
-!> The tangent goes along with the motion, with its jumps at events (`tangent`). A twin is another motion of the same mechanism,
-!> integrated and its events located by itself, which begins `distance` beside; at equally spaced instants at which the same
-!> contacts touch it is brought back to that distance on the line to its neighbour, with the impact speeds that its contacts
-!> remember.
+!> The tangent goes along with the motion, with its jumps at events (`tangent`). A neighbouring trajectory is another motion of the
+!> same mechanism, integrated and its events located by itself, which starts `distance` beside; at equally spaced instants at which
+!> the same contacts touch it is brought back to that distance on the line to its neighbour, with the impact speeds that its
+!> contacts remember.
 !>
 !> Source: G. Benettin, L. Galgani, A. Giorgilli, J.-M. Strelcyn, Meccanica 15 (1980) 9-30 and 21-30.
 !> Limits: `verner` only; groups of bodies are one mechanism, whose exponent is the largest of theirs.
@@ -25,11 +25,12 @@ module exponent_runs
    public :: find_horizon, horizon_with_twin, plan_horizon
 
    real(wp), parameter :: horizon_tolerance = 1.0e-11_wp   !! of the motions [1]
-   real(wp), parameter :: distance = 1.0e-7_wp             !! of the twin, of the scales [1]
+   real(wp), parameter :: distance = 1.0e-7_wp             !! of the neighbouring trajectory, of the scales [1]
    real(wp), parameter :: far = 1.0e-3_wp                  !! distance at which it is no longer beside the motion [1]
    integer, parameter :: fewest_output_times = 64              !! reached before the time was up, for an exponent up to there
-   real(wp), parameter :: out_of_reach = 3.0_wp            !! distance, over the one wanted, from which it is brought back [1]
-   character(*), parameter :: on_constraints = "projection"  !! way of holding: both motions are on them, as a twin that is put back
+   real(wp), parameter :: out_of_reach = 3.0_wp            !! distance, over the one requested, from which it is brought back [1]
+   character(*), parameter :: on_constraints = "projection"  !! way of holding: both motions are on them, as a neighbouring
+                                                             !! trajectory that is put back
 
 contains
 
@@ -103,7 +104,7 @@ contains
       call compare(horizon)
    end subroutine find_horizon
 
-   !> Leave out the instants that were not reached; the transient is the same part of the others.
+   !> Omit the instants that were not reached; the transient is the same part of the others.
    subroutine cut(horizon, n)
       type(horizon_t), intent(inout) :: horizon          !! planned
       integer, intent(in) :: n                           !! instants that were reached
@@ -115,10 +116,11 @@ contains
       horizon%is_cut = .true.
    end subroutine cut
 
-   !> Exponent by a twin. Where its time is up before the last instant, behind half of them, both exponents end there.
+   !> Exponent by a neighbouring trajectory. Where its time is up before the last instant, behind half of them, both exponents end
+   !> there.
    subroutine horizon_with_twin(job, horizon)
       type(job_t), intent(inout) :: job                  !! scene, settings, times
-      type(horizon_t), intent(inout) :: horizon          !! planned; exponent of the twin follows
+      type(horizon_t), intent(inout) :: horizon          !! planned; exponent of the neighbouring trajectory follows
 
       type(error_t), allocatable :: error
       type(mover_t), target :: base, twin
@@ -179,7 +181,7 @@ contains
       type(mover_t), intent(in) :: a           !! a motion
       type(mover_t), intent(in) :: b           !! another one
       real(wp), intent(in) :: scale(:)         !! (positions + rates) what differences are measured by [any]
-      real(wp) :: d(2)                         !! (2) greatest of positions and of rates [1]
+      real(wp) :: d(2)                         !! (2) maximum of positions and of rates [1]
 
       real(wp), allocatable :: x(:), y(:)
 
@@ -192,7 +194,7 @@ contains
       end associate
    end function distances_of
 
-   !> Growth from the logarithms of both lengths, rates over the greatest pace of all the motion.
+   !> Growth from the logarithms of both lengths, rates over the maximum characteristic rate of all the motion.
    pure function growth_of(logs, pace) result(growth)
       real(wp), intent(in) :: logs(:, :)            !! (2, instants) of positions and of rates [1]
       real(wp), intent(in) :: pace                  !! of all the motion [1/s]
@@ -202,10 +204,10 @@ contains
       growth = growth - growth(1)
    end function growth_of
 
-   !> Bring a twin nearer to its neighbour, or away from it, if the same contacts touch.
+   !> Bring a neighbouring trajectory nearer to its neighbour, or away from it, if the same contacts touch.
    subroutine bring_back(base, twin, factor, is_done)
       type(mover_t), intent(in) :: base        !! the motion
-      type(mover_t), intent(inout) :: twin     !! its twin
+      type(mover_t), intent(inout) :: twin     !! its neighbouring trajectory
       real(wp), intent(in) :: factor           !! of the difference [1]
       logical, intent(out) :: is_done          !! .false.: not here
 

@@ -1,23 +1,23 @@
 !> How fast runs from neighbouring starts part, and up to what time a trajectory has how many digits.
 !>
-!> The distance of twin runs is d(t), that of their starts d(0). Where it grows exponentially,
+!> The distance of neighbouring trajectory runs is d(t), that of their starts d(0). Where it grows exponentially,
 !> $$ \ln d(t) = a + \lambda t, $$
 !> lambda is found by least squares over the stretch after the first decays and before the distance is so large that it
 !> no longer grows; of a motion on an attractor it tends to the largest Lyapunov exponent. Regular motion has
 !> $$ \ln d(t) = a + p \ln t. $$
 !> The better of the two is taken; growth is exponential only if each half of the stretch grows, and if it would take more than a
-!> small power of time it is that. An error of one unit in the last place at the start has grown to A(t) eps, A the greatest
+!> small power of time it is that. An error of one unit in the last place at the start has grown to A(t) eps, A the maximum
 !> d/d(0) so far; up to A(t) eps = 10^-k any trajectory computed in this arithmetic can have k digits at best.
 !>
-!> Source: G. Benettin, L. Galgani, J.-M. Strelcyn (1976), Phys. Rev. A 14, 2338-2345 (twin trajectories).
-!> Limits: a stretch of time, not an average over an attractor; the twins are not brought near again.
+!> Source: G. Benettin, L. Galgani, J.-M. Strelcyn (1976), Phys. Rev. A 14, 2338-2345 (neighbouring trajectory trajectories).
+!> Limits: a stretch of time, not an average over an attractor; neighbouring trajectories are not brought near again.
 module growth
    use kinds, only: eps, not_a_number, wp
    implicit none (type, external)
    private
    public :: find_growth, growth_t, n_digit
 
-   integer, parameter :: n_digit = 12                 !! most digits whose horizon is told
+   integer, parameter :: n_digit = 12                 !! most digits whose horizon is reported
    real(wp), parameter :: saturated = 0.02_wp         !! distance from which it is no longer small [1]
    real(wp), parameter :: first_part = 0.25_wp        !! of the stretch, which the fit leaves to decaying parts [1]
    real(wp), parameter :: min_growth = 2.0_wp       !! of ln d over the fit, below which nothing is exponential [1]
@@ -26,9 +26,9 @@ module growth
    real(wp), parameter :: two_sided = 2.0_wp          !! standard errors on each side of an interval of about 95 % [1]
    integer, parameter :: fewest = 8                   !! instants of a fit
 
-   !> What the twins tell.
+   !> What neighbouring trajectories report.
    type :: growth_t
-      integer :: n_twin = 0                           !! twins that ran to the end
+      integer :: n_twin = 0                           !! neighbouring trajectories that ran to the end
       character(:), allocatable :: reason             !! why nothing is known; blank: it is
       logical :: is_exponential = .false.             !! growth is exponential, not a power of time
       logical :: is_regular = .false.                 !! growth is a small power of time
@@ -41,15 +41,15 @@ module growth
       real(wp) :: offset = 0.0_wp                     !! a of the law that was taken [1]
       real(wp) :: horizon(n_digit) = 0.0_wp           !! (k) time up to which there can be k digits; NaN: beyond the run [s]
       real(wp), allocatable :: t(:)                   !! (n) instants [s]
-      real(wp), allocatable :: ratio(:, :)            !! (n, twins) d(t)/d(0) [1]
+      real(wp), allocatable :: ratio(:, :)            !! (n, neighbouring trajectories) d(t)/d(0) [1]
    end type growth_t
 
 contains
 
-   !> Find the law of growth and the horizons. The twins' distances are in the growth already.
+   !> Find the law of growth and the horizons. neighbouring trajectories' distances are in the growth already.
    subroutine find_growth(growth, start_distance)
       type(growth_t), intent(inout) :: growth        !! instants and ratios are set, the rest follows
-      real(wp), intent(in) :: start_distance         !! greatest d(0) of the twins [1]
+      real(wp), intent(in) :: start_distance         !! maximum d(0) of neighbouring trajectories [1]
 
       real(wp), allocatable :: level(:)
       real(wp) :: errors(2), halves(2, 2), law(2, 2), own(2), spread(2), sums(2)

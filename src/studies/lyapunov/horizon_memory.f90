@@ -1,5 +1,5 @@
-!> What was found of the horizon, on the tape of a run that is saved: a run that goes on tells what the run before found, since
-!> another search would end elsewhere where its time is up.
+!> What was found of the horizon, on the archive of a run that is saved: a run that continues reports what the run before found,
+!> since another search would end elsewhere where its time is up.
 module horizon_memory
    use batch_means, only: estimate_t
    use exponent, only: exponent_t, horizon_t

@@ -38,14 +38,14 @@ module mover
 
 contains
 
-   !> Begin at the start of a scene.
+   !> Start at the start of a scene.
    subroutine start(self, job, setting, asked, end, error)
       class(mover_t), target, intent(inout) :: self       !! the mechanism, new
       type(job_t), intent(inout) :: job                   !! scene and time
       type(setting_t), intent(in) :: setting              !! of the integration
       real(wp), intent(in) :: asked                       !! tolerance, or length of fixed steps [1 or s]
       real(wp), intent(in) :: end                         !! end of the motion [s]
-      type(error_t), allocatable, intent(out) :: error    !! it cannot begin
+      type(error_t), allocatable, intent(out) :: error    !! it cannot start
 
       type(guards_t) :: guards
       type(output_times_t) :: output_times
@@ -61,7 +61,7 @@ contains
       call begin_part(self%part, y, end, self%tally, self%nothing, error)
    end subroutine start
 
-   !> Go on to a time; events and instants up to it, and at it, are behind then. A change of the motion goes along.
+   !> Continue to a time; events and instants up to it, and at it, are behind then. A change of the motion goes along.
    subroutine advance(self, until, error, tangent)
       class(mover_t), intent(inout) :: self                      !! the mechanism
       real(wp), intent(in) :: until                              !! the time [s]
@@ -107,7 +107,7 @@ contains
       end do
    end subroutine advance
 
-   !> Put the mechanism into another state, in which the same contacts touch; it goes on from there.
+   !> Put the mechanism into another state, in which the same contacts touch; it continues from there.
    subroutine put(self, y, is_good)
       class(mover_t), intent(inout) :: self        !! the mechanism
       real(wp), intent(in) :: y(:)                 !! (n) the state, on the constraints or nearly [any]

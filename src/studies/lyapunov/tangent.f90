@@ -10,7 +10,7 @@
 !> What happens at events and instants is in `tangent_events`. Directions that constraints forbid, and those that are no motion (the
 !> length of Euler parameters, which does not decay as changes of a damped motion do), are taken away by `project`.
 !>
-!> Lengths: |w_q| is the greatest of the changes of positions over the scales of the error norm, |w_v| that of rates.
+!> Lengths: |w_q| is the maximum of the changes of positions over the scales of the error norm, |w_v| that of rates.
 !> Source: P. C. Mueller, Chaos, Solitons & Fractals 5 (1995) 1671-1681 (exponents of systems that are not smooth).
 !> Limits: one direction, which tends to that of the largest exponent; kinks of laws within a part are passed over.
 module tangent
@@ -58,11 +58,11 @@ module tangent
 
 contains
 
-   !> Begin with a direction in which everything that is free takes part.
+   !> Start with a direction in which everything that is free takes part.
    subroutine begin(self, system, method, min_rate, status)
       class(tangent_t), intent(inout) :: self       !! the direction
       type(mechanism_t), intent(inout) :: system    !! the system, at the start
-      class(integrator_t), intent(in) :: method     !! the integrator, begun
+      class(integrator_t), intent(in) :: method     !! the integrator, started
       real(wp), intent(in) :: min_rate            !! that rates are measured by, of mechanisms that hardly move [1/s]
       integer, intent(out) :: status                !! 0: done; else nothing is free, or the equations cannot be solved
 
@@ -259,7 +259,7 @@ contains
       end associate
    end subroutine project
 
-   !> Bring the direction to length one, by the present pace of the mechanism; its level rises by as much.
+   !> Bring the direction to length one, by the present characteristic rate of the mechanism; its level rises by as much.
    subroutine renew(self, system)
       class(tangent_t), intent(inout) :: self       !! the direction
       type(mechanism_t), intent(in) :: system       !! the system
@@ -275,7 +275,7 @@ contains
       self%level = self%level + log(length)
    end subroutine renew
 
-   !> What rates are measured by: the pace of the mechanism, or of one that hardly moves the rate given.
+   !> What rates are measured by: the characteristic rate of the mechanism, or of one that hardly moves the rate given.
    pure real(wp) function pace(self, system)
       class(tangent_t), intent(in) :: self          !! the direction
       type(mechanism_t), intent(in) :: system       !! the system

@@ -3,10 +3,10 @@
 !> A neighbouring motion meets an event function g at another time, by
 !> $$ \delta t = -\frac{\partial_y g \cdot w}{\dot g^-}, \quad w^+ = w^- + (f^- - f^+) \, \delta t, $$
 !> f- and f+ the right-hand sides before and behind it: the saltation matrix S = I + (f+ - f-) n^T/(n^T f- + g_t), n = d_y g.
-!> Where forces begin smoothly f+ = f- and S = I; they jump with dashpots, with sticking and with slip. What is set at the event
-!> jumps too: the impact speed u = d' of a contact that begins, and the deflection of bristles, which begins anew,
+!> Where forces start smoothly f+ = f- and S = I; they jump with dashpots, with sticking and with slip. What is set at the event
+!> jumps too: the impact speed u = d' of a contact that starts, and the deflection of bristles, which starts anew,
 !> $$ w_u^+ = \partial_y \dot d \cdot w^- + \ddot d^- \, \delta t, \quad w_z^+ = -f_z^+ \, \delta t . $$
-!> Instants at which functions of time are not smooth are the same for all motions: there w goes on, but where velocities of
+!> Instants at which functions of time are not smooth are the same for all motions: there w continues, but where velocities of
 !> drivers jump, it is carried by that jump.
 !>
 !> Source: R. I. Leine, H. Nijmeijer, Dynamics and Bifurcations of Non-Smooth Mechanical Systems (2004), chapter 7 (saltation
@@ -29,7 +29,8 @@ module tangent_events
 
    real(wp), parameter :: nearness = 1.0e-9_wp   !! of the states beside the motion, of the scales [1]
    real(wp), parameter :: spacings = 16.0_wp     !! of coordinates, within which forces of contacts are not looked at [1]
-   real(wp), parameter :: latest = 1.0e3_wp      !! time that an event may shift by a change of one scale, over 1/pace [1]
+   real(wp), parameter :: latest = 1.0e3_wp  !! time that an event may shift by a change of one scale, over 1/characteristic rate
+                                             !! [1]
 
 contains
 
@@ -39,7 +40,7 @@ contains
       type(moving_part_t), intent(inout) :: part         !! the mechanism, at events that are not handled yet
       type(run_tally_t), intent(inout) :: tally          !! of the run
       class(recorder_t), intent(inout) :: recorder       !! keeps the results
-      type(error_t), allocatable, intent(out) :: error   !! no way to go on
+      type(error_t), allocatable, intent(out) :: error   !! no way to continue
 
       real(wp), allocatable :: after(:), before(:), impact(:)
       real(wp) :: aside, shift
@@ -98,7 +99,7 @@ contains
       end associate
    end subroutine time_shift
 
-   !> Changes of impact speeds behind the events: those of contacts that begin there, of others that touch as they are, else none.
+   !> Changes of impact speeds behind the events: those of contacts that start there, of others that touch as they are, else none.
    function changed_speeds(tangent, part, shift) result(impact)
       type(tangent_t), intent(in) :: tangent             !! the change
       type(moving_part_t), intent(inout) :: part         !! the mechanism, at the events
@@ -138,7 +139,7 @@ contains
 
    end function changed_speeds
 
-   !> Deflections of bristles of contacts that have just begun or ended begin at nothing, whenever that is.
+   !> Deflections of bristles of contacts that have just started or ended start at nothing, whenever that is.
    subroutine drop_deflections(tangent, part, before)
       type(tangent_t), intent(inout) :: tangent          !! the change
       type(moving_part_t), intent(in) :: part            !! the mechanism, behind the events
@@ -163,7 +164,7 @@ contains
       type(moving_part_t), intent(inout) :: part         !! the mechanism, at the instant
       type(run_tally_t), intent(inout) :: tally          !! of the run
       class(recorder_t), intent(inout) :: recorder       !! keeps the results
-      type(error_t), allocatable, intent(out) :: error   !! no way to go on
+      type(error_t), allocatable, intent(out) :: error   !! no way to continue
 
       real(wp), allocatable :: before(:), behind(:), minus(:), plus(:), ydot(:)
       integer :: status

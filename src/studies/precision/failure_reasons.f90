@@ -1,4 +1,4 @@
-!> Reasons why runs of a setting failed or were not made: each told once, however its numbers differ from run to run.
+!> Reasons why runs of a setting failed or were not made: each reported once, however its numbers differ from run to run.
 module failure_reasons
    use precision_results, only: tol_run_t
    implicit none (type, external)

@@ -1,13 +1,13 @@
 !> Where the curve of error over tolerance (or step) bends before round-off, and why.
 !>
 !> Errors that the reference does not hide (`precision_choice`) are taken by decades of what was asked; in each the median, of two
-!> runs at least. A ladder is bent where its median falls by less than `min_fall` over two decades: a tenth of what it does in
-!> proportion, and more than single runs scatter. Neighbouring stretches are one. The cause is what does not change either: the
+!> runs at least. A tolerance sweep is bent where its median falls by less than `min_fall` over two decades: a tenth of what it does
+!> in proportion, and more than single runs scatter. Neighbouring stretches are one. The cause is what does not change either: the
 !> steps, when stability, events or instants set them, or the constraint violation; or errors are as large as the motion itself; or
 !> they do not change at all while the steps do, since what makes them is shorter than any step, as a contact that is grazed; or
 !> those of neighbouring runs scatter widely, since in some of them errors of both signs cancel.
 !>
-!> Limits: ladders that are too short for three decades of two runs are not judged.
+!> Limits: tolerance sweeps that are too short for three decades of two runs are not judged.
 module precision_bends
    use, intrinsic :: ieee_arithmetic, only: ieee_is_finite
    use kinds, only: wp
@@ -28,18 +28,18 @@ module precision_bends
    !> The runs of a decade.
    type :: decade_t
       integer :: n = 0                   !! runs whose error is known
-      integer :: first = 0               !! rung, the coarsest of them
-      integer :: last = 0                !! rung, the finest of them
+      integer :: first = 0               !! run, the coarsest of them
+      integer :: last = 0                !! run, the finest of them
       real(wp) :: error = 0.0_wp         !! median of their errors [1]
-      real(wp) :: minimum = 0.0_wp         !! least error [1]
-      real(wp) :: most = 0.0_wp          !! greatest error [1]
+      real(wp) :: minimum = 0.0_wp         !! minimum error [1]
+      real(wp) :: most = 0.0_wp          !! maximum error [1]
       real(wp) :: steps = 0.0_wp         !! median of their numbers of steps [1]
       real(wp) :: violation = 0.0_wp     !! median of the constraint violations [m]
    end type decade_t
 
 contains
 
-   !> The bends of all ladders.
+   !> The bends of all tolerance sweeps.
    subroutine find_bends(study)
       type(precision_t), intent(inout) :: study  !! errors are known; bends are set
 
@@ -51,7 +51,7 @@ contains
       end do
    end subroutine find_bends
 
-   !> The bends of a ladder.
+   !> The bends of a tolerance sweep.
    subroutine find_in(tol_sweep, kind, hidden)
       type(tol_sweep_t), intent(inout) :: tol_sweep    !! bends are set
       integer, intent(in) :: kind                !! of error
@@ -83,9 +83,9 @@ contains
       end do
    end subroutine find_in
 
-   !> Decades of what was asked, from the coarsest rung on.
+   !> Decades of what was asked, from the coarsest run on.
    function decades_of(tol_sweep, kind, hidden) result(decades)
-      type(tol_sweep_t), intent(in) :: tol_sweep         !! the ladder
+      type(tol_sweep_t), intent(in) :: tol_sweep         !! the tolerance sweep
       integer, intent(in) :: kind                  !! of error
       real(wp), intent(in) :: hidden               !! errors up to this one are hidden by the reference's [1]
       type(decade_t), allocatable :: decades(:)    !! (n) decades

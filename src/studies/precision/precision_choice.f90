@@ -1,4 +1,5 @@
-!> What the ladders tell: observed order, proportionality of error to tolerance, the front of best settings, the cheapest one.
+!> What the tolerance sweeps report: observed order, proportionality of error to tolerance, the front of best settings, the cheapest
+!> one.
 module precision_choice
    use, intrinsic :: ieee_arithmetic, only: ieee_is_finite
    use kinds, only: not_a_number, wp
@@ -8,12 +9,13 @@ module precision_choice
    public :: choose_best, find_orders, hidden_below
 
    real(wp), parameter :: coarse = 1.0e-3_wp     !! error above which no method shows its order [1]
-   real(wp), parameter :: above_bar = 10.0_wp    !! errors this many times the reference's own or more tell of a method [1]
+   real(wp), parameter :: above_bar = 10.0_wp    !! errors this many times the reference's own or more report of a method [1]
    integer, parameter :: fewest = 3              !! points of a fit
 
 contains
 
-   !> Observed order and proportionality of every ladder, from those of its errors that the reference and round-off do not hide.
+   !> Observed order and proportionality of every tolerance sweep, from those of its errors that the reference and round-off do not
+   !> hide.
    subroutine find_orders(study)
       type(precision_t), intent(inout) :: study  !! errors are known; orders are set
 
@@ -50,9 +52,9 @@ contains
       order = -slope(log(steps), log(error))
    end function order_of
 
-   !> Leave out what lies behind the least error of a ladder: there round-off grows with the number of steps.
+   !> Omit what lies behind the minimum error of a tolerance sweep: there round-off grows with the number of steps.
    pure subroutine drop_floor(error, is_good)
-      real(wp), intent(in) :: error(:)           !! (n) errors, from the coarsest rung on [1]
+      real(wp), intent(in) :: error(:)           !! (n) errors, from the coarsest run on [1]
       logical, intent(inout) :: is_good(:)       !! (n) which of them count
 
       integer :: k
@@ -61,11 +63,11 @@ contains
       if (k > 0) is_good(k + 1:) = .false.
    end subroutine drop_floor
 
-   !> Errors of a ladder, 0 where there are none.
+   !> Errors of a tolerance sweep, 0 where there are none.
    pure function errors_of(tol_sweep, kind) result(error)
-      type(tol_sweep_t), intent(in) :: tol_sweep       !! the ladder
+      type(tol_sweep_t), intent(in) :: tol_sweep       !! the tolerance sweep
       integer, intent(in) :: kind                !! of error
-      real(wp) :: error(size(tol_sweep%tol_runs))      !! (rungs) errors [1]
+      real(wp) :: error(size(tol_sweep%tol_runs))      !! (runs) errors [1]
 
       integer :: k
 
@@ -76,7 +78,7 @@ contains
       end do
    end function errors_of
 
-   !> Errors up to this one tell of the reference, not of a method.
+   !> Errors up to this one report of the reference, not of a method.
    pure real(wp) function hidden_below(study) result(minimum)
       type(precision_t), intent(in) :: study  !! the study
 
@@ -114,10 +116,10 @@ contains
       slope = median(slopes(:n))
    end function slope
 
-   !> The front of settings of which no other is both cheaper and more exact, and the cheapest that reaches the error wanted.
+   !> The front of settings of which no other is both cheaper and more exact, and the cheapest that reaches the error requested.
    !> Of errors that are within the reference's own all count as that, so that chance among them decides nothing; and a run
-   !> is chosen only if no tighter one of its ladder misses the error wanted or meets other contacts: it is no stroke of luck.
-   !> Against a reference that nothing confirms nothing is chosen.
+   !> is chosen only if no tighter one of its tolerance sweep misses the error requested or meets other contacts: it is no stroke of
+   !> luck. Against a reference that nothing confirms nothing is chosen.
    subroutine choose_best(study)
       type(precision_t), intent(inout) :: study  !! costs and errors are known; front and choice are set
 
@@ -157,7 +159,7 @@ contains
       if (can_be_chosen) can_be_chosen = ieee_is_finite(tol_run%error(kind))
    end function can_be_chosen
 
-   !> Error of a run that can be told from the reference's.
+   !> Error of a run that can be reported from the reference's.
    pure real(wp) function level(study, tol_run)
       type(precision_t), intent(in) :: study  !! the study
       type(tol_run_t), intent(in) :: tol_run        !! the run

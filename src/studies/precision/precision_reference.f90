@@ -1,7 +1,7 @@
 !> The reference of a comparison, its own errors, and the errors of runs against it.
 !>
-!> The difference of the reference and what confirms it is its error: nothing below it can be told. Runs are compared up to the last
-!> instant at which it is below a tenth of the error wanted.
+!> The difference of the reference and what confirms it is its error: nothing below it can be reported. Runs are compared up to the
+!> last instant at which it is below a tenth of the error requested.
 module precision_reference
    use growth, only: n_digit
    use, intrinsic :: ieee_arithmetic, only: ieee_is_finite
@@ -20,11 +20,11 @@ module precision_reference
    public :: agreement, arms_of, described, last_within, kept_tol_sweep_t, measure_all, measure_tol_run, motion_of, reference_t, &
       set_bar, size_of
 
-   real(wp), parameter :: part_wanted = 0.1_wp  !! of the error wanted that the reference may have [1]
+   real(wp), parameter :: part_wanted = 0.1_wp  !! of the error requested that the reference may have [1]
 
-   !> The runs of a ladder.
+   !> The runs of a tolerance sweep.
    type :: kept_tol_sweep_t
-      type(kept_run_t), allocatable :: runs(:)   !! (rungs) their motions
+      type(kept_run_t), allocatable :: runs(:)   !! (runs) their motions
    end type kept_tol_sweep_t
 
    !> The reference.
@@ -59,7 +59,7 @@ contains
       if (length <= 0.0_wp) length = 1.0_wp
    end function size_of
 
-   !> A reference in words.
+   !> A reference as text.
    function described(reference) result(words)
       type(reference_t), intent(in) :: reference   !! the reference
       character(:), allocatable :: words           !! as `verner 1e-13`
@@ -67,7 +67,7 @@ contains
       words = reference%setting%word()//" "//real_text(reference%asked, 3)
    end function described
 
-   !> Differences of the kind that is wanted.
+   !> Differences of the kind that is requested.
    pure function wanted_of(d, wanted) result(x)
       real(wp), intent(in) :: d(:, :)       !! (n_sort, instants) differences [1]
       integer, intent(in) :: wanted         !! kind of error
@@ -93,13 +93,13 @@ contains
       x = wanted_of(d, error_motion)
    end function motion_of
 
-   !> Up to when a run is within the part of the error wanted, and its greatest difference in all.
+   !> Up to when a run is within the part of the error requested, and its maximum difference in all.
    subroutine agreement(run, reference, study, last, far)
       type(kept_run_t), intent(in) :: run            !! the run
       type(reference_t), intent(in) :: reference     !! what it is compared with
-      type(precision_t), intent(in) :: study         !! error wanted
+      type(precision_t), intent(in) :: study         !! error requested
       real(wp), intent(out) :: last                  !! last instant [s]
-      real(wp), intent(out) :: far                   !! greatest difference up to the end [1]
+      real(wp), intent(out) :: far                   !! maximum difference up to the end [1]
 
       real(wp), allocatable :: d(:, :), x(:)
 
@@ -148,8 +148,8 @@ contains
 
    !> Errors of all runs against the reference.
    subroutine measure_all(study, kept, reference)
-      type(precision_t), intent(inout) :: study           !! errors of its rungs are set
-      type(kept_tol_sweep_t), intent(in) :: kept(:)          !! (ladders) the runs
+      type(precision_t), intent(inout) :: study           !! errors of its runs are set
+      type(kept_tol_sweep_t), intent(in) :: kept(:)          !! (tolerance sweeps) the runs
       type(reference_t), intent(in) :: reference          !! what they are compared with
 
       integer :: i, k
@@ -167,7 +167,7 @@ contains
    subroutine measure_tol_run(run, reference, study, tol_run)
       type(kept_run_t), intent(in) :: run            !! the run
       type(reference_t), intent(in) :: reference     !! what it is compared with
-      type(precision_t), intent(in) :: study         !! window and error wanted
+      type(precision_t), intent(in) :: study         !! window and error requested
       type(tol_run_t), intent(inout) :: tol_run            !! errors are set
 
       real(wp), allocatable :: d(:, :)

@@ -1,4 +1,4 @@
-!> What a comparison of settings gives: ladders of runs with their costs and errors, the reference, the choice.
+!> What a comparison of settings gives: tolerance sweeps of runs with their costs and errors, the reference, the choice.
 module precision_results
    use batch_means, only: estimate_t
    use exponent, only: horizon_t
@@ -22,10 +22,10 @@ module precision_results
    integer, parameter :: error_velocities = 3   !! of bodies
    integer, parameter :: error_reactions = 4    !! of joints
    integer, parameter :: error_onsets = 5       !! of contacts
-   integer, parameter :: error_peaks = 6        !! greatest normal forces of contacts
+   integer, parameter :: error_peaks = 6        !! maximum normal forces of contacts
    integer, parameter :: error_restitution = 7  !! release over impact speed
    integer, parameter :: n_compared = 7         !! kinds that need a reference
-   integer, parameter :: error_ledger = 8       !! greatest residual over the largest energy
+   integer, parameter :: error_ledger = 8       !! maximum residual over the largest energy
    integer, parameter :: error_violation = 9    !! of constraints
    integer, parameter :: n_error = 9            !! kinds of error
 
@@ -44,10 +44,10 @@ module precision_results
    integer, parameter :: tol_run_failed = 2   !! failed
    integer, parameter :: tol_run_other = 3    !! ran to its end, with other contacts than the reference, or another end
    character(*), parameter :: tol_run_states(0:3) = [character(26) :: "not run", "done", "failed", &
-      "different contact sequence"]  !! in words
+      "different contact sequence"]  !! as text
 
    ! statistics of the time that is not compared
-   integer, parameter :: statistic_rate = 1         !! contacts that begin
+   integer, parameter :: statistic_rate = 1         !! contacts that start
    integer, parameter :: statistic_speeds = 2       !! impact speeds
    integer, parameter :: statistic_peaks = 3        !! peak forces
    integer, parameter :: statistic_velocities = 4   !! velocities of bodies
@@ -63,9 +63,9 @@ module precision_results
 
    !> Statistics of the time that is not compared, of one run or of the runs of a setting.
    type :: statistics_t
-      real(wp) :: from = 0.0_wp                   !! begin of that time [s]
+      real(wp) :: from = 0.0_wp                   !! start of that time [s]
       logical :: is_there = .false.               !! there is such a time
-      logical :: is_own = .false.                 !! of a run: it parts from the reference, so that it tells something of its own
+      logical :: is_own = .false.                 !! of a run: it parts from the reference, so that it reports something of its own
       type(estimate_t) :: list(n_statistic)       !! (n_statistic) values and half intervals of 95 %; NaN: not known [any]
       integer :: n_run(n_statistic) = 0           !! (n_statistic) runs of a setting that go their own way and have a value
       integer :: n_apart(n_statistic) = 0         !! (n_statistic) those of them that are apart from the reference
@@ -78,18 +78,18 @@ module precision_results
       integer(i8) :: evaluations = 0   !! of right-hand sides, without those for output
    end type tol_run_counts_t
 
-   !> A run of a ladder.
+   !> A run of a tolerance sweep.
    type :: tol_run_t
       real(wp) :: asked = 0.0_wp                     !! tolerance, or length of fixed steps [1 or s]
       integer :: state = tol_run_unrun                  !! one of the above
       character(:), allocatable :: reason            !! why it failed or was not run; blank: neither
       real(wp) :: error(n_error) = 0.0_wp            !! (n_error) errors by kind; NaN: not defined [1, s or m]
       logical :: is_below = .false.                  !! the error is within the reference's own
-      real(wp) :: holds_until = 0.0_wp               !! last instant up to which the error is not above the one wanted [s]
+      real(wp) :: holds_until = 0.0_wp               !! last instant up to which the error is not above the one requested [s]
       integer :: n_round = 0                         !! times that it was timed
       real(wp), allocatable :: rounds(:)             !! (n_round or more) processor times of the solution [s]
       real(wp) :: cpu = 0.0_wp                       !! their median; of the run that was compared if there are none [s]
-      real(wp) :: cpu_min = 0.0_wp                 !! the least of them [s]
+      real(wp) :: cpu_min = 0.0_wp                 !! the minimum of them [s]
       real(wp) :: setup = 0.0_wp                     !! processor time of the system and its start [s]
       real(wp) :: wall = 0.0_wp                      !! that the compared run took, all in all [s]
       type(tol_run_counts_t) :: count                   !! steps and evaluations
@@ -104,10 +104,10 @@ module precision_results
    integer, parameter :: bend_short = 4       !! errors do not change at all: what makes them is shorter than all steps
    integer, parameter :: bend_luck = 5        !! errors of neighbouring runs scatter: those of some cancel
 
-   !> A stretch of a ladder over which errors do not fall.
+   !> A stretch of a tolerance sweep over which errors do not fall.
    type :: bend_t
-      integer :: first = 0                !! its coarsest rung
-      integer :: last = 0                 !! its finest rung
+      integer :: first = 0                !! its coarsest run
+      integer :: last = 0                 !! its finest run
       integer :: cause = bend_scatter     !! why
    end type bend_t
 
@@ -115,7 +115,7 @@ module precision_results
    type :: tol_sweep_t
       type(setting_t) :: setting                 !! the setting
       character(:), allocatable :: name          !! its word
-      logical :: is_fixed = .false.              !! a ladder of steps, not of tolerances
+      logical :: is_fixed = .false.              !! a tolerance sweep of steps, not of tolerances
       type(tol_run_t), allocatable :: tol_runs(:)      !! (n) runs
       real(wp) :: order = 0.0_wp                 !! observed: -d ln error/d ln steps; NaN: not known [1]
       real(wp) :: exponent = 0.0_wp              !! of proportionality: d ln error/d ln tolerance; NaN: not known [1]
@@ -137,10 +137,10 @@ module precision_results
       type(statistics_t) :: statistics            !! of the time beyond the last one compared, or of all of it if it is unsure
    end type reference_t
 
-   !> The cheapest setting that reaches the error wanted, run once more.
+   !> The cheapest setting that reaches the error requested, run once more.
    type :: choice_t
-      integer :: tol_sweep = 0            !! its ladder, 0: none does
-      integer :: tol_run = 0              !! its rung
+      integer :: tol_sweep = 0            !! its tolerance sweep, 0: none does
+      integer :: tol_run = 0              !! its run
       real(wp) :: error = 0.0_wp       !! when it was run once more; NaN: it was not [1]
       real(wp) :: cpu = 0.0_wp         !! its processor time then [s]
    end type choice_t
@@ -154,16 +154,16 @@ module precision_results
 
    !> All of it.
    type :: precision_t
-      type(tol_sweep_t), allocatable :: tol_sweeps(:)       !! (n) the ladders
-      integer :: wanted = error_motion                !! kind of error that is wanted and drawn
-      real(wp) :: accuracy = 0.0_wp                   !! error wanted [1]
+      type(tol_sweep_t), allocatable :: tol_sweeps(:)       !! (n) the tolerance sweeps
+      integer :: wanted = error_motion                !! kind of error that is requested and drawn
+      real(wp) :: accuracy = 0.0_wp                   !! error requested [1]
       real(wp) :: end = 0.0_wp                        !! of the motion [s]
       logical :: is_stopped = .false.                 !! a condition of the deck ends it
       integer :: output_times = 0                         !! compared, with the start
       type(reference_t) :: reference                  !! what all are compared with
       type(growth_t) :: growth                        !! of the distance of neighbouring starts
       type(horizon_t) :: horizon                      !! largest Lyapunov exponent, and digits by it
-      type(choice_t) :: choice                        !! the cheapest setting that reaches the error wanted
+      type(choice_t) :: choice                        !! the cheapest setting that reaches the error requested
       real(wp) :: budget = 0.0_wp                     !! time allowed, 0: no limit [s]
       real(wp) :: spent = 0.0_wp                      !! time taken up to the figures [s]
       integer :: rounds = 0                           !! rounds of timing that were done by all

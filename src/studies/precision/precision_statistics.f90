@@ -1,6 +1,6 @@
 !> Statistics of runs beyond the time up to which they are compared with the reference, where a trajectory has no digits.
 !>
-!> From that time to the end of the motion: contacts that begin per time, means of their impact speeds and peak forces, and root
+!> From that time to the end of the motion: contacts that start per time, means of their impact speeds and peak forces, and root
 !> mean squares of velocities and reactions, each with its interval of 95 % by batches (`batch_means`). Contacts per time are
 !> counted in equal bins. Of a root r of a mean m the half interval is that of m over 2 r.
 !> Runs of a setting that part from the reference go their own ways, each another, and so are replications: their mean has an
@@ -30,7 +30,7 @@ contains
 
    !> Statistics of all runs that ended, and of the reference, if there is a time that is not compared.
    subroutine take_statistics(kept, reference, study)
-      type(kept_tol_sweep_t), intent(in) :: kept(:)        !! (ladders) the runs
+      type(kept_tol_sweep_t), intent(in) :: kept(:)        !! (tolerance sweeps) the runs
       type(reference_t), intent(in) :: reference        !! what they are compared with
       type(precision_t), intent(inout) :: study         !! statistics are set
 
@@ -86,7 +86,7 @@ contains
    !> Contacts per time in each bin.
    pure function counts_in_bins(onsets, from, until) result(rate)
       real(wp), intent(in) :: onsets(:)     !! (n) times after `from` [s]
-      real(wp), intent(in) :: from          !! begin of the first bin [s]
+      real(wp), intent(in) :: from          !! start of the first bin [s]
       real(wp), intent(in) :: until         !! end of the last one [s]
       real(wp) :: rate(n_bin)               !! (n_bin) contacts per time [1/s]
 
@@ -129,7 +129,7 @@ contains
       if (ieee_is_finite(estimate%half) .and. estimate%value > 0.0_wp) estimate%half = 0.5_wp*estimate%half/estimate%value
    end function root_mean_square
 
-   !> What the runs of a ladder tell together, and how many of them are apart from the reference.
+   !> What the runs of a tolerance sweep report together, and how many of them are apart from the reference.
    pure subroutine gather_runs(reference, tol_sweep)
       type(statistics_t), intent(in) :: reference   !! statistics of the reference
       type(tol_sweep_t), intent(inout) :: tol_sweep       !! its statistics are set

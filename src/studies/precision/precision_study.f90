@@ -1,4 +1,4 @@
-!> Compares settings of an integration by error and cost: ladders of tolerances or steps, a confirmed reference, times.
+!> Compares settings of an integration by error and cost: tolerance sweeps of tolerances or steps, a confirmed reference, times.
 !>
 !> Every run is made anew from the scene, its positions, velocities, reactions and contacts kept in memory; then all
 !> are timed in rounds, one after the other, with nothing kept, so that what changes on the machine meets all of them. The
@@ -30,11 +30,11 @@ module precision_study
    public :: study_precision
 
    ! parts of the budget at whose end the phases end [1]
-   real(wp), parameter :: until_stop = 0.10_wp         !! the run that tells when a condition ends the motion
+   real(wp), parameter :: until_stop = 0.10_wp         !! the run that reports when a condition ends the motion
    real(wp), parameter :: until_reference = 0.65_wp    !! the reference and what confirms it
-   real(wp), parameter :: until_twins = 0.75_wp        !! twins
+   real(wp), parameter :: until_twins = 0.75_wp        !! reference runs
    real(wp), parameter :: until_tangent = 0.80_wp      !! the exponent by the tangent
-   real(wp), parameter :: until_exponent = 0.85_wp     !! the exponent by a twin
+   real(wp), parameter :: until_exponent = 0.85_wp     !! the exponent by a reference run
    real(wp), parameter :: until_times = 0.95_wp        !! rounds of timing
    real(wp), parameter :: until_choice = 1.0_wp        !! the choice, run once more
 
@@ -48,7 +48,7 @@ contains
       type(text_t), intent(in) :: words(:)               !! (n) settings, checked
       type(progress_t), intent(inout) :: display         !! shows how far it is
       type(precision_t), intent(inout) :: study          !! budget and accuracy are set, the rest follows
-      type(error_t), allocatable, intent(out) :: error   !! a condition ends the motion as it begins
+      type(error_t), allocatable, intent(out) :: error   !! a condition ends the motion as it starts
 
       type(job_t) :: job
       type(kept_tol_sweep_t), allocatable :: kept(:)
@@ -83,7 +83,7 @@ contains
    end subroutine study_precision
 
    !> Digits that the reference and its confirmation have in common a trajectory can have, whatever the law of growth says of
-   !> times at which the twins are no longer near each other.
+   !> times at which reference runs are no longer near each other.
    pure subroutine raise_horizons(study)
       type(precision_t), intent(inout) :: study  !! horizons are raised
 
@@ -131,7 +131,7 @@ contains
    !> Where a condition ends the motion, the instants compared are equal parts of what there is of it; the last one comes before the
    !> end, which is another by a little in every run.
    subroutine space_output_times(finest, budget, job, error)
-      real(wp), intent(in) :: finest                !! tolerance of the run that tells [1]
+      real(wp), intent(in) :: finest                !! tolerance of the run that reports [1]
       type(time_budget_t), intent(in) :: budget     !! the time
       type(job_t), intent(inout) :: job             !! its plan may change
       type(error_t), allocatable, intent(out) :: error  !! there is nothing of the motion
@@ -157,7 +157,7 @@ contains
    subroutine time_rounds(job, budget, rounds, display, study)
       type(job_t), intent(inout) :: job                  !! what runs share
       type(time_budget_t), intent(in) :: budget          !! the time
-      integer, intent(in) :: rounds                      !! wanted
+      integer, intent(in) :: rounds                      !! requested
       type(progress_t), intent(inout) :: display         !! shows how far it is
       type(precision_t), intent(inout) :: study          !! times are set
 
@@ -201,7 +201,7 @@ contains
 
    !> Whether a run in some state ended and is timed.
    elemental logical function is_timed(state)
-      integer, intent(in) :: state  !! of a rung
+      integer, intent(in) :: state  !! of a run
 
       is_timed = state == tol_run_done .or. state == tol_run_other
    end function is_timed

@@ -1,4 +1,4 @@
-!> Ladders of tolerances or steps: their runs, kept for the comparison, within their part of a budget.
+!> Tolerance sweeps of tolerances or steps: their runs, kept for the comparison, within their part of a budget.
 module precision_tol_sweeps
    use kept_run, only: kept_run_t
    use kinds, only: not_a_number, wp
@@ -15,8 +15,8 @@ module precision_tol_sweeps
    public :: min_rise, new_tol_sweeps, not_ready, run_tol_sweeps, run_tol_run
 
    real(wp), parameter :: until_tol_sweeps = 0.45_wp      !! runs that are compared
-   real(wp), parameter :: for_first = 1.0_wp/3.0_wp    !! of the time left, that the first run of a ladder may take [1]
-   real(wp), parameter :: min_rise = 1.1_wp          !! of the time of a run over that of the rung before, for a forecast [1]
+   real(wp), parameter :: for_first = 1.0_wp/3.0_wp    !! of the time left, that the first run of a tolerance sweep may take [1]
+   real(wp), parameter :: min_rise = 1.1_wp          !! of the time of a run over that of the run before, for a forecast [1]
    real(wp), parameter :: most_rise = 3.0_wp           !! the same [1]
 
    character(*), parameter :: no_time = "time budget exhausted"  !! why a run was not made
@@ -24,11 +24,11 @@ module precision_tol_sweeps
 
 contains
 
-   !> Ladders of tolerances; those of steps wait for what the others tell.
+   !> Tolerance sweeps of tolerances; those of steps wait for what the others report.
    subroutine new_tol_sweeps(scene, settings, study)
       type(scene_t), intent(in) :: scene               !! the scene
       type(setting_t), intent(in) :: settings(:)       !! (n) settings
-      type(precision_t), intent(inout) :: study        !! ladders are made
+      type(precision_t), intent(inout) :: study        !! tolerance sweeps are made
 
       real(wp) :: coarsest, finest
       integer :: i, k, n, per_decade
@@ -59,15 +59,15 @@ contains
       end associate
    end subroutine new_tol_sweeps
 
-   !> All runs that are compared, rung by rung, the coarse ones of all ladders first. Each ladder has an equal share of the time,
-   !> its first run a third of what is left if that is more; what some leave over goes to the others then, and at last to those that
-   !> have a run which took longer.
+   !> All runs that are compared, run by run, the coarse ones of all tolerance sweeps first. Each tolerance sweep has an equal share
+   !> of the time, its first run a third of what is left if that is more; what some leave over goes to the others then, and at last
+   !> to those that have a run which took longer.
    subroutine run_tol_sweeps(job, budget, display, study, kept)
       type(job_t), intent(inout) :: job                             !! what runs share
       type(time_budget_t), intent(in) :: budget                     !! the time
       type(progress_t), intent(inout) :: display                    !! shows how far it is
-      type(precision_t), intent(inout) :: study                     !! rungs are filled, but for their errors
-      type(kept_tol_sweep_t), allocatable, intent(out) :: kept(:)      !! (ladders) the runs
+      type(precision_t), intent(inout) :: study                     !! runs are filled, but for their errors
+      type(kept_tol_sweep_t), allocatable, intent(out) :: kept(:)      !! (tolerance sweeps) the runs
 
       integer, parameter :: in_shares = 1, for_others = 2, for_all = 3  ! passes
       logical :: is_over(size(study%tol_sweeps)), is_slow(size(study%tol_sweeps))
@@ -102,10 +102,10 @@ contains
 
    contains
 
-      !> One rung of a ladder, if there is one and time for it.
+      !> One run of a tolerance sweep, if there is one and time for it.
       subroutine climb(i, k)
-         integer, intent(in) :: i  !! the rung
-         integer, intent(in) :: k  !! the ladder
+         integer, intent(in) :: i  !! the run
+         integer, intent(in) :: k  !! the tolerance sweep
 
          type(kept_run_t) :: fresh
          real(wp) :: time, until
@@ -135,10 +135,10 @@ contains
 
    end subroutine run_tol_sweeps
 
-   !> How long a rung may take, from the rungs before it.
+   !> How long a run may take, from the runs before it.
    pure real(wp) function forecast(tol_sweep, i) result(time)
-      type(tol_sweep_t), intent(in) :: tol_sweep  !! the ladder
-      integer, intent(in) :: i              !! the rung
+      type(tol_sweep_t), intent(in) :: tol_sweep  !! the tolerance sweep
+      integer, intent(in) :: i              !! the run
 
       time = 0.0_wp
       if (i < 2) return
@@ -149,11 +149,11 @@ contains
                                                               tol_sweep%tol_runs(i - 1)%wall/tol_sweep%tol_runs(i - 2)%wall))
    end function forecast
 
-   !> Run a rung and keep its motion. One that exceeds a limit of the deck has failed.
+   !> Run a run and keep its motion. One that exceeds a limit of the deck has failed.
    subroutine run_tol_run(job, budget, setting, tol_run, run, is_late)
       type(job_t), intent(inout) :: job               !! what runs share
       type(time_budget_t), intent(in) :: budget       !! the time
-      type(setting_t), intent(in) :: setting          !! the ladder's
+      type(setting_t), intent(in) :: setting          !! the tolerance sweep's
       type(tol_run_t), intent(inout) :: tol_run             !! costs are set
       type(kept_run_t), intent(inout) :: run          !! the motion
       logical, intent(out) :: is_late                 !! it failed because its time was up
@@ -184,8 +184,8 @@ contains
       end associate
    end subroutine run_tol_run
 
-   !> Steps of the ladders with fixed ones: from the deck's, or from the mean step of the first variable ladder's first run, brought
-   !> to a whole number of quarter decades; without such a run from that of `verner`.
+   !> Steps of the tolerance sweeps with fixed ones: from the deck's, or from the mean step of the first variable tolerance sweep's
+   !> first run, brought to a whole number of quarter decades; without such a run from that of `verner`.
    subroutine set_steps(job, budget, study)
       type(job_t), intent(inout) :: job                  !! what runs share
       type(time_budget_t), intent(in) :: budget          !! the time

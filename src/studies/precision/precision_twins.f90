@@ -1,6 +1,6 @@
-!> Twins of a run, from starts that are a small perturbation apart: how fast they part.
+!> reference runs of a run, from starts that are a small perturbation apart: how fast they part.
 !>
-!> A condition ends twins at other times: where one of them lacks more than the last instant, there is none.
+!> A condition ends reference runs at other times: where one of them lacks more than the last instant, there is none.
 module precision_twins
    use growth, only: find_growth
    use kept_run, only: kept_run_t, sort_velocities
@@ -15,24 +15,24 @@ module precision_twins
    private
    public :: run_twins
 
-   integer, parameter :: wanted = 3      !! twins
-   real(wp), parameter :: tight = 0.1_wp !! greatest tolerance of twins, of the perturbation [1]
+   integer, parameter :: wanted = 3      !! reference runs
+   real(wp), parameter :: tight = 0.1_wp !! maximum tolerance of reference runs, of the perturbation [1]
    integer, parameter :: attempts = 6    !! perturbed starts that are tried
-   real(wp), parameter :: left = 1.0e-5_wp !! least part of the perturbation that constraints leave where something is free [1]
+   real(wp), parameter :: left = 1.0e-5_wp !! minimum part of the perturbation that constraints leave where something is free [1]
 
-   character(*), parameter :: no_time = "time budget exhausted"  !! why there are no twins
+   character(*), parameter :: no_time = "time budget exhausted"  !! why there are no reference runs
    character(*), parameter :: nothing_is_free = &
       "no perturbed initial state gives another motion: no coordinate is free, or [initial.speed] fixes it"  !! the same
 
 contains
 
-   !> Run the twins of the reference, or of a run of its integrator for which the time is enough, and find their growth.
+   !> Run reference runs of the reference, or of a run of its integrator for which the time is enough, and find their growth.
    subroutine run_twins(job, budget, until, perturbation, kept, reference, study)
       type(job_t), intent(inout) :: job                  !! what runs share
       type(time_budget_t), intent(in) :: budget          !! the time
       real(wp), intent(in) :: until                      !! part of the budget that may be spent [1]
-      real(wp), intent(in) :: perturbation               !! of the size of the mechanism, 0: no twins [1]
-      type(kept_tol_sweep_t), intent(in) :: kept(:)         !! (ladders) the runs
+      real(wp), intent(in) :: perturbation               !! of the size of the mechanism, 0: no reference runs [1]
+      type(kept_tol_sweep_t), intent(in) :: kept(:)         !! (tolerance sweeps) the runs
       type(reference_t), intent(in) :: reference         !! the reference
       type(precision_t), intent(inout) :: study          !! growth is set
 
@@ -92,9 +92,9 @@ contains
    !> well below the perturbation: else steps that are accepted here and rejected there make a distance of their own.
    subroutine choose_base(time, loosest, study, kept, reference, base, reason)
       real(wp), intent(in) :: time                              !! for one run [s]
-      real(wp), intent(in) :: loosest                           !! greatest tolerance [1]
-      type(precision_t), intent(in) :: study                    !! with its ladders
-      type(kept_tol_sweep_t), intent(in) :: kept(:)                !! (ladders) the runs
+      real(wp), intent(in) :: loosest                           !! maximum tolerance [1]
+      type(precision_t), intent(in) :: study                    !! with its tolerance sweeps
+      type(kept_tol_sweep_t), intent(in) :: kept(:)                !! (tolerance sweeps) the runs
       type(reference_t), intent(in) :: reference                !! the reference
       type(reference_t), intent(out) :: base                    !! the run, if there is one
       character(:), allocatable, intent(inout) :: reason        !! why there is none
@@ -138,12 +138,12 @@ contains
 
    end subroutine choose_base
 
-   !> Why no run of the reference's integrator is as tight as twins must be.
+   !> Why no run of the reference's integrator is as tight as reference runs must be.
    function why_not_tight(study, reference, loosest) result(reason)
-      type(precision_t), intent(in) :: study             !! with its ladders
+      type(precision_t), intent(in) :: study             !! with its tolerance sweeps
       type(reference_t), intent(in) :: reference         !! the reference
-      real(wp), intent(in) :: loosest                    !! greatest tolerance [1]
-      character(:), allocatable :: reason                !! in words
+      real(wp), intent(in) :: loosest                    !! maximum tolerance [1]
+      character(:), allocatable :: reason                !! as text
 
       logical :: is_asked, is_late
       integer :: i, k

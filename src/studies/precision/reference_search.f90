@@ -1,11 +1,11 @@
 !> The search for the reference of a comparison: the tightest run there is, confirmed by another integrator.
 !>
-!> Runs are made at a tenth of the finest tolerance of the ladders, by `verner` first and then by another integrator; by those that
-!> by what the runs of their ladders took come to the least tolerance in the time, if these two do not come to it. Where there is
-!> no time for that tolerance there is one decades above it, and a tighter one after it as long as there is time. Of these runs and
-!> the tightest ones of the ladders those within a decade of the least tolerance can be the reference, one of each integrator:
-!> that which goes the same way as the tightest run of a setting of another integrator for the longest time, and of the two the
-!> tighter one if both can be.
+!> Runs are made at a tenth of the finest tolerance of the tolerance sweeps, by `verner` first and then by another integrator; by
+!> those that by what the runs of their tolerance sweeps took come to the minimum tolerance in the time, if these two do not come to
+!> it. Where there is no time for that tolerance there is one decades above it, and a tighter one after it as long as there is time.
+!> Of these runs and the tightest ones of the tolerance sweeps those within a decade of the minimum tolerance can be the reference,
+!> one of each integrator: that which goes the same way as the tightest run of a setting of another integrator for the longest time,
+!> and of the two the tighter one if both can be.
 module reference_search
    use kept_run, only: kept_run_t
    use kinds, only: min_tolerance, not_a_number, wp
@@ -21,10 +21,10 @@ module reference_search
    private
    public :: choose_pair, find_reference
 
-   real(wp), parameter :: tighter = 0.1_wp      !! tolerance of the reference, of the finest one of the ladders [1]
+   real(wp), parameter :: tighter = 0.1_wp      !! tolerance of the reference, of the finest one of the tolerance sweeps [1]
    real(wp), parameter :: for_other = 0.1_wp    !! part of the budget kept back for what confirms it [1]
    real(wp), parameter :: for_one = 0.5_wp      !! of the time left, that a run may take by its forecast [1]
-   real(wp), parameter :: near = 10.1_wp        !! tolerances that are as tight as the least one, of it [1]
+   real(wp), parameter :: near = 10.1_wp        !! tolerances that are as tight as the minimum one, of it [1]
    real(wp), parameter :: rounding = 1.01_wp    !! ratio of tolerances that are the same [1]
    integer, parameter :: attempts = 4           !! runs of an integrator
    integer, parameter :: enough = 2             !! tight runs, by as many integrators
@@ -37,9 +37,9 @@ contains
       type(job_t), intent(inout) :: job                  !! what runs share
       type(time_budget_t), intent(in) :: budget          !! the time
       real(wp), intent(in) :: until                      !! part of the budget that may be spent [1]
-      real(wp), intent(in) :: finest                     !! tolerance of the ladders [1]
-      type(precision_t), intent(inout) :: study          !! with its ladders; the reference's errors are set
-      type(kept_tol_sweep_t), intent(in) :: kept(:)         !! (ladders) their runs
+      real(wp), intent(in) :: finest                     !! tolerance of the tolerance sweeps [1]
+      type(precision_t), intent(inout) :: study          !! with its tolerance sweeps; the reference's errors are set
+      type(kept_tol_sweep_t), intent(in) :: kept(:)         !! (tolerance sweeps) their runs
       type(reference_t), intent(out) :: reference        !! the reference
 
       type(reference_t), allocatable :: runs(:)
@@ -75,14 +75,14 @@ contains
       call set_bar(runs(other)%run, reference, study)
    end subroutine find_reference
 
-   !> Runs as tight as there is time for, by integrators in the order of what they come to; where not one run of any ladder came
-   !> to its end, by the first integrator only.
+   !> Runs as tight as there is time for, by integrators in the order of what they come to; where not one run of any tolerance sweep
+   !> came to its end, by the first integrator only.
    subroutine run_tight(job, budget, until, wanted, study, runs)
       type(job_t), intent(inout) :: job                          !! what runs share
       type(time_budget_t), intent(in) :: budget                  !! the time
       real(wp), intent(in) :: until                              !! part of the budget that may be spent [1]
       real(wp), intent(in) :: wanted                             !! tolerance [1]
-      type(precision_t), intent(in) :: study                     !! with its ladders
+      type(precision_t), intent(in) :: study                     !! with its tolerance sweeps
       type(reference_t), allocatable, intent(out) :: runs(:)     !! (n) the tightest run of each that came to its end
 
       type(text_t), allocatable :: untried(:)
@@ -113,10 +113,10 @@ contains
       end do
    end subroutine run_tight
 
-   !> The integrator that comes to the least tolerance in some time, the first one of several; 0: none.
+   !> The integrator that comes to the minimum tolerance in some time, the first one of several; 0: none.
    integer function next_of(names, study, wanted, time) result(next)
       type(text_t), intent(in) :: names(:)         !! (n) integrators, blank: not this one
-      type(precision_t), intent(in) :: study       !! with its ladders
+      type(precision_t), intent(in) :: study       !! with its tolerance sweeps
       real(wp), intent(in) :: wanted               !! tolerance [1]
       real(wp), intent(in) :: time                 !! that is left [s]
 
@@ -142,7 +142,7 @@ contains
       real(wp), intent(in) :: part                               !! of the budget that may be spent [1]
       real(wp), intent(in) :: wanted                             !! tolerance [1]
       character(*), intent(in) :: name                           !! of the integrator
-      type(precision_t), intent(in) :: study                     !! with its ladders
+      type(precision_t), intent(in) :: study                     !! with its tolerance sweeps
       type(reference_t), allocatable, intent(inout) :: runs(:)   !! (n) the tightest run is appended, if one came to its end
 
       type(outcome_t) :: outcome
@@ -188,10 +188,11 @@ contains
       call move_alloc(more, runs)
    end subroutine append
 
-   !> The least tolerance, decades above the one wanted, for which there is time, from what the tightest run of the integrator took
-   !> and one a decade or more before it; the one wanted where no run of it was tried, 0 where there is no time for a tighter one.
+   !> The minimum tolerance, decades above the one requested, for which there is time, from what the tightest run of the integrator
+   !> took and one a decade or more before it; the one requested where no run of it was tried, 0 where there is no time for a
+   !> tighter one.
    pure real(wp) function min_in_time(study, runs, name, wanted, time) result(tolerance)
-      type(precision_t), intent(in) :: study    !! with its ladders
+      type(precision_t), intent(in) :: study    !! with its tolerance sweeps
       type(reference_t), intent(in) :: runs(:)  !! (n) further runs of the integrator
       character(*), intent(in) :: name          !! of the integrator
       real(wp), intent(in) :: wanted            !! tolerance [1]
@@ -234,18 +235,19 @@ contains
       if (rounding*tolerance >= asked(i)) tolerance = 0.0_wp
    end function min_in_time
 
-   !> Whether a run tells how long its integrator takes: it was not ended by the clock.
+   !> Whether a run reports how long its integrator takes: it was not ended by the clock.
    pure logical function tells_time(tol_run)
       type(tol_run_t), intent(in) :: tol_run   !! the run
 
       tells_time = tol_run%state /= tol_run_unrun .and. tol_run%reason /= not_ready .and. tol_run%wall > 0.0_wp
    end function tells_time
 
-   !> Append the tightest run of a ladder that came to its end. `auto` makes the steps of others, and confirms none of them.
+   !> Append the tightest run of a tolerance sweep that came to its end. `auto` makes the steps of others, and confirms none of
+   !> them.
    subroutine append_tightest(study, kept, k, runs)
-      type(precision_t), intent(in) :: study                     !! with its ladders
-      type(kept_tol_sweep_t), intent(in) :: kept(:)                 !! (ladders) their runs
-      integer, intent(in) :: k                                   !! the ladder
+      type(precision_t), intent(in) :: study                     !! with its tolerance sweeps
+      type(kept_tol_sweep_t), intent(in) :: kept(:)                 !! (tolerance sweeps) their runs
+      integer, intent(in) :: k                                   !! the tolerance sweep
       type(reference_t), allocatable, intent(inout) :: runs(:)   !! (n) grown, if there is such a run
 
       type(reference_t) :: found
@@ -265,7 +267,7 @@ contains
 
    !> Of the runs that can be the reference that which agrees best with one of another integrator.
    subroutine choose_pair(study, runs, own, other)
-      type(precision_t), intent(in) :: study       !! with its ladders, and the error wanted
+      type(precision_t), intent(in) :: study       !! with its tolerance sweeps, and the error requested
       type(reference_t), intent(in) :: runs(:)     !! (n) runs with their scales, at least one
       integer, intent(out) :: own                  !! number of the reference
       integer, intent(out) :: other                !! number of what confirms it, 0: nothing does
@@ -313,7 +315,7 @@ contains
 
    !> Whether a run makes steps of a length that was asked for.
    pure logical function is_fixed(study, run)
-      type(precision_t), intent(in) :: study       !! with its ladders
+      type(precision_t), intent(in) :: study       !! with its tolerance sweeps
       type(reference_t), intent(in) :: run         !! the run
 
       integer :: k

@@ -1,7 +1,7 @@
 !> A recorder that keeps a run in memory: positions, velocities and reactions at the output instants, and all contacts.
 !>
 !> All lengths of a sort have one unit, so that they can be compared with one scale: an angle of a body counts as the way of a
-!> point at its radius of gyration, a moment as a force at the greatest of these radii. Of the orientation of a body in space the
+!> point at its radius of gyration, a moment as a force at the maximum of these radii. Of the orientation of a body in space the
 !> ways of three such points are kept, one on each of its own axes: the columns of the rotation times the radius. They do not know
 !> the sign of Euler parameters.
 module kept_run
@@ -21,14 +21,14 @@ module kept_run
    integer, parameter :: sort_velocities = 2  !! velocities and angular velocities of bodies [m/s]
    integer, parameter :: sort_reactions = 3   !! forces and moments of joints, drivers and joints with clearance [N]
    integer, parameter :: n_sort = 3           !! number of sorts
-   integer, parameter :: n_place = 9          !! coordinates of three points that tell the orientation of a body
+   integer, parameter :: n_place = 9          !! coordinates of three points that report the orientation of a body
 
-   !> A contact that began.
+   !> A contact that started.
    type :: contact_t
       integer :: number = 0                   !! in the catalogue's room of contacts
-      real(wp) :: onset = 0.0_wp              !! time at which it began [s]
+      real(wp) :: onset = 0.0_wp              !! time at which it started [s]
       real(wp) :: impact_speed = 0.0_wp       !! normal approach speed there [m/s]
-      real(wp) :: peak_force = 0.0_wp         !! greatest normal force [N]
+      real(wp) :: peak_force = 0.0_wp         !! maximum normal force [N]
       real(wp) :: release_speed = 0.0_wp      !! normal separation speed at the end; NaN: not ended [m/s]
    end type contact_t
 
@@ -81,7 +81,7 @@ contains
 
    contains
 
-      !> Take the numbers of a group that are wanted; in the first pass only count them.
+      !> Take the numbers of a group that are requested; in the first pass only count them.
       subroutine choose(g)
          integer, intent(in) :: g  !! number of the group
 
@@ -197,7 +197,7 @@ contains
       self%contacts = [self%contacts, contact]
    end subroutine keep_contact
 
-   !> Told how far the run is: nothing to do.
+   !> Reported how far the run is: nothing to do.
    subroutine no_progress(self, fraction)
       class(kept_run_t), intent(inout) :: self  !! the recorder
       real(wp), intent(in) :: fraction          !! of the work done, 0 to 1 [1]

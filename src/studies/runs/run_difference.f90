@@ -1,9 +1,9 @@
 !> How far a run is from another one of the same motion: errors by kind, up to a time.
 !>
-!> Positions, velocities and reactions are compared at common instants: the greatest difference of any number of the sort, over
-!> the scale of the sort in the reference: for positions the greatest range of one of them over the run (which does not hang on
-!> where the origin is), for velocities and reactions the greatest magnitude. Contacts are compared one by one in the order
-!> in which each begins anew; where a run has another sequence of them there is nothing to compare, and it is told.
+!> Positions, velocities and reactions are compared at common instants: the maximum difference of any number of the sort, over
+!> the scale of the sort in the reference: for positions the maximum range of one of them over the run (which does not hang on
+!> where the origin is), for velocities and reactions the maximum magnitude. Contacts are compared one by one in the order
+!> in which each starts anew; where a run has another sequence of them there is nothing to compare, and it is reported.
 module run_difference
    use, intrinsic :: ieee_arithmetic, only: ieee_is_finite
    use kept_run, only: contact_t, kept_run_t, n_sort, sort_positions, sort_reactions, sort_velocities
@@ -65,7 +65,7 @@ contains
       class(kept_run_t), intent(in) :: run        !! the run
       class(kept_run_t), intent(in) :: reference  !! what it is compared with
       real(wp), intent(in) :: scale(:)            !! (n_sort) scales [any]
-      real(wp), allocatable, intent(out) :: d(:, :)  !! (n_sort, instants) greatest difference of each sort [1]
+      real(wp), allocatable, intent(out) :: d(:, :)  !! (n_sort, instants) maximum difference of each sort [1]
 
       integer :: i, k
 
@@ -79,12 +79,12 @@ contains
       end do
    end subroutine distances
 
-   !> Greatest differences up to a time; of the motion the greater one of positions and velocities.
+   !> Maximum differences up to a time; of the motion the greater one of positions and velocities.
    pure subroutine compare_sorts(d, t, until, error, motion)
       real(wp), intent(in) :: d(:, :)       !! (n_sort, instants) differences [1]
       real(wp), intent(in) :: t(:)          !! (instants or more) their times [s]
       real(wp), intent(in) :: until         !! last time that counts [s]
-      real(wp), intent(out) :: error(:)     !! (n_sort) greatest difference of each sort [1]
+      real(wp), intent(out) :: error(:)     !! (n_sort) maximum difference of each sort [1]
       real(wp), intent(out) :: motion       !! that of positions and velocities [1]
 
       integer :: i
@@ -104,8 +104,8 @@ contains
       class(kept_run_t), intent(in) :: run        !! the run
       class(kept_run_t), intent(in) :: reference  !! what it is compared with
       real(wp), intent(in) :: until               !! last time that counts [s]
-      real(wp), intent(out) :: onset              !! greatest difference of onset times [s]
-      real(wp), intent(out) :: peak               !! of peak forces, over the greatest peak [1]
+      real(wp), intent(out) :: onset              !! maximum difference of onset times [s]
+      real(wp), intent(out) :: peak               !! of peak forces, over the maximum peak [1]
       real(wp), intent(out) :: restitution        !! of release over impact speeds, weighed [1]
       logical, intent(out) :: is_other            !! whether the sequence of contacts is another one
 
@@ -186,7 +186,7 @@ contains
       maximum = max(maximum, x)
    end subroutine raise
 
-   !> For every contact of a reference the same one of a run: that of the same place which began as many times before.
+   !> For every contact of a reference the same one of a run: that of the same place which started as many times before.
    subroutine find_partners(a, b, last, tie, partner, is_other)
       type(contact_t), intent(in) :: a(:)                  !! (n) contacts of the reference, by their onsets
       type(contact_t), intent(in) :: b(:)                  !! (m) contacts of the run, by their onsets

@@ -42,7 +42,7 @@ module setting_run
       integer :: member = 0                 !! number of the perturbation put on that, 0: none
       real(wp) :: length = 0.0_wp           !! of a perturbation [m]
       real(wp) :: speed = 0.0_wp            !! of a perturbation [m/s]
-      real(wp) :: rounding = 0.0_wp         !! greatest part of each coordinate by which the start is changed, 0: none [1]
+      real(wp) :: rounding = 0.0_wp         !! maximum part of each coordinate by which the start is changed, 0: none [1]
    end type job_t
 
    !> What came of a run.
@@ -55,7 +55,7 @@ module setting_run
 
 contains
 
-   !> Whether the ladder of a setting is one of steps.
+   !> Whether the tolerance sweep of a setting is one of steps.
    logical function has_fixed_steps(setting)
       type(setting_t), intent(in) :: setting  !! the setting
 

@@ -25,7 +25,7 @@ module time_budget
 
 contains
 
-   !> Begin to count.
+   !> Start to count.
    subroutine begin(self, budget)
       class(time_budget_t), intent(inout) :: self  !! the time
       real(wp), intent(in) :: budget               !! allowed, 0: no limit [s]
@@ -44,7 +44,7 @@ contains
       elapsed = real(now - self%begun, wp)/real(self%rate, wp)
    end function elapsed
 
-   !> Time left for what may go on up to a part of the budget.
+   !> Time left for what may continue up to a part of the budget.
    real(wp) function left(self, part)
       class(time_budget_t), intent(in) :: self  !! the time
       real(wp), intent(in) :: part              !! of the budget [1]
@@ -53,7 +53,7 @@ contains
       if (self%limit > 0.0_wp) left = part*self%limit - self%elapsed()
    end function left
 
-   !> The same for a run that begins now: at least a little, 0: no limit.
+   !> The same for a run that starts now: at least a little, 0: no limit.
    real(wp) function clock_left(self, part)
       class(time_budget_t), intent(in) :: self  !! the time
       real(wp), intent(in) :: part              !! of the budget [1]
