@@ -2,7 +2,7 @@
 !>
 !> A group of the catalogue is a list of items of one sort (bodies, joints, ...); a group is one
 !> quantity of all the items of a room, one dataset of the output file. The equations fill `values`;
-!> the writers in output/ read the rest once and know no kind by name.
+!> results/writers read the rest once and know no kind by name.
 module catalogue
    use, intrinsic :: ieee_exceptions, only: ieee_get_status, ieee_set_halting_mode, ieee_set_status, ieee_status_type, ieee_usual
    use catalogue_groups, only: group_t, resize_groups

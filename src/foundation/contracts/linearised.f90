@@ -1,6 +1,6 @@
 !> What a static analysis says of small motions about a steady state: coefficients of the films, and how the whole mechanism moves.
 !>
-!> The room that finds them is `analysis` (`steady_stability`, `whirl_onset`); those that write them are `numbers` and `output`.
+!> Found by analysis/static (`steady_stability`, `whirl_onset`), written by results/writers and results/summaries.
 module linearised
    use kinds, only: wp
    implicit none (type, external)
