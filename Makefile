@@ -44,7 +44,7 @@ inner = +@$(MAKE) $(parallel) MODE=
 # Tests on all processors where pytest-xdist is there, each file of tests on one of them; PYTEST='-n 0' for one after the other
 workers = $(if $(shell $(PYTHON) -c 'import xdist' 2>/dev/null && echo yes),-p xdist -n $(JOBS) --dist loadfile)
 
-.PHONY: all install uninstall debug run test test-sanitize test-debian check bench bench-peers vtk-test browser-test slurm-test stability certify fuzz figures studies film-table film-errors lint format docs clean help
+.PHONY: all install uninstall debug run quick test mutate release test-sanitize test-debian check bench bench-peers vtk-test browser-test slurm-test stability certify fuzz figures studies film-table film-errors lint format docs clean help
 .PHONY: objects binary test_program bench_programs fuzz_program film_programs
 
 all:
@@ -58,12 +58,31 @@ run:
 	$(inner)release binary
 	$(BUILD)/gudgeon run inputs/slider_crank_dry.deck
 
+pytest = @GUDGEON_BUILD=$(abspath $(BUILD)) PYTEST_DISABLE_PLUGIN_AUTOLOAD=1 $(PYTHON) -B -m pytest -c tests/pytest.ini $(workers)
+
+# The release build only: Fortran tests, each verb once, the scripts
+quick: export GUDGEON_TIER := quick
+quick:
+	@scripts/setup
+	$(inner)release binary test_program
+	$(pytest) $(PYTEST) tests/test_fortran.py tests/e2e/test_smoke.py tests/scripts
+
 test:
 	@scripts/setup
 	$(inner)release binary test_program fuzz_program
 	$(inner)debug binary test_program fuzz_program
-	@GUDGEON_BUILD=$(abspath $(BUILD)) PYTEST_DISABLE_PLUGIN_AUTOLOAD=1 \
-	  $(PYTHON) -B -m pytest -c tests/pytest.ini $(workers) $(PYTEST) tests
+	$(pytest) --durations=15 $(PYTEST) tests
+
+# Changes one operator, constant or condition of src at a time and counts the tests that notice; N, SEED, DIR=src/math
+SEED ?= 1
+mutate:
+	@scripts/setup
+	@$(PYTHON) -B scripts/mutate --build $(abspath $(BUILD))/mutate -n $(if $(filter command line,$(origin N)),$(N),40) --seed $(SEED) $(if $(DIR),--folders $(DIR)) $(MUTATE)
+
+# Checks that version, changelog, citation and man page agree, and writes build/gudgeon-VERSION.tar.gz
+release:
+	$(inner)release binary
+	@$(PYTHON) -B scripts/release $(abspath $(BUILD))
 
 # The tests in a build with the sanitizers of addresses, leaks and undefined behaviour, an hour; what they say is in build/sanitize/reports
 test-sanitize:
@@ -181,7 +200,11 @@ clean:
 help:
 	@echo "make            build/gudgeon                        make debug    build/debug/gudgeon, all checks"
 	@echo "make run        set up, build, run a first deck       make figures  run every deck of inputs/"
+	@echo "make quick      set up, build release, Fortran tests and each verb once: under 2 minutes after the build"
 	@echo "make test       set up, build both, run every test    make check    Fortran tests only: TESTS='module[.name] ...'"
+	@echo "make test PYTEST='-m \"not slow\"'  omits the tests that take more than 5 s"
+	@echo "make mutate     tests of the tests: N=40 SEED=1 DIR='src/...' changes of one operator or constant, survivors listed"
+	@echo "make release    checks that version, changelog, citation and man page agree; build/gudgeon-VERSION.tar.gz"
 	@echo "make bench      the timers of tests/bench             make lint     format and style; make format corrects the format"
 	@echo "make bench-peers  other programs (Simbody, MuJoCo, Exudyn) on the same scenes: time against error; PEERS='--quick'"
 	@echo "make vtk-test   the file of a motion (motion = vtkhdf) read by VTK itself, from PyPI in a virtual environment"

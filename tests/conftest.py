@@ -11,14 +11,20 @@ sys.dont_write_bytecode = True
 ROOT = pathlib.Path(__file__).resolve().parent.parent
 BUILD = pathlib.Path(os.environ.get("GUDGEON_BUILD", ROOT / "build")).resolve()
 IS_SANITIZED = os.environ.get("GUDGEON_SANITIZED") == "yes"  # make test-sanitize: one build stands for both
-DIRECTORY = {"sanitize": BUILD / "sanitize"} if IS_SANITIZED else {"release": BUILD, "debug": BUILD / "debug"}
+IS_QUICK = os.environ.get("GUDGEON_TIER") == "quick"  # make quick: the release build only
+if IS_SANITIZED:
+    DIRECTORY = {"sanitize": BUILD / "sanitize"}
+elif IS_QUICK:
+    DIRECTORY = {"release": BUILD}
+else:
+    DIRECTORY = {"release": BUILD, "debug": BUILD / "debug"}
 
 os.environ["OPENBLAS_NUM_THREADS"] = "1"
 
 
 def directory_of(mode):
-    """Where the programs of a build are."""
-    return DIRECTORY["sanitize" if IS_SANITIZED else mode]
+    """Where the programs of a build are; where there is one build only, it stands for both."""
+    return DIRECTORY.get(mode) or next(iter(DIRECTORY.values()))
 
 
 def pytest_collection_modifyitems(items):

@@ -4,7 +4,7 @@ module version
    private
    public :: program_date, program_version
 
-   character(*), parameter :: program_version = "0.1.0"     !! of gudgeon
-   character(*), parameter :: program_date = "2026-11-22"   !! of this version
+   character(*), parameter :: program_version = "1.0.0"     !! of gudgeon
+   character(*), parameter :: program_date = "2026-11-29"   !! of this version
 
 end module version
