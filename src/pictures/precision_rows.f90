@@ -29,7 +29,8 @@ contains
                                                                 number(zero_of_errors(study)))
       if (ieee_is_finite(zero_of_ledgers(study))) call lines%line("# zero energy errors are drawn at "// &
                                                                  number(zero_of_ledgers(study)))
-      call lines%line("# tolerance or step [1 or s], error, CPU median [s], CPU minimum [s], right-hand sides, steps, ledger, state, below")
+      call lines%line("# tolerance or step [1 or s], error, CPU median [s], CPU minimum [s], right-hand sides, steps, "// &
+                      "ledger, state, below")
       do k = 1, size(study%ladders)
          call lines%line("# "//study%ladders(k)%name)
          do i = 1, size(study%ladders(k)%rungs)
