@@ -157,10 +157,10 @@ def test_mistakes_have_a_place(gudgeon):
     for figures, part, words in (
         ("slider.velocity.x + crank.angel against motor.coordinate", "crank.angel", "did you mean 'crank.angle'"),
         ("slider.velocity.x agianst motor.coordinate", "agianst", "did you mean 'against'"),
-        ("slider.velocity.x against motor.coordinate in mm", "mm", "does not measure"),
-        ("slider.velocity.x in mm/s from 1 mm to 2 mm", "mm", "does not measure"),
-        ("against motor.coordinate", "against", "a figure is wanted before"),
-        ("gudgeon.orbit in mm", "in", "belongs to figures of curves"),
+        ("slider.velocity.x against motor.coordinate in mm", "mm", "does not match the dimension"),
+        ("slider.velocity.x in mm/s from 1 mm to 2 mm", "mm", "does not match the dimension"),
+        ("against motor.coordinate", "against", "missing figure before"),
+        ("gudgeon.orbit in mm", "in", "is valid for figures of curves"),
         ("panels(slider.velocity.x, crank.angle", "panels(slider.velocity.x, crank.angle", "missing closing parenthesis"),
     ):
         directory = scratch()
@@ -207,7 +207,7 @@ def test_scale_of_the_ideal_joints_holds_their_curve(gudgeon, tmp_path):
     """A block thrown against the upper side of its guide: the force on it is downward, that of the ideal guide m g upward."""
     call(gudgeon, "run", written(tmp_path, BLOCK), "--out", tmp_path / "run", "--quiet")
     script = (tmp_path / "run" / "figures" / "loose.force.gp").read_text(encoding="utf-8")
-    second = script.split("scale of the ideal joints")[1]
+    second = script.split("range of the ideal joints")[1]
     unit = {"N": 1.0, "kN": 1e3}[re.search(r"force \[(.*?)\]", second).group(1)]
     least, greatest = (float(end) * unit for end in re.search(r"set yrange \[(.*?):(.*?)\]", second).groups())
     assert least < 0.0 and greatest > 0.5 * 9.81
@@ -231,7 +231,7 @@ def test_prefixes_follow_what_is_drawn(gudgeon, figure, changes, first, second):
     text = text.replace("FORCE", "{0.02N*sin(2*pi*t*2/1ms)}" if "kN" in figure else "{0.02mN*sin(2*pi*t*2/1ms)}")
     folder = drawn(gudgeon, text, figure)
     script = only(folder, "*.gp").read_text(encoding="utf-8")
-    parts = script.split("scale of the ideal joints")
+    parts = script.split("range of the ideal joints")
     units = [re.search(r"set ylabel 'force \[(.*?)\]'", part).group(1) for part in parts]
     assert units == [first, second][: len(parts)] and len(parts) == (2 if second else 1)
 

@@ -50,7 +50,7 @@ def test_explained(gudgeon, tmp_path):
     """`explain` tells what there is to choose from."""
     deck = written(tmp_path, changed(GRIP, "analysis.dynamic", method="auto"))
     assert "explicit of order 6 (verner" in call(gudgeon, "explain", deck).stdout
-    assert "explicit of order 8 (dop853" in call(gudgeon, "explain", deck, "--tolerance", "1e-9").stdout
+    assert "explicit steps of order 8 (dop853" in call(gudgeon, "explain", deck, "--tolerance", "1e-9").stdout
 
 
 def test_named_method_that_is_too_slow(gudgeon):

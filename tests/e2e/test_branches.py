@@ -160,8 +160,8 @@ def test_bevel_gears_that_become_parallel(gudgeon):
     gear = '[joint.gear]\nname i j axis_i axis_j radius_i[m] radius_j[m]\nmesh g w "0 0 1" "0 0 1" 0.1 0.1\n'
     text = SWING.replace("{tilt}", "90").replace("{angle}", "{90deg - 1rad*t/(1 s)}") + gear + TAIL.format(end=3)
     words = ended(gudgeon, text)
-    assert "joint 'mesh' has lost its mesh" in words and "deg apart" in words
-    told = float(words.split(" deg apart")[0].split()[-1])
+    assert "joint 'mesh' has lost its mesh" in words and "deg" in words
+    told = float(words.split(" deg")[0].split()[-1])
     assert 10 < told < np.degrees(np.arcsin(0.25)) + 0.01
     still = run_with(gudgeon, text.replace("1rad*t/(1 s)", "0.3rad*sin(2rad*t/(1 s))"))
     assert still.summary["status"] == "complete"
@@ -182,7 +182,7 @@ def test_torsion_spring_whose_axes_part(gudgeon, method):
     text = (SWING.replace("{tilt}", "0").replace("{angle}", "{1rad*t/(1 s)}") + spring
             + TAIL.format(end=3).replace("tolerance", f"method = {method}\ntolerance"))
     words = ended(gudgeon, text)
-    assert "force 'coil' has lost its angle" in words and "less than 90 deg" in words
+    assert "force 'coil' has lost its angle" in words and "limit 90 deg" in words
 
 
 def test_rack_whose_pinion_tilts(gudgeon):

@@ -111,7 +111,7 @@ def test_new_needs_a_name_in_this_folder(gudgeon, name):
     directory = scratch()
     (directory / "inner" / "a").mkdir(parents=True)
     done = call(gudgeon, "new", name, cwd=directory / "inner", expect=USAGE)
-    assert f"'{name}' is no name for a deck" in done.stderr
+    assert f"'{name}' is not a valid deck name" in done.stderr
     assert not list(directory.rglob("*.deck"))
 
 
@@ -309,10 +309,10 @@ def test_a_mechanism_that_cannot_be_assembled(gudgeon):
 
 def test_explain_says_where_contacts_are_looked_for(gudgeon, tmp_path):
     """Within steps where onsets are located; else at their ends only, as a contact shorter than a step shows."""
-    assert "contacts are looked for at 8 places of a step" in call(gudgeon, "explain", DECK).stdout
+    assert "contact detection: 8 points per step" in call(gudgeon, "explain", DECK).stdout
     deck = written(tmp_path, plain_deck((("analysis.dynamic", "contact_onset", "interpolate"),)))
     text = call(gudgeon, "explain", deck).stdout
-    assert "at the ends of steps only (contact_onset = interpolate)" in text and "8 places" not in text
+    assert "at the ends of steps only (contact_onset = interpolate)" in text and "8 points" not in text
     ball = """deck = 1
 [bodies]
 name  mass[kg]  inertia[kg.m^2]  x[m]  y[m]  vx[m/s]
@@ -362,8 +362,8 @@ pin   hook  eye
 [analysis.dynamic]
 end = 1 s
 """
-    assert "bodies moved by up to 0 m" in call(gudgeon, "check", written(tmp_path, text.replace("OFF", "0 0"))).stdout
-    assert "bodies moved by up to 0.05 m" in call(gudgeon, "check", written(tmp_path, text.replace("OFF", "0 -0.05"))).stdout
+    assert "maximum displacement of a body 0 m" in call(gudgeon, "check", written(tmp_path, text.replace("OFF", "0 0"))).stdout
+    assert "maximum displacement of a body 0.05 m" in call(gudgeon, "check", written(tmp_path, text.replace("OFF", "0 -0.05"))).stdout
     for place, told in (("0 0", ""), ("0 -0.05", "start      initial assembly correction: up to 0.05 m")):
         call(gudgeon, "run", written(tmp_path, text.replace("OFF", place)), "--out", tmp_path / "out", "--quiet")
         lines = (tmp_path / "out" / "summary.txt").read_text().splitlines()

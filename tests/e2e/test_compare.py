@@ -217,7 +217,7 @@ def test_mistakes_have_messages(gudgeon):
     ):
         done = call(gudgeon, "compare", "outputs/pend", "two.csv", "--channel", *options, cwd=folder, expect=2)
         assert words in done.stderr
-    assert "two things" in call(gudgeon, "compare", "outputs/pend", cwd=folder, expect=2).stderr
+    assert "two arguments" in call(gudgeon, "compare", "outputs/pend", cwd=folder, expect=2).stderr
     call(gudgeon, "compare", "missing", "two.csv", cwd=folder, expect=9)
     call(gudgeon, "compare", "outputs/pend", "missing.csv", cwd=folder, expect=9)
     done = call(gudgeon, "compare", "outputs/pend", "two.csv", "--time", "1 shift=100s", "--channel", "rod.angle=2", cwd=folder, expect=2)

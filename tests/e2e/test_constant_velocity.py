@@ -104,4 +104,4 @@ def test_opposed(gudgeon):
     deck = written(directory, SHAFTS.replace('"0 0 1"   "0 0 1"', f'"0 0 1"   "{s!r} 0 {-c!r}"'))
     done = subprocess.run([gudgeon, "check", deck], capture_output=True, text=True)
     assert done.returncode != 0
-    assert "joint 'bent' is closed the wrong way round" in done.stderr and "reverse axis_i or axis_j" in done.stderr
+    assert "joint 'bent' is assembled in the reversed configuration" in done.stderr and "reverse axis_i or axis_j" in done.stderr

@@ -201,7 +201,7 @@ def test_a_law_that_jumps_at_the_turn_shows_both_sides(gudgeon):
     force = run.rows("clearances/contacts/normal_force")[:, 0]
     peak = np.argmax(force)
     assert kind[peak] == PEAK and kind[peak + 1] == JUMP and time[peak] == time[peak + 1]
-    assert_close(force[peak + 1], 0.09 * force[peak], relative=1e-6, what="parting force")
+    assert_close(force[peak + 1], 0.09 * force[peak], relative=1e-6, what="force during separation")
 
 
 def test_equal_spacing(gudgeon):

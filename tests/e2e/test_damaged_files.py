@@ -20,7 +20,7 @@ import h5py
 
 MANY = int(os.environ.get("GUDGEON_DAMAGED", "15"))
 ENDS = (0, 1, 2, 3, 4, 5, 6, 7, 8, 9)  # exit codes with words
-SAID = ("damaged", "checksum", "as they were written", "cannot", "no ", "not ", "anew", "differ")
+SAID = ("damaged", "checksum", "recorded in the checkpoint", "cannot", "no ", "not ", "anew", "differ")
 
 
 def damaged(content, rng):

@@ -36,9 +36,9 @@ def run(program, tables, columns="", cells="", expect=0):
 
 
 @pytest.mark.parametrize("tables, words", [
-    ('[joint.universal]\nname i j axis_i axis_j\npin wall near "0 0 1" "0 0 1"\n', "at right angles where they should be parallel, or the other"),
-    ('[joint.revolute]\nname i j axis_i axis_j\npin wall near "0 0 1" "1 0 0"\n', "at right angles where they should be parallel, or the other"),
-    ('[joint.perpendicular]\nname i j axis_i axis_j\npin wall near "0 0 1" "0 0 1"\n', "at right angles where they should be parallel, or the other"),
+    ('[joint.universal]\nname i j axis_i axis_j\npin wall near "0 0 1" "0 0 1"\n', "perpendicular but must be parallel, or vice versa"),
+    ('[joint.revolute]\nname i j axis_i axis_j\npin wall near "0 0 1" "1 0 0"\n', "perpendicular but must be parallel, or vice versa"),
+    ('[joint.perpendicular]\nname i j axis_i axis_j\npin wall near "0 0 1" "0 0 1"\n', "perpendicular but must be parallel, or vice versa"),
     ('[joint.revolute_spherical]\nname i j axis_i\npin wall far "1 0 0"\n', "stays open by 0.5 m"),
     ("[joint.distance]\nname i j\npin wall near\n", "the two points coincide initially"),
     (PIN + '[force.torsion_spring]\nname i j axis_i axis_j stiffness[N.m/rad]\ncoil ground bar "0 1 0" "1 0 0" 5\n', "the axes of 'coil' are not parallel"),
@@ -115,4 +115,4 @@ def test_parallel_arms_are_told_of_the_joint_that_has_them(gudgeon, arm_i, arm_j
     deck = written(scratch(), SHAFTS.format(arm_i=arm_i, arm_j=arm_j, end=end, outlet=outlet))
     said = call(gudgeon, "check", deck, expect=4).stderr
     assert "joint 'hook' has, at the given positions of the bodies, a residual of 1 rad" in said
-    assert "at right angles where they should be parallel, or the other way round" in said
+    assert "perpendicular but must be parallel, or vice versa" in said

@@ -84,7 +84,7 @@ def test_loose_joint_is_magnified(gudgeon, tmp_path):
     np.testing.assert_allclose(journal - hole, factor * eccentricity, rtol=0.02)
     arrow = frame["arrow"][0][1] - frame["arrow"][0][0]
     np.testing.assert_allclose(arrow / np.hypot(*arrow), force / np.hypot(*force), atol=1e-3)
-    assert float(re.search(r"longest arrow ([0-9.]+) N", script).group(1)) == float(f"{np.hypot(*force):.3g}")
+    assert float(re.search(r"maximum arrow ([0-9.]+) N", script).group(1)) == float(f"{np.hypot(*force):.3g}")
 
 
 def test_paths_are_thinned_and_keep_peaks(gudgeon, tmp_path):
@@ -207,7 +207,7 @@ def test_loads_are_arrows(gudgeon, tmp_path):
     with h5py.File(tmp_path / "run" / "run.h5") as file:
         row = np.argmin(abs(file["time"][:] - 0.1))
         np.testing.assert_allclose(found[-1]["arrow"][0][0], file["bodies/position"][row, 0], atol=1e-4)
-    assert "longest arrow 5 N" in (folder / "animation.n.6.last.50ms.gp").read_text(encoding="utf-8")
+    assert "maximum arrow 5 N" in (folder / "animation.n.6.last.50ms.gp").read_text(encoding="utf-8")
     assert "the longest 5 N" in (folder / "animation.n.6.last.50ms.html").read_text(encoding="utf-8")
     assert "g:[[" in (folder / "animation.n.6.last.50ms.html").read_text(encoding="utf-8")
 
@@ -219,13 +219,13 @@ def test_loads_are_arrows(gudgeon, tmp_path):
         ("coupler()", "write mechanism("),
         ("animaton", "did you mean 'animation'?"),
         ("mecanism(t=2ms)", "did you mean 'mechanism(t=2ms)'?"),
-        ("mechanism(t=2s)", "not among what is written"),
-        ("mechanism(t=2ms,1ms)", "instants must increase"),
-        ("mechanism(t=2)", "no time of a run"),
-        ("strip(n=1)", "no number of pictures"),
+        ("mechanism(t=2s)", "is not an output time"),
+        ("mechanism(t=2ms,1ms)", "times must increase"),
+        ("mechanism(t=2)", "not a time of the run"),
+        ("strip(n=1)", "not a number of pictures"),
         ("animation(last = 1 turns of moter)", "unknown driver 'moter'"),
-        ("animation(last = 9 turns of motor)", "never makes so many turns"),
-        ("strip(last = 3 s)", "before the first output instant"),
+        ("animation(last = 9 turns of motor)", "never completes so many turns"),
+        ("strip(last = 3 s)", "before the first output time"),
     ],
 )
 def test_mistakes(gudgeon, tmp_path, figure, message):

@@ -56,7 +56,7 @@ def test_every_reference_counts(build, options, deck, request):
 def test_nothing_is_dropped(gudgeon):
     """Where the motion needs all that the deck gives, explain says so."""
     text = call(gudgeon, "explain", ROOT / "inputs" / "ferris_wheel.deck").stdout
-    assert "\ndropped\n  nothing\n" in text
+    assert "\nnot used\n  nothing\n" in text
 
 
 @pytest.mark.parametrize("build", ["gudgeon", "gudgeon_debug"])

@@ -123,7 +123,7 @@ def test_balance_of_heat(gudgeon, load, rpm):
     assert_close(film["temperature"] - 273.15, celsius, absolute=1e-5, what="temperature")
     assert_close(film["viscosity"], viscosity, relative=1e-6, what="viscosity")
     assert_close(film["eccentricity_ratio"], eps, relative=1e-6, what="eccentricity")
-    assert "degC by a balance of heat" in run.done.stdout
+    assert "degC from the heat balance" in run.done.stdout
     cold = static(gudgeon, graded_deck(), film="short_gumbel", load=f"{load - WEIGHT!r}N", speed=f"{rpm}rpm", heat="off").summary["films"][0]
     assert not cold["heated"]
     assert_close(cold["viscosity"], grade_viscosity(40), relative=1e-9, what="viscosity of the lubricant")
@@ -133,17 +133,17 @@ def test_balance_of_heat(gudgeon, load, rpm):
 def test_balance_is_of_a_static_analysis(gudgeon):
     """A run in time keeps the temperature of the lubricant, and says so; explain too."""
     run = film_run(gudgeon, graded_deck(), film="finite", duration="1ms")
-    assert any("heat = balance is for a static analysis" in warning for warning in run.summary["warnings"])
+    assert any("heat = balance needs a static analysis" in warning for warning in run.summary["warnings"])
     said = call(gudgeon, "explain", graded_deck(), "--set", "film=finite").stdout
-    assert "in a static analysis only" in said
-    assert "degC by a balance of heat" in said
+    assert "a static analysis computes the film temperature" in said
+    assert "degC from the heat balance" in said
 
 
 def test_balance_needs_a_grade(gudgeon):
     """An oil whose viscosity does not depend on the temperature has no balance."""
     text = graded_deck().read_text().replace("grade        temperature\noil    iso_vg_100   40degC", "viscosity\noil    {viscosity}")
     done = call(gudgeon, "check", written(scratch(), text), expect=3)
-    assert "the same viscosity at any temperature" in done.stderr
+    assert "does not depend on temperature" in done.stderr
     assert "give the lubricant a grade" in done.stderr
 
 
@@ -171,7 +171,7 @@ def test_too_hot(gudgeon, viscosity, in_the_mean):
     assert len(told) == in_the_mean
     if told:
         rise = values(static(gudgeon, film="finite", load="500 N", viscosity=viscosity))["temperature_rise"]
-        assert "limit 150 K" in told[0] and "less viscosity" in told[0]
+        assert "limit 150 K" in told[0] and "lower viscosity" in told[0]
         assert_close(float(told[0].split("up to ")[1].split(" K")[0]), rise, relative=1e-3, what="rise")
 
 

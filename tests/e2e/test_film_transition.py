@@ -48,7 +48,7 @@ def test_thin_films_are_told_of(gudgeon):
     assert "joint 'gudgeon'" in words[0] and "below 2.94 um (1.5e-4 of the journal's diameter" in words[0] and "first at" in words[0]
     assert "Hamrock" not in words[0]
     least = thin.item("clearances/film_thickness", "gudgeon").min() * 1e6
-    said = float(words[0].split("as thin as ")[1].split()[0])
+    said = float(words[0].split("minimum thickness ")[1].split()[0])
     assert least - 0.01 < said <= least + 1e-3
     thick = film_run(gudgeon, CRANK, turns=1)
     assert not [word for word in thick.summary["warnings"] if "film" in word]

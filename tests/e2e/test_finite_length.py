@@ -54,7 +54,7 @@ def test_carries_the_load(gudgeon):
 def test_mistakes(gudgeon):
     """A bearing outside of the table, supplies that leave no film: the place is shown."""
     done = call(gudgeon, "check", bearing_deck("4"), "--set", "film=finite", expect=3)
-    assert "L/D = 0.204082 is outside the range of 'finite', 0.25 to 4" in done.stderr and "^^^^^^ does not fit" in done.stderr
+    assert "L/D = 0.204082 is outside the range of 'finite', 0.25 to 4" in done.stderr and "^^^^^^ does not match" in done.stderr
     wide = bearing_deck(grid="[film.grid]\nname   supply   number   width[deg]\ngrid   fixed    5        70\n")
     done = call(gudgeon, "check", wide, "--set", "film=grid", expect=3)
     assert "5 supplies as wide as this leave no film" in done.stderr

@@ -162,5 +162,5 @@ def test_ideal_twin_is_assembled_as_such(gudgeon):
     """The overlaid twin starts with velocities that its ideal joints allow, also where another contact has no ideal joint."""
     directory = scratch()
     done = call(gudgeon, "run", written(directory, DECK), "--out", directory / "out", "--set", "groups=together")
-    assert "no ideal joint overlaid" not in done.stdout + done.stderr
+    assert "no overlay of ideal joints" not in done.stdout + done.stderr
     assert (directory / "out/ring.ideal.dat").exists()

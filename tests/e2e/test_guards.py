@@ -194,7 +194,7 @@ def test_stop_at_a_place(gudgeon, method):
     stopped = run(gudgeon, text)
     assert_close(stopped.summary["time_end"], math.sqrt(6 / G), absolute=2e-8)
     assert stopped.summary["status"] == "complete"
-    assert "stopped by intent" in stopped.summary["message"] and "ball.position.y < -3 m" in stopped.summary["message"]
+    assert "stopped as requested" in stopped.summary["message"] and "ball.position.y < -3 m" in stopped.summary["message"]
     assert stopped.time[-1] <= stopped.summary["time_end"] < stopped.time[-1] + 0.01 + 1e-12
     assert stop_row(stopped, "bodies/position")[0, 1] == pytest.approx(-3, abs=1e-8)
     assert stop_row(stopped, "bodies/velocity")[0, 1] == pytest.approx(-math.sqrt(6 * G), abs=1e-7)
@@ -297,5 +297,5 @@ def test_stop_on_a_contact(gudgeon):
     assert_close(stop_row(bare, "clearances/contacts/penetration"), [1e-5], absolute=1e-15)
     assert set(bare.rows("row_kind")) == {0, 5}
     ideal = run(gudgeon, text, "--ideal")
-    assert any("left out: the joint is ideal" in words for words in ideal.summary["warnings"])
+    assert any("ignored: the joint is ideal" in words for words in ideal.summary["warnings"])
     assert "stops as requested when gudgeon.penetration > 1e-5 m" in call(gudgeon, "explain", written(scratch(), text)).stdout

@@ -233,7 +233,7 @@ def test_energy_that_faces_make_at_the_mouth_ends_the_run(gudgeon):
     text += "[contact.plane_face]\nname restitution\nface 0.9\n"
     directory = scratch()
     done = call(gudgeon, "run", written(directory, text), "--out", directory / "out", "--quiet", expect=5)
-    assert "a contact that began overlapping made" in done.stderr and "guard 'energy'" in done.stderr
+    assert "a contact with initial overlap created" in done.stderr and "guard 'energy'" in done.stderr
 
 
 def test_moving_guide_is_a_fixed_one_with_the_reduced_mass(gudgeon):

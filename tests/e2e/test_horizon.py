@@ -349,7 +349,7 @@ def test_where_it_is_refused(gudgeon):
     done = call(gudgeon, "sweep", ROOT / "inputs" / "studies" / "law_study.deck", "--horizon", expect=2)
     assert "unknown option '--horizon' of sweep" in done.stderr and "it is one of: run" in done.stderr
     done = call(gudgeon, "run", ROOT / "inputs" / "four_bar_kinematic.deck", "--horizon", expect=2)
-    assert "option --horizon is for motions of [analysis.dynamic]" in done.stderr and "kinematic" in done.stderr
+    assert "option --horizon needs [analysis.dynamic]" in done.stderr and "kinematic" in done.stderr
 
 
 def held_body(inertia, damping, end):
@@ -426,7 +426,7 @@ def test_time_that_ends_early(gudgeon):
     assert summary["exponent_cut"] is True and summary["exponent_reason"] == ""
     assert summary["exponent_to"] < 2 and summary["exponent_from"] == pytest.approx(0.25 * summary["exponent_to"])
     report = (summary["directory"] / "summary.txt").read_text()
-    assert "there its time was up" in report
+    assert "time budget exhausted before the end" in report
 
 
 @pytest.mark.parametrize("key", [False, True])

@@ -28,7 +28,7 @@ ABSURD = {
     "sweep": ("check", SHORT + "\n[sweep]\nc = 0.1 .. 0.5 mm in 2000000000\n", 3, b"range of 'c'"),
     "grid": ("check", SHORT + "\n[sweep]\nc = 0.1 .. 0.5 mm in 9999\nrestitution = 0.1 .. 0.9 in 9999\n", 3, b"too many"),
     "instants": ("check", changed(SHORT, "output", every="1e-30 s", instants_limit="2e9"), 3, b"output instants"),
-    "pictures": ("run", changed(SHORT, "output", figures="animation(n=2000000000)"), 3, b"no number of pictures"),
+    "pictures": ("run", changed(SHORT, "output", figures="animation(n=2000000000)"), 3, b"not a number of pictures"),
     "ensemble": ("check", SHORT + "\n[ensemble]\nruns = 1e18\n", 3, b"runs"),
     "bins": ("check", SHORT + "\n[statistics]\nafter = 0.1 ms\nbins = 1e18\n", 3, b"bins"),
 }

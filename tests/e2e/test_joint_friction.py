@@ -299,8 +299,8 @@ grip 0.5
 
 
 @pytest.mark.parametrize("change, words", [
-    ((DRY, "[friction.coulomb]\nname coefficient\nrub 0.2\n"), ["sticks at events", "friction.lugre"]),
-    (("rub 0.02", "rub 0"), ["rubs at no radius", "give the radius of the pin"]),
+    ((DRY, "[friction.coulomb]\nname coefficient\nrub 0.2\n"), ["needs stick-slip events", "friction.lugre"]),
+    (("rub 0.02", "rub 0"), ["has friction but no radius", "give the radius of the pin"]),
     (("hub rub", "hub rob"), ["unknown friction 'rob'", "did you mean 'rub'"]),
 ], ids=["sticks", "radius", "name"])
 def test_mistakes(gudgeon, change, words):

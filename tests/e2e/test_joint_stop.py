@@ -149,7 +149,7 @@ GOOD = {"lower[deg]": "-25", "upper[deg]": "40"}
     ({"upper[kg]": "4"}, None, ["neither an angle nor a length"]),
     (GOOD, ("bump pin", "bump pit"), ["unknown joint 'pit'", "did you mean 'pin'? revolute or translational joints: pin"]),
     (GOOD, (" 0.25 hard", " 0 hard"), ["of an angle has no lever"]),
-    (GOOD, ("hard 1e10", "hard 0"), ["has no stiffness", "give its column stiffness"]),
+    (GOOD, ("hard 1e10", "hard 0"), ["gives no stiffness", "set its column stiffness"]),
 ], ids=str)
 def test_mistakes(gudgeon, limits, change, words):
     """What a stop cannot be is said, with its place."""

@@ -22,7 +22,7 @@ def test_step_is_named(gudgeon, gudgeon_debug, name, step):
         said = failed(program, (ROOT / f"inputs/{name}.deck").read_text(), step)
         said = said[said.index("error:"):]
         assert said.startswith(f"error: the step of {value} s is too long for the motion"), said
-        assert "take a shorter step" in said
+        assert "use a shorter step" in said
 
 
 def test_other_causes_are_not_blamed_on_the_step(gudgeon):

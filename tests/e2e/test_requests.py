@@ -271,7 +271,7 @@ def test_mistakes_in_tables_of_requests(gudgeon):
         ("far    pin    j   end", "far    pin    j   and", "unknown point 'and'"),
         ("j   -      rod\nwall", "j   -      rot\nwall", "unknown body 'rot'"),
         ("grip   pin  ", "rod    pin  ", "used twice"),
-        ("motor pin 3", "motor pin {3rad/s*rod.angle/1rad} #", "has no place here"),
+        ("motor pin 3", "motor pin {3rad/s*rod.angle/1rad} #", "is not allowed here"),
     ):
         assert old in rod(), old
         done = call(gudgeon, "check", written(scratch(), rod().replace(old, new)), expect=3)

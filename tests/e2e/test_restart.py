@@ -69,7 +69,7 @@ def test_a_signal_saves_the_run(gudgeon, tmp_path, number):
     process = begun(gudgeon, deck, out)
     process.send_signal(number)
     said = process.communicate(timeout=60)[1]
-    assert process.returncode == 7 and "--resume goes on from there" in said
+    assert process.returncode == 7 and "--resume continues from there" in said
     with h5py.File(out / "run.h5") as file:
         assert file.attrs["status"].decode() == "stopped"
     assert Run(out).summary["status"] == "stopped"
@@ -116,7 +116,7 @@ def test_a_run_that_found_no_room_begins_anew(gudgeon, tmp_path):
     assert done.returncode == 9 and not (out / "checkpoint.h5").exists()
     assert "begins at t = 0" in call(gudgeon, "run", deck, "--out", out, "--resume", "--quiet").stderr
     assert json.loads((out / "summary.json").read_text())["status"] == "complete"
-    assert "nothing to go on with" in call(gudgeon, "run", deck, "--out", out, "--resume", "--quiet").stderr
+    assert "nothing to resume" in call(gudgeon, "run", deck, "--out", out, "--resume", "--quiet").stderr
 
 
 def test_checkpoints_that_find_no_room(gudgeon, tmp_path):

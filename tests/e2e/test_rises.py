@@ -117,8 +117,8 @@ def test_known_instants(gudgeon):
 @pytest.mark.parametrize(
     "row, words",
     [
-        ("lift cycloidal 8 0 60 90 - 360", "takes more than nothing"),
-        ("lift cycloidal 8 200 100 90 - 360", "shorter than rise, dwell and return"),
+        ("lift cycloidal 8 0 60 90 - 360", "must be positive"),
+        ("lift cycloidal 8 200 100 90 - 360", "shorter than the sum of rise, dwell and return"),
         ("lift cycloidal 8 120 60 - - 360", "without a return"),
         ("lift cycloidal 8 120 60ms 90 - 360", "the rise takes"),
         ("lift square 8 120 60 90 - 360", "choices: cycloidal poly345 poly4567 modified_sine"),
@@ -139,7 +139,7 @@ def test_mistakes_of_cams(gudgeon, row, words):
         ("step5(t, 0 s, 0 mm)", "five arguments"),
         ("step5(t, 0 s, 0 mm, 1 s, 1 mm, 2)", "too many"),
         ("step5(t, 0 m, 0 mm, 1 s, 1 mm)", "^"),
-        ("step5(t, 1 s, 0 mm, 1 s, 1 mm)", "x0 and x1 are one place"),
+        ("step5(t, 1 s, 0 mm, 1 s, 1 mm)", "zero width: x0 equals x1"),
         ("step5(t, 0 s, 0 mm, 1 s, 1 N)", "^"),
         ("stepp5(t, 0 s, 0 mm, 1 s, 1 mm)", "did you mean 'step5'"),
     ],

@@ -161,11 +161,11 @@ def test_in_space(gudgeon):
 @pytest.mark.parametrize(
     "channel, words",
     [
-        ("sled.acceleration.x", "a load cannot see"),
+        ("sled.acceleration.x", "a load cannot use"),
         ("slid.velocity.x", "did you mean 'sled.velocity.x'"),
         ("sled.velocity", "several components"),
         ("sled.velocity.z", "several components"),
-        ("sled.velocity.w", "no such component"),
+        ("sled.velocity.w", "is not a component"),
         ("c.angle", "only planar bodies have an angle"),
     ],
 )

@@ -76,7 +76,7 @@ def run_of(gudgeon, tables, method="verner", friction=COULOMB, gravity="0 -9.81"
 
 def warning_of(run):
     """The warning of sticking that is not unique, blank if there is none."""
-    found = [words for words in run.summary["warnings"] if "contacts that stick is not unique" in words]
+    found = [words for words in run.summary["warnings"] if "sticking contacts are not unique" in words]
     assert len(found) <= 1
     return found[0] if found else ""
 

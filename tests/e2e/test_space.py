@@ -275,12 +275,12 @@ every = 1 ms
 
 
 @pytest.mark.parametrize("columns, moments, cells, expected", [
-    ("x[m]", "1 1 3", "0", "greater than the two others together"),
+    ("x[m]", "1 1 3", "0", "exceeds the sum of the other two"),
     ("ixy[kg.m^2]", "1 1 1", "2", "not positive"),
-    ("e0 e1 angle[deg] axis", "1 1 1", '0.5 0.5 30 "0 0 1"', "more than one way"),
+    ("e0 e1 angle[deg] axis", "1 1 1", '0.5 0.5 30 "0 0 1"', "given twice"),
     ("angle[deg]", "1 1 1", "30", "no axis"),
     ("xi_axis", "1 1 1", '"1 0 0"', "both xi_axis and eta_axis"),
-    ("xi_axis eta_axis", "1 1 1", '"1 0 0" "2 0 0"', "along one line"),
+    ("xi_axis eta_axis", "1 1 1", '"1 0 0" "2 0 0"', "two parallel axes"),
     ("axis angle[deg]", "1 1 1", '"1 0" 30', "3 numbers"),
     ("axis angle[deg]", "1 1 1", '"0 0 0" 30', "zero vector as a direction"),
     ("sequence angle1[deg]", "1 1 1", "zzx 30", "zzx"),
@@ -310,7 +310,7 @@ def test_axes_opposed(gudgeon):
     text = deck("slider_crank_6_6_ball.deck").replace('main      main    heel    "0 1 0"', 'main      main    heel    "0 1 0"   "0 -1 0"'
                                                       ).replace("name      i       j       axis_i", "name      i       j       axis_i   axis_j")
     done = call(gudgeon, "run", written(scratch(), text), "--out", scratch() / "out", expect=(4, 5, 6, 7))
-    assert "'main' is closed the wrong way round" in done.stderr
+    assert "'main' is assembled in the reversed configuration" in done.stderr
 
 
 DRIVEN = """deck = 1

@@ -257,7 +257,7 @@ def test_figures_are_left_out(gudgeon):
     """One instant is no curve: figures become a warning."""
     text = PENDULUM.replace("MORE", "") + "[output]\nfigures = rod.angle\n"
     result = run(gudgeon, text)
-    assert any("figures left out" in warning for warning in result.summary["warnings"])
+    assert any("figures omitted" in warning for warning in result.summary["warnings"])
     assert not (result.directory / "figures").exists()
 
 

@@ -113,9 +113,9 @@ def test_one_gnuplot_draws_several_pictures(gudgeon, place):
 
 
 @pytest.mark.parametrize("script, words", [
-    ("exit 0\n", "left no whole picture"),
-    (": > ${2%.gp}.png\n", "left no whole picture"),
-    ("printf '\\211PNG\\r\\n\\032\\nhalf of it' > ${2%.gp}.png\n", "left no whole picture"),
+    ("exit 0\n", "wrote an incomplete picture"),
+    (": > ${2%.gp}.png\n", "wrote an incomplete picture"),
+    ("printf '\\211PNG\\r\\n\\032\\nhalf of it' > ${2%.gp}.png\n", "wrote an incomplete picture"),
     ("echo no fonts >&2\nexit 3\n", "ended with code 3"),
     ("kill -SEGV $$\n", "ended with code 139"),
 ])

@@ -190,7 +190,7 @@ def test_a_ledger_that_nearly_closes(gudgeon):
         residual = run.summary["energy_residual_max"]/run.summary["energy_max"]
         assert (1e-4 < residual < 1e-3) if is_told else residual < 1e-4
         if is_told:
-            assert "ledger does not close" in one_warning(run) and "(limit 0.0001)" in one_warning(run)
+            assert "energy balance violated" in one_warning(run) and "(limit 0.0001)" in one_warning(run)
         else:
             assert not run.summary["warnings"]
 

@@ -72,7 +72,7 @@ contains
       call check_equal(error, r%scene%values(2)%vector%n, 2, "its size")
       call check_close(error, r%scene%values(3)%number, 293.15_wp, 1.0e-13_wp, "a temperature")
       call check_close(error, r%output%values(1)%number, 3.0_wp, 0.0_wp, "a number of turns")
-      call check_equal(error, r%output%values(1)%text, "motor", "turns of what")
+      call check_equal(error, r%output%values(1)%text, "motor", "reference of turns")
       call check_close(error, r%output%values(2)%number, 0.024_wp, 0.0_wp, "a time")
       call check_equal(error, r%output%values(2)%text, "", "not in turns")
    end subroutine test_numbers
@@ -160,7 +160,7 @@ contains
       call read_lines(good, r, "wy=fast")
       call check_true(error, index(r%message, "did you mean 'way'?") > 0, "a misspelt parameter")
       call read_lines(good, r, "c=0.1")
-      call check_true(error, index(r%message, "parameter 'c' is a length [m] in the deck") > 0, "a unit is missing")
+      call check_true(error, index(r%message, "parameter 'c' is a length [m] in the deck") > 0, "missing unit")
       call check_equal(error, r%n_mistake, 1, "only this is reported")
    end subroutine test_overrides
 
@@ -323,7 +323,7 @@ contains
       call check_true(error, index(r%message, "a parenthesis is not closed in key channels of output") > 0, "a parenthesis")
       call check_true(error, index(r%message, "unknown unit 'bogus' in key method of output") > 0, "a unit")
       call check_true(error, index(r%message, "option 'beta' stands twice in key method of output") > 0, "a doubled option")
-      call check_true(error, index(r%message, "turns of what is not clear in key last of output") > 0, "turns of nothing")
+      call check_true(error, index(r%message, "reference of turns is not clear in key last of output") > 0, "turns of nothing")
    end subroutine test_mistakes_of_defaults
 
    !> What cannot be read at all gives one message and no other.
@@ -336,8 +336,8 @@ contains
       call expect("", "it is empty")
       call expect(nl//"   "//nl, "it is empty")
       call expect("# only"//nl, "the deck is empty")
-      call expect("deck = 1"//achar(0), "it is not text")
-      call expect(repeat(achar(1)//"a", 100), "it is not text")
+      call expect("deck = 1"//achar(0), "not a text file")
+      call expect(repeat(achar(1)//"a", 100), "not a text file")
       call expect("deck = 2"//nl//"nonsense", "unsupported format version '2'")
       call expect("decks = 1"//nl//"nonsense", "invalid format version")
       call expect("nonsense"//nl//"{", "missing format version")

@@ -68,8 +68,8 @@ contains
       horizon%is_agreed = .false.
       call check_equal(error, verdict(horizon), verdict_differ, "both part, at other rates")
       call add_horizon(lines, horizon)
-      call check_true(error, index(lines%get(), "no verdict: the two methods differ") > 0, "the words")
-      call check_true(error, index(lines%get(), "neighbouring motions") == 0, "neither is claimed")
+      call check_true(error, index(lines%get(), "undecided: the two methods differ") > 0, "the words")
+      call check_true(error, index(lines%get(), "neighbouring trajectories") == 0, "neither is claimed")
       horizon%twin%rate%value = -3.0_wp
       call check_equal(error, verdict(horizon), verdict_differ, "one parts, one does not")
    end subroutine test_verdict_of_two_methods

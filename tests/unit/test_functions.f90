@@ -63,7 +63,7 @@ contains
                if (info%columns(i)%name == "end") item%values(i)%number = 3.0_wp  ! behind every origin, and where it is looked at
             end do
             call kind%make(item, made)
-            call check_equal(error, made%column, 0, info%name//": no mistake")
+            call check_equal(error, made%column, 0, info%name//": no error")
             if (allocated(error)) return
             do i = 1, 4
                call curve_values(made%curve, 1.43_wp + places(i)*step, near(:, i))

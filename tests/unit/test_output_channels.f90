@@ -188,14 +188,14 @@ contains
       call check_figure(error, "portrait(slider.velocity.x,crank.angel)", "unknown channel 'crank.angel'")
       call check_figure(error, "slider.velocity.x + crank.angel", "unknown channel 'crank.angel'")
       call check_figure(error, "slider.velocity.x + crank.angle + motor.moment", "'motor.moment' has another unit")
-      call check_figure(error, "slider.velocity.x in mm", "unit 'mm' does not measure")
+      call check_figure(error, "slider.velocity.x in mm", "unit 'mm' does not match the dimension")
       call check_figure(error, "slider.velocity.x in furlong", "unknown unit 'furlong'")
       call check_figure(error, "slider.velocity.x from 0 to 1", "missing unit of the axis limits")
       call check_figure(error, "slider.velocity.x from 2 to 1 m/s", "the axis limits do not increase")
-      call check_figure(error, "slider.velocity.x from 1 m/s", "'to' is missing")
+      call check_figure(error, "slider.velocity.x from 1 m/s", "missing 'to'")
       call check_figure(error, "slider.velocity.x against slider.velocity", "'slider.velocity' is not a single number")
       call check_figure(error, "slider.velocity.x against crank.angle + motor.moment", "a figure has one abscissa")
-      call check_figure(error, "gudgeon.orbit in mm", "'in' belongs to figures of curves")
+      call check_figure(error, "gudgeon.orbit in mm", "'in' is valid for figures of curves")
       call check_figure(error, "panels(slider.velocity.x,)", "missing channel before ')'")
    end subroutine wrong_figures_are_explained
 

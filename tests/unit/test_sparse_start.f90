@@ -219,7 +219,7 @@ contains
       type(error_t), allocatable, intent(out) :: error  !! what failed
 
       call refused_by_both(two_rods("- - -", "- - -", "[initial.speed]"//nl//"name joint speed[rad/s]"//nl//"one pin 1"//nl// &
-                                    "other pin 2"), "no velocities fulfil", error)
+                                    "other pin 2"), "no velocities satisfy", error)
    end subroutine test_contradictory_speeds
 
    !> Neither way finds a start, and both say why.

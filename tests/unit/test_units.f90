@@ -145,7 +145,7 @@ contains
       call check_true(error, same_dimension(unit%dimension, dim_temperature), "degC is a temperature")
       call check_close(error, to_si(20.0_wp, unit), 293.15_wp, 1.0e-13_wp, "20 degC")
       call parse_unit("degC/s", unit, message, first, last)
-      call check_equal(error, message, "degC stands alone only; use K in a compound unit", "degC/s")
+      call check_equal(error, message, "degC must stand alone; use K in a compound unit", "degC/s")
    end subroutine test_temperature
 
    !> Errors and where they are.

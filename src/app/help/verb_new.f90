@@ -72,7 +72,7 @@ module verb_new
       "every       = 20 us", &
       "channels    = *", &
       "figures     = slider.velocity slider.acceleration motor.moment gudgeon.orbit animation(last = 1 turns of motor)", &
-      "report      = on                   # report.html with all results; more figures: mechanism  strip(n=8)  coupler(small)"]
+      "report      = on                   # report.html; more figures: mechanism  strip(n=8)  coupler(small)"]
       !! lines of the deck
 
 contains

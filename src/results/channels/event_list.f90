@@ -29,7 +29,7 @@ module event_list
       "normal approach speed at onset", &
       "maximum normal force, located", &
       "maximum penetration, located", &
-      "from onset to separation; NaN: still in contact at the end of the run", &
+      "from onset to separation; NaN: in contact at the end of the run", &
       "normal speed at separation", &
       "energy lost in the contact; NaN if the energy balance is off", &
       "impulse of the normal force over the contact", &
