@@ -130,7 +130,7 @@ def test_horizon_is_told_not_claimed(gudgeon):
     assert found["error"] <= 1e-6 and found["error_at_end"] > 1e-2
     assert re.search(r"beyond t = \S+ s the solution is not predictable: runs diverge there, first in \S+", run.done.stdout)
     assert "neighbouring trajectories diverge as exp(" in run.done.stdout
-    assert "meet other contacts" in run.done.stdout and found["other_contacts_from"] > found["claimed_until"]
+    assert "have different contacts" in run.done.stdout and found["other_contacts_from"] > found["claimed_until"]
 
 
 def test_small_budget_is_told(gudgeon):

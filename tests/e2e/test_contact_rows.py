@@ -223,7 +223,7 @@ def test_equal_spacing(gudgeon):
     told = [with_rows.summary[f"{sort}_rows"] for sort in ("onset", "peak", "end", "jump")]
     assert told == [np.count_nonzero(kinds == kind) for kind in (ONSET, PEAK, END_ROW, JUMP)] and min(told[:3]) > 0
     assert len(kinds) == with_rows.summary["samples"] + sum(told)
-    assert re.search(rf"rows +{sum(told)} more at contacts", (with_rows.directory / "summary.txt").read_text())
+    assert re.search(rf"rows +{sum(told)} additional output rows at contact events", (with_rows.directory / "summary.txt").read_text())
 
 
 STATISTICS = """
