@@ -143,6 +143,7 @@ def test_small_budget_is_told(gudgeon):
     assert "no run came to its end: the budget is used up" in none.done.stderr
 
 
+@pytest.mark.slow
 def test_time_is_kept_for_what_confirms(gudgeon):
     """A motion in space whose runs take long, and others' still longer: something is claimed within the budget all the same."""
     text = changed((ROOT / "inputs" / "double_pendulum.deck").read_text(), "output", figures=None)

@@ -105,6 +105,7 @@ def test_decks_are_found():
         assert list((ROOT / folder).glob("*.deck")), folder
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("deck", DECKS, ids=lambda deck: str(deck.relative_to(ROOT / "inputs")))
 def test_deck(deck, everything, record_property):
     """Every verb ends well; check and explain say what they are for; the run is complete, with its figures and statistics."""

@@ -106,6 +106,7 @@ def check_order(run):
         assert np.array_equal([float(row[-1]) for row in rows], kind)
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("deck", DECKS, ids=lambda path: path.stem)
 def test_histories_hold_the_peaks_of_the_events(gudgeon, deck):
     run = run_of(gudgeon, shortened(deck, "verner"))
@@ -113,6 +114,7 @@ def test_histories_hold_the_peaks_of_the_events(gudgeon, deck):
     check_order(run)
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("method", METHODS[1:])
 @pytest.mark.parametrize("name", ["slider_crank_two_joints", "shaken_pendulum", "hard/wedged_slider", "friction"])
 def test_by_every_method(gudgeon, name, method):

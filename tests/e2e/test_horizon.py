@@ -129,6 +129,7 @@ def pendulum_growth(damping, torque, omega, end, instants):
     return times, np.array(growth)
 
 
+@pytest.mark.slow
 def test_driven_pendulum(gudgeon):
     """Regular with a small torque, chaotic with a large one: as an integration of the variational equation by scipy has it."""
     omega = 2.557
