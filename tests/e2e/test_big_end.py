@@ -104,6 +104,7 @@ def test_load(gudgeon):
     assert np.abs(own).max() > 2e4
 
 
+@pytest.mark.slow
 def test_orbit_of_a_short_film(gudgeon):
     """The whole second cycle within 0.4 % of the clearance, its least film within 1 %."""
     run = film_run(gudgeon, DECK, film="short_exact", cycles=2)
@@ -132,6 +133,7 @@ def combustion(gudgeon, film, words=None):
     return Run(out, call(gudgeon, "run", written(scratch(), text), "--out", out, "--write", "channels", "--tolerance", "1e-8", "--set", f"film={film}"))
 
 
+@pytest.mark.slow
 def test_finite_film_against_the_grid(gudgeon):
     """Around the combustion: `finite` and Reynolds' equation, and the pressures that only the latter has."""
     finite, grid = combustion(gudgeon, "finite"), combustion(gudgeon, "grid", "film(big_end,21ms)")

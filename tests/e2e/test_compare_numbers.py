@@ -57,7 +57,7 @@ def test_numbers_of_one_alone_are_a_difference(gudgeon):
     row = next(r for r in csv.DictReader((out / "compare.csv").open()) if r["channel"] == "request.half")
     assert [row[key] for key in ("only_a", "only_b", "neither", "unsettled")] == [str(half["only_a"]), "0", "0", "0"]
     back, _, said, _ = compared(gudgeon, folder, "part", "all", "--relative", "10", "--channel", "request.half", expect=1)
-    assert back["request.half"]["only_b"] == half["only_a"] and f"a number in B only at {half['only_a']}" in said
+    assert back["request.half"]["only_b"] == half["only_a"] and f"value only in B at {half['only_a']}" in said
 
 
 def test_where_none_has_a_number_they_are_equal(gudgeon):

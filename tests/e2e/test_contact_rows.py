@@ -106,6 +106,7 @@ def check_order(run):
         assert np.array_equal([float(row[-1]) for row in rows], kind)
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("deck", DECKS, ids=lambda path: path.stem)
 def test_histories_hold_the_peaks_of_the_events(gudgeon, deck):
     run = run_of(gudgeon, shortened(deck, "verner"))
@@ -113,6 +114,7 @@ def test_histories_hold_the_peaks_of_the_events(gudgeon, deck):
     check_order(run)
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("method", METHODS[1:])
 @pytest.mark.parametrize("name", ["slider_crank_two_joints", "shaken_pendulum", "hard/wedged_slider", "friction"])
 def test_by_every_method(gudgeon, name, method):
@@ -223,7 +225,7 @@ def test_equal_spacing(gudgeon):
     told = [with_rows.summary[f"{sort}_rows"] for sort in ("onset", "peak", "end", "jump")]
     assert told == [np.count_nonzero(kinds == kind) for kind in (ONSET, PEAK, END_ROW, JUMP)] and min(told[:3]) > 0
     assert len(kinds) == with_rows.summary["samples"] + sum(told)
-    assert re.search(rf"rows +{sum(told)} more at contacts", (with_rows.directory / "summary.txt").read_text())
+    assert re.search(rf"rows +{sum(told)} additional output rows at contact events", (with_rows.directory / "summary.txt").read_text())
 
 
 STATISTICS = """

@@ -22,6 +22,7 @@ def test_rows_name_decks():
         assert deck.strip("`") in DECKS and len(warning) > 10 and len(what) > 10
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("deck", DECKS)
 def test_warnings(gudgeon, deck):
     """The warnings of a deck's run, or sweep, are those of the table."""

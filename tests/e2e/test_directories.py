@@ -61,7 +61,7 @@ def test_a_directory_without_a_marker_is_refused(gudgeon, place, name):
     (place / "proj" / "data" / "x.csv").write_text("1,2")
     before = snapshot(place)
     for _ in range(3):
-        assert "left alone" in run(gudgeon, place, "proj", expect=9).stderr
+        assert "stays unchanged" in run(gudgeon, place, "proj", expect=9).stderr
         assert snapshot(place) == before
 
 

@@ -64,7 +64,7 @@ def test_a_guard_that_ends_it(gudgeon, tmp_path):
          "--quiet", expect=5)
     assert (tmp_path / "run" / "figures" / "mechanism.png").stat().st_size > 3000
     warnings = json.loads((tmp_path / "run" / "summary.json").read_text())["warnings"]
-    assert not [w for w in warnings if "no numbers" in w]
+    assert not [w for w in warnings if "no values" in w]
 
 
 def test_axes_end_with_the_run(gudgeon, tmp_path):

@@ -69,7 +69,7 @@ def test_a_plane_has_no_ideal_twin(build, request):
         directory = scratch()
         deck = written(directory, text)
         call(program, "check", deck, *options)
-        assert "loose joints" in call(program, "explain", deck, *options).stdout
+        assert "joints with clearance" in call(program, "explain", deck, *options).stdout
         call(program, "run", deck, "--out", directory / "out", "--quiet", *options)
         names.append(Run(directory / "out").contacts["time"])
     assert len(names[0]) > 0 and (names[0] == names[1]).all()

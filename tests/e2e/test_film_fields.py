@@ -30,6 +30,7 @@ def force_of(group):
     return -RADIUS * step * np.array([(along[:-1] * np.cos(angle[:-1])).sum(), (along[:-1] * np.sin(angle[:-1])).sum()])
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("film, limit", [("short_sommerfeld", 1e-2), ("long_gumbel", 1e-2), ("short_exact", 1e-2), ("grid", 1e-2)])
 def test_pressures_carry_the_film_force(gudgeon, film, limit):
     """At a time and at the end: the integral is the channel film_force; shapes, units, places, and the figures."""

@@ -157,12 +157,12 @@ start = given
 every = 1 s
 """
     ended = run(gudgeon, text, expect=INTEGRATION)
-    assert "made of nothing" in ended.done.stderr and "guard 'energy'" in ended.done.stderr
+    assert "the motion is not physical" in ended.done.stderr and "guard 'energy'" in ended.done.stderr
     assert ended.summary["time_end"] < 60
     stable = run(gudgeon, text.replace("0.29 s", "0.02 s"))
     assert stable.summary["status"] == "complete"
     text = guarded(text, "energy = 0")
-    assert "made of nothing" not in run(gudgeon, text, expect=None).done.stderr
+    assert "the motion is not physical" not in run(gudgeon, text, expect=None).done.stderr
 
 
 def test_strength(gudgeon):

@@ -30,7 +30,7 @@ def start_accelerations(gudgeon, deck, solver):
     directory = scratch()
     for beside in deck.parent.glob("*.txt"):  # tables that decks name
         shutil.copy(beside, directory)
-    text = changed(deck.read_text(), "analysis.dynamic", solver=solver, start="ideal", end="1 us")
+    text = changed(deck.read_text(), "analysis.dynamic", solver=solver, start="ideal", end="1 us", method="rk4", step="1 us")
     text = changed(text, "output", every="1 us", channels="*.acceleration *.angular_acceleration", figures=None)
     call(gudgeon, "run", written(directory, text), "--out", directory / "out", "--quiet")
     bodies = Run(directory / "out").group("bodies")

@@ -56,6 +56,7 @@ def test_a_killed_run_can_be_read(gudgeon, tmp_path):
     assert not (tmp_path / "run" / "summary.json").exists()
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("condition", ["", "crank.angle > 15 rad"])
 def test_a_run_killed_at_any_write(gudgeon, tmp_path, condition):
     """A SIGKILL before any of the writes to run.h5, from the first flush to the last one of the end, leaves a file that can be read

@@ -94,7 +94,7 @@ def test_slider_crank(gudgeon, slider_crank):
             assert_close(force[:, k], expected, absolute=PART * IDEAL_PEAKS["force"], what=f"force {axis}")
     assert ideal.summary["samples"] == 2401
     assert ideal.summary["violation_max"] < 1e-15
-    assert any("taken as ideal" in warning for warning in ideal.summary["warnings"])
+    assert any("treats joints with clearance as ideal" in warning for warning in ideal.summary["warnings"])
 
 
 def test_every_instant(gudgeon, slider_crank):
@@ -360,7 +360,7 @@ def test_what_it_does_not_know_is_told(gudgeon):
     deck = written(directory, text)
     done = call(gudgeon, "run", deck, "--out", directory / "out", "--write", "channels")
     told = Run(directory / "out", done).summary["warnings"]
-    assert [words for words in told if "[guards] left out" in words] and [words for words in told if "[statistics] left out" in words]
+    assert [words for words in told if "[guards] not used" in words] and [words for words in told if "[statistics] not used" in words]
     assert "--member" in call(gudgeon, "run", deck, "--member", "1", expect=2).stderr
 
 

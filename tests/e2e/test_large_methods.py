@@ -110,6 +110,7 @@ def test_evaluations_do_not_grow_with_the_bodies(gudgeon, method):
     assert counts[1] <= 2*counts[0], counts
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("method", IMPLICIT)
 @pytest.mark.parametrize("kind", ("chain", "free"))
 def test_ten_thousand_bodies_fit(gudgeon, kind, method):

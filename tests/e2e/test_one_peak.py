@@ -63,6 +63,7 @@ def forces_of(run):
     return {name: value for name, value in found.items() if value > 1e-6 * largest}
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("deck", DECKS, ids=lambda path: path.stem)
 def test_seven_places(gudgeon, reader, deck):
     text = text_of_deck(deck)
@@ -109,6 +110,7 @@ def test_seven_places(gudgeon, reader, deck):
             assert_close(max(map(greatest, of)), joint["peak_force"], relative=1e-6, what=joint["joint"])
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(
     "name, end", [("four_bar", "60 ms"), ("double_pendulum", "20 ms"), ("slider_crank_dry", None), ("crosshead", "30 ms")]
 )
@@ -134,6 +136,7 @@ def test_accuracy_tells_the_same(gudgeon, name, end):
     assert compared > 5
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("deck", DECKS + KINEMATIC, ids=lambda path: path.stem)
 def test_greatest_force_does_not_depend_on_every(gudgeon, deck):
     analysis = "kinematic" if deck in KINEMATIC else "dynamic"

@@ -296,5 +296,5 @@ def test_a_foreign_directory_is_left_alone(gudgeon, root, tmp_path):
         [gudgeon, "run", DECK, "--out", tmp_path, "--quiet"], cwd=root, capture_output=True, text=True, timeout=60
     )
     assert done.returncode == 9
-    assert "left alone" in done.stderr
+    assert "stays unchanged" in done.stderr
     assert [path.name for path in tmp_path.iterdir()] == ["thesis.txt"]

@@ -28,7 +28,7 @@ def test_passed_over(gudgeon, tmp_path, onset, step):
     terminal and both summaries say so."""
     said, text, summary = shot(gudgeon, tmp_path, method="rk4", step=f"{step} ms", contact_onset=onset)
     assert summary["contacts"] == 0
-    (warning,) = [one for one in summary["warnings"] if "passed over" in one]
+    (warning,) = [one for one in summary["warnings"] if " missed, with onset and separation" in one]
     assert warning == (
         HIT + f"1 contact was missed, with onset and separation within one step (contact_onset = {onset}): maximum penetration 28.6 mm at "
         "t = 0.075 s, the first at 0.075 s; use shorter steps (step, maximum_step) or contact_onset = located"
@@ -43,7 +43,7 @@ def test_none_passed_over(gudgeon, tmp_path):
         analysis = {"contact_onset": onset} | ({} if onset == "located" else {"step": "20 us"})
         summary = shot(gudgeon, tmp_path / onset, **analysis)[2]
         assert summary["contacts"] == 1
-        assert not any("passed over" in one for one in summary["warnings"])
+        assert not any(" missed, with onset and separation" in one for one in summary["warnings"])
 
 
 def test_counted_over_a_restart(gudgeon, tmp_path):
@@ -51,5 +51,5 @@ def test_counted_over_a_restart(gudgeon, tmp_path):
     analysis = {"method": "rk4", "step": "50 ms", "contact_onset": "uncontrolled"}
     whole = shot(gudgeon, tmp_path / "whole", **analysis)[2]
     again = shot(gudgeon, tmp_path / "again", "--verify-restart", **analysis)[2]
-    assert [one for one in whole["warnings"] if "passed over" in one] == [one for one in again["warnings"] if "passed over" in one]
-    assert any("passed over" in one for one in again["warnings"])
+    assert [one for one in whole["warnings"] if " missed, with onset and separation" in one] == [one for one in again["warnings"] if " missed, with onset and separation" in one]
+    assert any(" missed, with onset and separation" in one for one in again["warnings"])

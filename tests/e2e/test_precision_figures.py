@@ -55,7 +55,7 @@ def test_errors_of_nothing_have_a_mark_of_their_own(gudgeon):
     assert all(row["motion"] == 0 for row in study.rows)
     script = (study.directory / "figures" / "precision.gp").read_text(encoding="utf-8")
     place, = numbers(script, r"set xtics add \('0' (\S+)\)")
-    assert place == numbers(script, r"set xrange \[(\S+?):")[0] and "errors of exactly 0" in script
+    assert place == numbers(script, r"set xrange \[(\S+?):")[0] and "zero error" in script
     assert place < 0.2 * min(row["asked"] for row in study.rows)
     data = (study.directory / "figures" / "precision.dat").read_text(encoding="utf-8")
     assert {float(line.split()[1]) for line in data.splitlines() if line and line[0] != "#"} == {place}

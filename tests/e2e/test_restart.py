@@ -114,7 +114,7 @@ def test_a_run_that_found_no_room_begins_anew(gudgeon, tmp_path):
     done = subprocess.run([gudgeon, "run", deck, "--out", out, "--quiet"], capture_output=True, text=True, timeout=60,
                           preexec_fn=lambda: resource.setrlimit(resource.RLIMIT_FSIZE, (limit, limit)))
     assert done.returncode == 9 and not (out / "checkpoint.h5").exists()
-    assert "begins at t = 0" in call(gudgeon, "run", deck, "--out", out, "--resume", "--quiet").stderr
+    assert "starts at t = 0" in call(gudgeon, "run", deck, "--out", out, "--resume", "--quiet").stderr
     assert json.loads((out / "summary.json").read_text())["status"] == "complete"
     assert "nothing to resume" in call(gudgeon, "run", deck, "--out", out, "--resume", "--quiet").stderr
 

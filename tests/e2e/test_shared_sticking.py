@@ -90,7 +90,7 @@ def test_named_where_forces_are_not_unique(gudgeon, name):
     for k in range(len(places)):
         assert (f"'f{k}'" in words) == bool(words)
     if words:
-        assert "least norm" in words and "friction.lugre" in words and "first at t =" in words
+        assert "minimum-norm" in words and "friction.lugre" in words and "first at t =" in words
 
 
 def test_shared_in_proportion_to_normal_forces(gudgeon):

@@ -264,7 +264,7 @@ def test_parts_that_are_missing_or_of_another_deck(gudgeon):
     directory = scratch()
     deck = written(directory, short(SWEEP))
     out = directory / "out"
-    assert "no parts" in call(gudgeon, "merge", out, expect=9).stderr
+    assert "no shards" in call(gudgeon, "merge", out, expect=9).stderr
     call(gudgeon, "sweep", deck, "--out", out, "--quiet", "--shard", "1/2")
     done = call(gudgeon, "merge", out, expect=8)
     assert "2 of 4 runs are missing" in done.stderr
@@ -469,7 +469,7 @@ def test_a_deck_overrides_what_it_includes(gudgeon):
     assert Run(directory / "out").summary["time_end"] == 3e-3
     assert Run(directory / "out").summary["tolerance"] == 1e-8
     deck = written(directory, 'deck = 1\ninclude "base.deck"\n[analysis.dynamic]\nend = 3 ms\n[analysis.dynamic]\nend = 4 ms\n')
-    assert "stands twice" in call(gudgeon, "check", deck, expect=3).stderr
+    assert "is given twice" in call(gudgeon, "check", deck, expect=3).stderr
 
 
 def test_a_deck_that_overrides_is_overridden(gudgeon):
