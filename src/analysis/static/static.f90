@@ -273,8 +273,7 @@ contains
          n_flat = count(abs(stiffness) <= limit)
          if (n_steep > 0) then
             equilibrium%words = "unstable in "//to_text(n_steep)//" of "//to_text(size(stiffness))// &
-                                " degrees of freedom; the fastest mode grows e-fold in "//real_text(1.0_wp/sqrt(-square(1)), 4)// &
-                                   " s"
+                                " degrees of freedom; fastest mode grows e-fold in "//real_text(1.0_wp/sqrt(-square(1)), 4)//" s"
             equilibrium%warning = "the equilibrium is unstable: a small perturbation moves "// &
                                   moving_bodies(system%linkage, bodies_in(system, balance%modes(:, 1:1)))// &
                                   "; start the search at another position to find a stable one"
@@ -319,10 +318,8 @@ contains
       type(equilibrium_t), intent(in) :: equilibrium  !! with residual and measures
       character(:), allocatable :: words              !! as "residual 2e-16 of the forces that act"
 
-      words = "residual "//real_text(equilibrium%residual/max(equilibrium%acting, tiny(1.0_wp)), 2)//" relative to the acting "// &
-         "forces"
-      if (max(equilibrium%acting, equilibrium%residual) <= equilibrium%rounding) words = "force residual below the round-off "// &
-         "of positions"
+      words = "residual "//real_text(equilibrium%residual/max(equilibrium%acting, tiny(1.0_wp)), 2)//" relative to acting forces"
+      if (max(equilibrium%acting, equilibrium%residual) <= equilibrium%rounding) words = "residual below round-off of positions"
    end function residual_words
 
    !> The search did not settle: say what still moves, and what to try.

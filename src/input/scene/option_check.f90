@@ -54,7 +54,7 @@ contains
          return
       end if
       if (.not. option%is_number) then
-         call diagnostics%add(option%location, "option '"//option%name//"'"//place//" expected a number", "expected a number")
+         call diagnostics%add(option%location, "option '"//option%name//"'"//place//" is not a number", "expected a number")
          return
       end if
       quantity = quantity_t(x=option%number, dimension=option%dimension, is_good=.true., &
