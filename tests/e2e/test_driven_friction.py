@@ -273,7 +273,7 @@ name plane ball axis axis_angle[deg] radius[m] material law friction
 f o c y 0 0.1 steel normal rough
 b u c y 180 0.1 steel normal rough
 """
-    run = finished(gudgeon, model, tolerance="1e-12")
+    run = finished(gudgeon, model, tolerance="1e-13")
     assert_opposite(run, lambda t: -math.cos(0.5 * t), name="f")
     assert_opposite(run, lambda t: math.cos(0.5 * t), name="b", sign=-1.0)
     assert_close(column(run, "p", "position.x"), 0.0, absolute=1e-11, what="the plate")

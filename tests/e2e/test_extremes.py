@@ -31,6 +31,7 @@ name   joint  angle
 motor  hinge  {size*sin(2*pi*t/1s)}
 [analysis.dynamic]
 end    = 1 s
+tolerance = 1e-10
 [output]
 every    = 1 ms
 channels = arm.angle arm.angular_velocity

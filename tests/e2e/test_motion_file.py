@@ -32,6 +32,7 @@ name   joint  speed
 motor  pin    7rad/s
 [analysis.dynamic]
 end = 1 s
+tolerance = 1e-10
 [output]
 every = 10 ms
 motion = vtkhdf

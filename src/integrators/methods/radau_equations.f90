@@ -18,6 +18,7 @@ submodule(radau) radau_equations
    real(wp), parameter :: out_of_reach = 1.0_wp/sqrt(eps)  !! change of the stages over the scales that no motion makes [1]
    real(wp), parameter :: part_of_tolerance = 0.03_wp   !! of TOL': error left by the iteration, at most [1]
    real(wp), parameter :: part_in_rows = 0.1_wp         !! of TOL: error left in a row, at most [1]
+   real(wp), parameter :: most_in_films = 1.0e-10_wp    !! the same where films act, which amplify it [1]
    real(wp), parameter :: conservative = 3.0_wp         !! ratio of that, as it is estimated with the matrix, to what is left [1]
    real(wp), parameter :: noise = 10.0_wp*eps           !! minimum error of the iteration, over the scales [1]
    real(wp), parameter :: left_by_gmres(2) = [3.0e-4_wp, 1.0e-2_wp]  !! (2) of the residual of Newton's equations: minimum, most [1]
@@ -85,7 +86,7 @@ contains
       most = n_newton(merge(2, 1, is_part))
       tolerance = lenient(self%controls%tolerance)
       enough = left_in_steps(tolerance, by_matrix)
-      if (is_part) enough = left_in_rows(self%controls%tolerance)
+      if (is_part) enough = left_in_rows(self%controls%tolerance, system%traits%has_films)
       minimum = merge(noise, enough, is_search .or. (by_matrix .and. self%controls%fixed_step > 0.0_wp))
       eta = min(max(left_by_gmres(1), 10.0_wp*tolerance), left_by_gmres(2))
       if (is_search) eta = left_by_gmres(1)
@@ -150,10 +151,13 @@ contains
    end function left_in_steps
 
    !> Error that the iteration, or interpolation, may leave in a row.
-   pure real(wp) function left_in_rows(tolerance)
+   pure real(wp) function left_in_rows(tolerance, has_films)
       real(wp), intent(in) :: tolerance  !! TOL [1]
+      logical, intent(in) :: has_films   !! whether films act
 
-      left_in_rows = max(noise, part_in_rows*tolerance)
+      left_in_rows = part_in_rows*tolerance
+      if (has_films) left_in_rows = min(left_in_rows, most_in_films)
+      left_in_rows = max(noise, left_in_rows)
    end function left_in_rows
 
    !> Newton's equations with the matrix.
@@ -346,7 +350,7 @@ contains
       self%filter%h = h
       self%side(:self%n) = h/real_eigenvalue*self%side(:self%n)
       call filter_side(self, system, h, status)
-      error = maximum(self, self%change(:self%n))/left_in_rows(self%controls%tolerance)
+      error = maximum(self, self%change(:self%n))/left_in_rows(self%controls%tolerance, system%traits%has_films)
       nullify (self%filter%system)
       self%count%n_evaluations = self%count%n_evaluations + self%filter%n_evaluation
    end procedure filter_residual
