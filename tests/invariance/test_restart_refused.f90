@@ -296,7 +296,7 @@ contains
       if (allocated(error)) return
       other = saved
       other%row = saved%row(:size(saved%row) - 1)
-      call check_refused(fresh, other, "its pieces say "//to_text(size(saved%row)), "a row cut off", error)
+      call check_refused(fresh, other, "its segments describe "//to_text(size(saved%row)), "a row cut off", error)
    end subroutine test_cut_row
 
 end module test_restart_refused

@@ -320,10 +320,10 @@ contains
                     & //"method = fast alpha=5bogus beta = 3 beta=4"//nl//"last = 1 turn of", r)
       call check_equal(error, r%n_mistake, 6, "number of mistakes in"//nl//r%message)
       call check_true(error, index(r%message, "-1 s is out of range in key end of output") > 0, "a range")
-      call check_true(error, index(r%message, "a parenthesis is not closed in key channels of output") > 0, "a parenthesis")
+      call check_true(error, index(r%message, "missing closing parenthesis in key channels of output") > 0, "a parenthesis")
       call check_true(error, index(r%message, "unknown unit 'bogus' in key method of output") > 0, "a unit")
-      call check_true(error, index(r%message, "option 'beta' stands twice in key method of output") > 0, "a doubled option")
-      call check_true(error, index(r%message, "reference of turns is not clear in key last of output") > 0, "turns of nothing")
+      call check_true(error, index(r%message, "option 'beta' is given twice in key method of output") > 0, "a doubled option")
+      call check_true(error, index(r%message, "unclear reference of turns in key last of output") > 0, "turns of nothing")
    end subroutine test_mistakes_of_defaults
 
    !> What cannot be read at all gives one message and no other.
@@ -345,7 +345,7 @@ contains
       call check_equal(error, r%n_mistake, 1, "mistakes of a directory")
       call check_true(error, index(r%message, "it is a directory") > 0, r%message)
       call read_all("/nowhere/at/all.deck", none, r)
-      call check_true(error, index(r%message, "there is no such file") > 0, r%message)
+      call check_true(error, index(r%message, "no such file") > 0, r%message)
 
    contains
 
@@ -372,7 +372,7 @@ contains
       type(text_t), allocatable :: names(:), values(:)
 
       call read_lines(good, r, "c=1mm")
-      call check_equal(error, deck_text(r%deck), replace(good, "c = 0.5 mm", "c = 1mm   # --set; the file has 0.5 mm"), &
+      call check_equal(error, deck_text(r%deck), replace(good, "c = 0.5 mm", "c = 1mm   # --set; in the file: 0.5 mm"), &
                        "text in force")
       place = location_of_end(r%deck)
       call check_equal(error, place%line, 27, "last line")

@@ -101,7 +101,7 @@ contains
       character(*), parameter :: deck = wheel//settings//"end = 3 s"//nl//"step = 0.2 s"//nl
 
       call run_text(deck, strict, summary, mistake, limits_t(energy=1.0e-12_wp))
-      call check_failure(error, mistake, strict, summary, exit_audit, "ledger")
+      call check_failure(error, mistake, strict, summary, exit_audit, "the energy error reached")
       if (allocated(error)) return
       call check_equal(error, strict%n_sample, 1001, "samples")
       call check_close(error, summary%time_end, 3.0_wp, 0.0_wp, "end")

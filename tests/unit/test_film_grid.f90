@@ -177,7 +177,7 @@ contains
       call check_equal(error, case%law%mistake(), "", "two supplies of 115 deg")
       call check_true(error, index(case%law%description(case%parameters), "supplied at 100000 Pa") > 0, "story of supplies")
       call make_grooved("fixed", 3.0_wp, 0.0_wp, 1.9_wp, 1.0e5_wp, case)
-      call check_true(error, index(case%law%mistake(), "3 supplies as wide as this leave no film") == 1, "too wide")
+      call check_true(error, index(case%law%mistake(), "3 supplies of this width leave no film") == 1, "too wide")
    end subroutine test_mistakes
 
 end module test_film_grid

@@ -101,7 +101,7 @@ contains
                       "did you mean 'slider.velocity'? channels of slider: position velocity angle")
       call check_word(error, "slider.velocty", 1, "unknown channel 'slider.velocty'", "did you mean 'slider.velocity'?")
       call check_word(error, "slider.velocity.z", 1, "unknown channel 'slider.velocity.z'", &
-                      "'slider.velocity' has no part 'z'")
+                      "'slider.velocity' has no component 'z'")
       call check_word(error, "piston.velocity", 1, "unknown channel 'piston.velocity'", &
                       "items with channels: crank slider motor gudgeon guide energy")
       call check_word(error, "slider", 1, "unknown channel 'slider'", "write 'slider.*'")

@@ -65,7 +65,7 @@ contains
       character(:), allocatable :: hint, message
 
       call check_setting_word("verner.projektion", message, hint)
-      call check_equal(error, message, "unknown way of holding constraints 'projektion'", "a wrong way")
+      call check_equal(error, message, "unknown stabilisation method 'projektion'", "a wrong way")
       call check_true(error, index(hint, "did you mean 'projection'?") == 1, "the nearest way")
       call check_setting_word("auto", message, hint)
       call check_equal(error, message, "", "auto is a method")
@@ -74,7 +74,7 @@ contains
       call check_setting_word("verner..schur", message, hint)
       call check_true(error, message /= "", "an empty part")
       call check_setting_word("verner.none.schur.lapack", message, hint)
-      call check_true(error, index(message, "has more than") > 0, "a fourth part")
+      call check_true(error, index(message, "has more parts than") > 0, "a fourth part")
       call check_setting_word("*.baumgarte.*", message, hint)
       call check_equal(error, message, "", "stars")
    end subroutine test_wrong_words

@@ -272,7 +272,7 @@ contains
                           "heel crank -0.1 0"//nl//"throw crank 0.1 0"//nl//"big rod -0.2 0"//nl//"small rod 0.2 0"//nl// &
                           "[joint.revolute]"//nl//"name i j"//nl//"main left heel"//nl//"elbow throw big"//nl// &
                           "far small right"//nl// &
-                          "[analysis.dynamic]"//nl//"end = 1 s", "cannot be assembled: joint '|' stays open by 0.| m|")
+                          "[analysis.dynamic]"//nl//"end = 1 s", "cannot be assembled: joint '|' has a residual of 0.| m|")
    end subroutine test_loop_that_cannot_close
 
    !> A body on two pins that are too far apart by a part of 10^-7 of its size, large or tiny: fitted in least squares, each pin off
@@ -292,7 +292,7 @@ contains
          call start_text(deck, system, y, error, report)
          if (allocated(error)) return
          call check_equal(error, size(report%set_aside), 1, "one row is not needed")
-         call check_parts(error, report%misfit, "in the least-squares fit|'pin' is off by 4e-"//merge("5", "8", k == 1)// &
+         call check_parts(error, report%misfit, "least-squares fit|'pin' is off by 4e-"//merge("5", "8", k == 1)// &
                           " mm|'tack' is off by 4e-"//merge("5", "8", k == 1)//" mm|")
          call check_no_start(error, "[scene]"//nl//"closing_tolerance = 1e-8"//nl//deck, "cannot be assembled|")
          deck = replace(deck, "[m]", "[mm]")
@@ -316,7 +316,7 @@ contains
 
       call check_no_start(error, pendulum("[joint.revolute]"//nl//"name i j"//nl//"pin hook eye"//nl// &
                                           "[driver.speed]"//nl//"name joint speed[rad/s]"//nl//"slow pin 3"//nl//"fast pin 4"), &
-                          "no velocities fulfil the constraints|driver '|is left with 0.5 rad/s|")
+                          "no velocities satisfy the constraints|driver '|has a residual of 0.5 rad/s|")
    end subroutine test_contradictory_drivers
 
    !> Two angles for one joint: the positions cannot be assembled, in the middle each is off by half.
@@ -325,7 +325,7 @@ contains
 
       call check_no_start(error, pendulum("[joint.revolute]"//nl//"name i j"//nl//"pin hook eye"//nl// &
                                           "[driver.angle]"//nl//"name joint angle[rad]"//nl//"one pin 0.1"//nl//"other pin 0.2"), &
-                          "cannot be assembled|' stays open by 0.05 rad|")
+                          "cannot be assembled|' has a residual of 0.05 rad|")
    end subroutine test_contradictory_angles
 
    !> Two equal drivers; a body held by two pins: rows depend on others, and the joints that share the load are named.
@@ -334,9 +334,9 @@ contains
 
       call check_redundancy(error, "[joint.revolute]"//nl//"name i j"//nl//"pin hook eye"//nl// &
                             "[driver.speed]"//nl//"name joint speed[rad/s]"//nl//"one pin 3"//nl//"two pin 3", &
-                            "1 of 4 rows depend|reactions of 'one' 'two' are|")
+                            "1 of 4 rows are linearly dependent|reactions of 'one' 'two' are|")
       call check_redundancy(error, "[joint.revolute]"//nl//"name i j"//nl//"pin hook eye"//nl//"tack nail toe", &
-                            "1 of 4 rows depend|reactions of 'pin' 'tack' are|")
+                            "1 of 4 rows are linearly dependent|reactions of 'pin' 'tack' are|")
       call check_redundancy(error, "[joint.revolute]"//nl//"name i j"//nl//"pin hook eye", "")
 
    contains
