@@ -1,8 +1,7 @@
 !> Motion in time: drives the parts of a mechanism from event to event and hands everything to a recorder.
 !>
-!> A run is saved where its recorder requested actions, after any step, and continues from there as if nothing had been. A method
-!> with a history that it does not save, and several parts with steps of their own, can be saved at instants only that the plan
-!> sets: there all steps end, and what was saved is taken back at once, so that a run that is ended there and resumed does the same.
+!> A run is saved where its recorder asks for it, after any step. A method with a history that it does not save, and several parts
+!> with steps of their own, can be saved only at instants of the plan: all steps end there, and the saved state is loaded at once.
 module dynamic
    use catalogue, only: catalogue_t
    use contact_monitor, only: close_open
@@ -18,7 +17,7 @@ module dynamic
    use run_summary, only: sum_up
    use run_tally, only: run_tally_t
    use sampling, only: new_sampler, sampler_t
-   use saved_run, only: saved_run_t, action_none, requested_action_stop
+   use saved_run, only: saved_run_t, action_none, action_stop
    use stop_condition, only: cut_step, stop_t
    use subsystems, only: subsystem_t
    use time_plan, only: time_plan_t
@@ -86,8 +85,7 @@ contains
       class(recorder_t), intent(inout) :: recorder                !! keeps the results
       type(summary_t), intent(out) :: summary                     !! cost and errors
       type(error_t), allocatable, intent(out) :: error            !! the integration failed, or a file could not be written
-      type(saved_run_t), allocatable, intent(inout), optional :: saved  !! what the run continues from; absent, unallocated: it
-                                                                        !! starts
+      type(saved_run_t), allocatable, intent(inout), optional :: saved  !! what it continues from; absent, unallocated: it starts
       type(catalogue_t), allocatable, intent(inout), optional :: catalogue  !! what the system can report, taken over
 
       type(error_t), allocatable :: late_error
@@ -199,9 +197,9 @@ contains
       is_due = run%whole%t >= run%next_checkpoint .and. run%whole%is_together()
       can_save = is_due .or. .not. run%is_scheduled
       requested_action = recorder%requested_action(can_save)
-      if (requested_action == requested_action_stop .and. run%is_scheduled &
-          .and. run%next_checkpoint < plan%end) requested_action = merge(requested_action, action_none, can_save)
-      run%is_stopped = requested_action == requested_action_stop
+      if (requested_action == action_stop .and. run%is_scheduled .and. run%next_checkpoint < plan%end .and. .not. can_save) &
+         requested_action = action_none
+      run%is_stopped = requested_action == action_stop
       if (is_due .or. (requested_action /= action_none .and. can_save)) call save_now(run, plan, recorder, error)
    end subroutine heed
 

@@ -26,7 +26,7 @@ module kinematic
    use prescribed_motion, only: newton_t, not_finite_rows, open_rows, singular, solve_positions, solve_rates, solved
    use recorder, only: recorder_t, status_complete, status_failed, status_stopped, summary_t
    use row_corrections, only: evaluate_rows
-   use saved_run, only: requested_action_stop
+   use saved_run, only: action_stop
    use text, only: append_text, real_text
    use step_follower, only: find_off_branch, follow_motion, must_follow
    use time_plan, only: instant, last_instant, time_plan_t
@@ -139,7 +139,7 @@ contains
          if (allocated(peaks%place)) call find_extremes(system, state, .true., newton, peaks, recorder, catalogue, summary)
          summary%count%samples = summary%count%samples + 1
          if (mod(k, progress_every) == 0_i8) call recorder%progress(state%t/plan%end)
-         if (recorder%requested_action(.false.) == requested_action_stop .and. k < last_instant(plan)) then
+         if (recorder%requested_action(.false.) == action_stop .and. k < last_instant(plan)) then
             summary%status = status_stopped
             call set_error(error, exit_integration, "interrupted by a signal at t = "//real_text(state%t, 9)// &
                            " s; the results written so far are readable")

@@ -6,11 +6,11 @@ module saved_run
    implicit none (type, external)
    private
    public :: saved_run_t
-   public :: requested_action_checkpoint, action_none, requested_action_stop
+   public :: action_checkpoint, action_none, action_stop
 
    integer, parameter :: action_none = 0     !! continue
-   integer, parameter :: requested_action_checkpoint = 1  !! save what is remembered as soon as it can be, and continue
-   integer, parameter :: requested_action_stop = 2        !! save it as soon as it can be, and end
+   integer, parameter :: action_checkpoint = 1  !! save what is remembered as soon as it can be, and continue
+   integer, parameter :: action_stop = 2        !! save it as soon as it can be, and end
 
    !> What is remembered.
    type :: saved_run_t

@@ -49,8 +49,7 @@ contains
       do k = 1, n_joint_kinds
          is_taken(k) = with_start_rows .or. .not. scene%joints(k)%info%is_start_only
       end do
-      system%ledger%is_kept = scene%settings%dynamic%flag("ledger") &
-                           .and. scene%analysis == analysis_dynamic
+      system%ledger%is_kept = scene%settings%dynamic%flag("ledger") .and. scene%analysis == analysis_dynamic
       system%ledger%has_energies = system%ledger%is_kept .or. scene%analysis /= analysis_dynamic
       call choose_bodies(scene, levels, with_start_rows, reduction)
       associate (choices => reduction%choices, linkage => system%linkage)
@@ -85,9 +84,8 @@ contains
       system%n = system%linkage%n_position + system%linkage%n_rate + system%n_quadrature
       call count_stick_slips(system)
       call add_event_functions(system)
-      system%is_large = is_large(scene) .and. system%linkage%reduced%one_dof%n == 0 &
-           .and. system%friction%stick_slips%n_bristle == 0 &
-                        .and. system%friction%rubbing%n == 0 .and. .not. sees_motion(scene)
+      system%is_large = is_large(scene) .and. system%linkage%reduced%one_dof%n == 0 .and. system%friction%rubbing%n == 0 &
+                        .and. system%friction%stick_slips%n_bristle == 0 .and. .not. sees_motion(scene)
       ! forces of contacts that stick hang on all that they are joined with, which the pattern of a Newton matrix does not know
       if (system%friction%stick_slips%n_slip > 0 .and. scene%settings%dynamic%word("method") == "ida") system%is_large = .false.
       call bind_reactions(system)

@@ -78,7 +78,7 @@ module run_recorder
       procedure :: event => event_run
       procedure :: progress => progress_run
       procedure :: finish => finish_run
-      procedure :: requested_action => requested_action_of_run
+      procedure :: requested_action => action_of_run
       procedure :: save => save_run
       procedure :: go_on => go_on_with_run
       procedure :: forget => forget_checkpoint
@@ -88,11 +88,11 @@ module run_recorder
 
    interface
       !> Whether the run is to be saved or to end: signals, the time of the wall, and what the plan says.
-      module integer function requested_action_of_run(self, can_save) result(requested_action)
+      module integer function action_of_run(self, can_save) result(requested_action)
          implicit none (type, external)
          class(run_recorder_t), intent(inout) :: self       !! the recorder
          logical, intent(in) :: can_save                    !! the run can be saved after this step
-      end function requested_action_of_run
+      end function action_of_run
 
       !> Write all that waits, and the checkpoint.
       module subroutine save_run(self, saved, error)

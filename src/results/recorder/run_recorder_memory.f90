@@ -7,7 +7,7 @@ submodule(run_recorder) run_recorder_memory
    use horizon_memory, only: load_horizon, save_horizon
    use posix, only: remove_file
    use processes, only: asked_by, clock_ms
-   use saved_run, only: requested_action_checkpoint, action_none, requested_action_stop
+   use saved_run, only: action_checkpoint, action_none, action_stop
    implicit none (type, external)
 
    integer, parameter :: steps_between = 64               !! steps between two looks at the clock
@@ -18,23 +18,23 @@ contains
 
    !> Whether the run is to be saved or to end. Where it can be saved at some instants only, it ends at the last that is safely
    !> within the time of the wall.
-   module procedure requested_action_of_run
+   module procedure action_of_run
       requested_action = action_none
       associate (pace => self%pace, life => self%plan%life)
          if (.not. life%is_saved) return
          if (asked_by() /= 0 .or. self%last_time >= life%stop_at) then
-            requested_action = requested_action_stop
+            requested_action = action_stop
             return
          end if
          pace%n_step = pace%n_step + 1
          if (pace%n_step < steps_between .and. .not. (can_save .and. pace%longest >= second)) return
          pace%n_step = 0
       end associate
-      requested_action = requested_action_by_clock(self, can_save)
-   end procedure requested_action_of_run
+      requested_action = action_by_clock(self, can_save)
+   end procedure action_of_run
 
    !> The same, by the time that it is.
-   integer function requested_action_by_clock(self, can_save) result(requested_action)
+   integer function action_by_clock(self, can_save) result(requested_action)
       class(run_recorder_t), intent(inout) :: self  !! the recorder
       logical, intent(in) :: can_save               !! the run can be saved as it is
 
@@ -52,12 +52,12 @@ contains
          end if
          left = nint(1000.0_wp*life%walltime, i8) - (now - life%begun)
          if (life%walltime > 0.0_wp .and. left <= gap + 2*pace%cost + min(second, nint(50.0_wp*life%walltime, i8))) then
-            requested_action = requested_action_stop
+            requested_action = action_stop
          else if (can_save .and. now - pace%saved_at >= ms_between) then
-            requested_action = requested_action_checkpoint
+            requested_action = action_checkpoint
          end if
       end associate
-   end function requested_action_by_clock
+   end function action_by_clock
 
    !> Write all that waits, and the checkpoint. A checkpoint that cannot be written is a failure: the run could not continue from
    !> where its reader believes.
