@@ -251,7 +251,7 @@ WRONG = [
     ("{request.work}", "there is no request 'work' before this one", 1),
     ("{pin.force.x + pin.moment}", "cannot", 0),
     ("{pin.moment}", "its SI unit is N.m", 0),
-    ("{2*(pin.force.x}", "not closed", 1),
+    ("{2*(pin.force.x}", "missing closing parenthesis", 1),
 ]
 
 
