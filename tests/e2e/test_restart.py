@@ -137,6 +137,7 @@ def test_what_cannot_be_saved_is_refused(gudgeon, tmp_path):
     deck = written(tmp_path, plain_deck((("analysis.dynamic", "method", "adams"),)))
     assert "checkpoint = " in call(gudgeon, "run", deck, "--out", tmp_path / "a", "--walltime", "1h", expect=2).stderr
     kinematic = ROOT / "inputs" / "four_bar_kinematic.deck"
-    assert "--resume is for motions" in call(gudgeon, "run", kinematic, "--resume", "--out", tmp_path / "b", expect=2).stderr
+    refused = call(gudgeon, "run", kinematic, "--resume", "--out", tmp_path / "b", expect=2).stderr
+    assert "option --resume needs [analysis.dynamic]; the analysis of this deck is kinematic" in refused
     small = written(tmp_path, changed(plain_deck(), "output", size_limit="1e-5"))
     assert "'size_limit' in [output] allows" in call(gudgeon, "run", small, "--out", tmp_path / "c", expect=3).stderr
