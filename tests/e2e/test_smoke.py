@@ -29,7 +29,7 @@ def test_every_verb_has_a_smoke_test(gudgeon):
 def test_check_explain_run(gudgeon, name):
     """A deck is right, described, and its motion closes the energy ledger."""
     deck = ROOT / "inputs" / f"{name}.deck"
-    assert "no mistakes" in call(gudgeon, "check", deck).stdout
+    assert "no errors" in call(gudgeon, "check", deck).stdout
     assert "\nmodel\n" in call(gudgeon, "explain", deck).stdout
     folder = scratch()
     text = re.sub(r'"([^"/\s]+\.txt)"', lambda found: f'"{deck.parent / found.group(1)}"', text_of(deck))
