@@ -213,7 +213,7 @@ def test_plane_in_space(gudgeon):
     near(spatial / planar, np.ones((5, 4)), 1e-6, "impacts")
     explained = call(gudgeon, "explain", written(scratch(), in_space(text))).stdout
     assert "'crank': prescribed motion" in explained
-    assert "2 coordinates unknown, 0 rows solved" in explained
+    assert "2 unknown coordinates, 0 constraint rows in the equations" in explained
 
 
 def test_full_stiffness_at_each_base(gudgeon):
