@@ -18,7 +18,7 @@ DECKS = sorted(path for folder in ("inputs", "inputs/hard") for path in (ROOT / 
 LADDER = "\n[precision]\ncoarsest = 1e-4\nfinest = 1e-9\nper_decade = 2\nrounds = 1\ninstants = 50\nperturbation = 0\n"
 SHORTER = {"a02_four_bars_40": "0.5 s", "shaken_pendulum": "0.2 s", "friction": "0.2 s", "journal_bearing": "0.2 s",
            "big_end": "0.5 ms", "stressed_bearing": "0.02 s", "double_pendulum": "0.1 s", "four_bar_spatial": "0.1 s", "a05_flyball": "1 s"}
-REFUSED = {"four_bar_kinematic": (2, "the comparison needs [analysis.dynamic]"), "dead_point": (5, "no run came to its end")}
+REFUSED = {"four_bar_kinematic": (2, "the comparison needs [analysis.dynamic]"), "dead_point": (5, "no run was completed")}
 LEAST_FALL = 3  # of the median error of a decade over two decades; in proportion it is 100
 
 
@@ -67,7 +67,7 @@ def test_errors_fall_or_the_report_says_why(gudgeon, deck):
     [
         ("hard/grazed_plane", "errors fall by less than a factor of 3 over two decades; its number of steps hardly changes (7 to 8)"),
         ("four_bar", "the errors are as large as the motion itself"),
-        ("hard/a02_four_bars_1", "held: verner, 11 runs: 'maximum_step' of the deck"),
+        ("hard/a02_four_bars_1", "held: verner, 11 runs: the 'maximum_step' of the deck"),
     ],
 )
 def test_causes_are_named(gudgeon, name, words):
