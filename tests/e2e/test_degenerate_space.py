@@ -39,13 +39,13 @@ def run(program, tables, columns="", cells="", expect=0):
     ('[joint.universal]\nname i j axis_i axis_j\npin wall near "0 0 1" "0 0 1"\n', "perpendicular but must be parallel, or vice versa"),
     ('[joint.revolute]\nname i j axis_i axis_j\npin wall near "0 0 1" "1 0 0"\n', "perpendicular but must be parallel, or vice versa"),
     ('[joint.perpendicular]\nname i j axis_i axis_j\npin wall near "0 0 1" "0 0 1"\n', "perpendicular but must be parallel, or vice versa"),
-    ('[joint.revolute_spherical]\nname i j axis_i\npin wall far "1 0 0"\n', "stays open by 0.5 m"),
+    ('[joint.revolute_spherical]\nname i j axis_i\npin wall far "1 0 0"\n', "joint 'pin' has a residual of 0.5 m"),
     ("[joint.distance]\nname i j\npin wall near\n", "the two points coincide initially"),
     (PIN + '[force.torsion_spring]\nname i j axis_i axis_j stiffness[N.m/rad]\ncoil ground bar "0 1 0" "1 0 0" 5\n', "the axes of 'coil' are not parallel"),
     (PIN + '[force.torsion_spring]\nname i j axis_i axis_j stiffness[N.m/rad]\ncoil ground bar "0 1 0" "0 -1 0" 5\n', "the axes of 'coil' are not parallel"),
     ('[joint.revolute]\nname i j axis_i\npin wall near "0 0 0"\n', "all numbers are zero"),
     ('[joint.revolute]\nname i j axis_i x_i\npin wall near "0 1 0" "0 -2 0"\n', "the reference direction of 'pin' is parallel to its axis"),
-    (PIN + '[force.torsion_spring]\nname i j axis_i x_j stiffness[N.m/rad]\ncoil ground bar "0 1 0" "0 1 0" 5\n', "the reference direction of 'coil' lies"),
+    (PIN + '[force.torsion_spring]\nname i j axis_i x_j stiffness[N.m/rad]\ncoil ground bar "0 1 0" "0 1 0" 5\n', "the reference direction of 'coil' is parallel to its axis"),
 ])
 def test_told(gudgeon_debug, tables, words):
     """What cannot be put together is told by name."""
