@@ -208,7 +208,7 @@ def test_loads_are_arrows(gudgeon, tmp_path):
         row = np.argmin(abs(file["time"][:] - 0.1))
         np.testing.assert_allclose(found[-1]["arrow"][0][0], file["bodies/position"][row, 0], atol=1e-4)
     assert "maximum arrow 5 N" in (folder / "animation.n.6.last.50ms.gp").read_text(encoding="utf-8")
-    assert "the longest 5 N" in (folder / "animation.n.6.last.50ms.html").read_text(encoding="utf-8")
+    assert "arrows: loads and forces on journals, maximum 5 N" in (folder / "animation.n.6.last.50ms.html").read_text(encoding="utf-8")
     assert "g:[[" in (folder / "animation.n.6.last.50ms.html").read_text(encoding="utf-8")
 
 
@@ -232,7 +232,7 @@ def test_mistakes(gudgeon, tmp_path, figure, message):
     """Each is told at its word."""
     deck = written(tmp_path, changed(CRANK, "output", figures=figure))
     done = call(gudgeon, "check", deck, expect=3)
-    assert message in done.stderr and "scene.deck:21" in done.stderr, done.stderr
+    assert message in done.stderr and "scene.deck:22" in done.stderr, done.stderr
 
 
 def test_a_run_that_ends_early_draws_what_it_reached(gudgeon, tmp_path):
