@@ -88,7 +88,7 @@ def test_panels_without_numbers(gudgeon, tmp_path):
     script = next(folder.glob("panels*none.gp")).read_text(encoding="utf-8")
     assert script.count("set origin 0,") == 2 and script.index("set xlabel 'time") < script.rindex("plot ")
     warnings = json.loads((tmp_path / "run" / "summary.json").read_text())["warnings"]
-    assert [w for w in warnings if w.endswith("no numbers of request.none")]
+    assert [w for w in warnings if w.endswith("no values of request.none")]
     assert len(list(folder.glob("panels*.png"))) == 3  # the second and the third have names of their own
 
 
