@@ -83,7 +83,7 @@ def test_film_without_pressures_is_refused(gudgeon):
     """`finite` is a force without pressures, and `grid` is named."""
     deck = written(scratch(), changed(BEARING.read_text(), "output", figures=WORDS))
     done = call(gudgeon, "run", deck, "--set", "film=finite", "--out", scratch() / "out", expect=3)
-    assert "film(bearing)" in done.stderr and "[film.grid]" in done.stderr
+    assert "no 'film(bearing)'" in done.stderr and "film.grid" in done.stderr
 
 
 def test_missing_film_is_warned_of(gudgeon):
