@@ -45,7 +45,7 @@ def test_thin_films_are_told_of(gudgeon):
     thin = film_run(gudgeon, CRANK, viscosity="40cP", turns=1)
     words = [word for word in thin.summary["warnings"] if "film" in word]
     assert len(words) == 1
-    assert "joint 'gudgeon'" in words[0] and "below 2.94 um (1.5e-4 of the journal's diameter" in words[0] and "first at" in words[0]
+    assert "joint 'gudgeon'" in words[0] and "below 2.94 um (1.5e-4 of the journal diameter" in words[0] and "first at" in words[0]
     assert "Hamrock" not in words[0]
     least = thin.item("clearances/film_thickness", "gudgeon").min() * 1e6
     said = float(words[0].split("minimum thickness ")[1].split()[0])
