@@ -57,4 +57,4 @@ def test_mistakes(gudgeon):
     assert "L/D = 0.204082 is outside the range of 'finite', 0.25 to 4" in done.stderr and "^^^^^^ does not match" in done.stderr
     wide = bearing_deck(grid="[film.grid]\nname   supply   number   width[deg]\ngrid   fixed    5        70\n")
     done = call(gudgeon, "check", wide, "--set", "film=grid", expect=3)
-    assert "5 supplies as wide as this leave no film" in done.stderr
+    assert "5 supplies of this width leave no film: the maximum total is 324 deg" in done.stderr
