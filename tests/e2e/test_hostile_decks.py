@@ -19,7 +19,7 @@ MEMORY = 2 << 30  # bytes of address space
 
 ABSURD = {
     "unknown_sections": ("check", SHORT + "[x]\n" * 300_000, 3, b"unknown section"),
-    "doubled_sections": ("check", SHORT + "[guards]\n" * 300_000, 3, b"stands twice"),
+    "doubled_sections": ("check", SHORT + "[guards]\n" * 300_000, 3, b"section guards is given twice"),
     "channels": ("check", changed(SHORT, "output", channels='"' + "slider.velocity " * 200_000 + '"'), 3, b"unknown channel"),
     "brackets": ("check", SHORT.replace("{restitution}", "{" + "(" * 200_000 + "1" + ")" * 200_000 + "}"), 3, b"invalid expression"),
     "signs": ("check", SHORT.replace("{restitution}", "{" + "-" * 200_000 + "1}"), 3, b"invalid expression"),
@@ -27,7 +27,7 @@ ABSURD = {
     "exponent": ("check", SHORT.replace("0.5 mm", "1e" + "9" * 200_000 + " mm"), 3, b"1e99"),
     "sweep": ("check", SHORT + "\n[sweep]\nc = 0.1 .. 0.5 mm in 2000000000\n", 3, b"range of 'c'"),
     "grid": ("check", SHORT + "\n[sweep]\nc = 0.1 .. 0.5 mm in 9999\nrestitution = 0.1 .. 0.9 in 9999\n", 3, b"too many"),
-    "instants": ("check", changed(SHORT, "output", every="1e-30 s", instants_limit="2e9"), 3, b"output instants"),
+    "instants": ("check", changed(SHORT, "output", every="1e-30 s", instants_limit="2e9"), 3, b"output times"),
     "pictures": ("run", changed(SHORT, "output", figures="animation(n=2000000000)"), 3, b"not a number of pictures"),
     "ensemble": ("check", SHORT + "\n[ensemble]\nruns = 1e18\n", 3, b"runs"),
     "bins": ("check", SHORT + "\n[statistics]\nafter = 0.1 ms\nbins = 1e18\n", 3, b"bins"),
