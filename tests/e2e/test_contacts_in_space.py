@@ -199,11 +199,11 @@ def test_rack_in_kinematics_and_after_a_restart(gudgeon):
 
 
 def test_rack_along_its_pinions_axis(gudgeon):
-    """Line and axis that are not at right angles are refused by name."""
+    """Line and axis that are not perpendicular are refused by name."""
     text = rack(1).replace('"1 0 0" "' + words(THIRD), '"1 0.1 0" "' + words(THIRD))
     done = call(gudgeon, "run", written(scratch(), text + "[analysis.dynamic]\nend = 0.1 s\n[output]\nevery = 10 ms\n"), "--out",
                 scratch() / "out", "--quiet", expect=4)
-    assert "'teeth' rolls on a line that is not at right angles" in done.stderr
+    assert "'teeth' rolls on a line that is not perpendicular to the axis of the pinion" in done.stderr
 
 
 def block(speed, start, end, sideways=0.0, spin=0.0):
