@@ -184,7 +184,7 @@ def test_summary_for_people(gudgeon):
     deck = written(directory, plain_deck())
     call(gudgeon, "run", deck, "--out", directory / "out", "--quiet")
     text = (directory / "out" / "summary.txt").read_text()
-    assert re.search(r"^ +gudgeon: \d+ impacts, [\d.]+ % of the time in contact; at most", text, re.M)
+    assert re.search(r"^ +gudgeon: \d+ impacts, [\d.]+ % of the time in contact; max\. ", text, re.M)
     assert re.search(r"^ +motor.moment \[N.m\] +-\d", text, re.M)
     call(gudgeon, "run", deck, "--write", "numbers", "--out", directory / "few", "--quiet")
     few = Run(directory / "few")
