@@ -118,7 +118,7 @@ def test_extremes_are_those_of_the_rows(gudgeon):
         assert list(run.read(f"accuracy/{key}")) == [row[key] for row in found.values()]
     assert list(run.read("accuracy/names")) == list(found)
     head, line = next(pair for pair in pairwise(run.done.stdout.splitlines()) if "slider.velocity.x [m/s]" in pair[1])
-    assert head.split() == ["extremes", "least", "greatest", "+-"]  # the table of the accuracy comes first
+    assert head.split() == ["extremes", "min", "max", "+-"]  # the table of the accuracy comes first
     assert_close(float(line.split()[2]), velocity.min(), relative=1e-9, what=line)
 
 
@@ -277,8 +277,8 @@ def test_condition_that_ends_the_run(gudgeon):
     (("--accuracy", "1e-6", "--tolerance", "1e-8"), 2, "exclude each other"),
     (("--accuracy", "1e-6", "--legacy", "procedure1"), 2, "exclude each other"),
     (("--accuracy", "1e-6", "--budget", "5"), 2, "needs a time above zero with its unit"),
-    (("--budget", "5s"), 2, "is for --accuracy"),
-    (("--accuracy", "1e-6", "--member", "1"), 2, "is for a deck with a section [ensemble]"),
+    (("--budget", "5s"), 2, "option --budget of 'run' needs --accuracy or --horizon"),
+    (("--accuracy", "1e-6", "--member", "1"), 2, "option --member needs a deck with a section [ensemble]"),
 ])
 def test_bad_options(gudgeon, options, code, words):
     done = call(gudgeon, "run", written(scratch(), SPRING), *options, expect=code)
