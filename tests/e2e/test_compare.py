@@ -196,7 +196,7 @@ def test_columns_never_touch(gudgeon):
     asked = [word for k, name in enumerate(("rod.position.y", "rod.angle", "rod.velocity.y"), 2) for word in ("--channel", f"{name}={k}")]
     lines = call(gudgeon, "compare", "outputs/pend", "long.csv", *asked, cwd=folder, expect=1).stdout.splitlines()
     head = next(k for k, line in enumerate(lines) if line.startswith("channel "))
-    assert lines[head].replace(" [s]", "").split() == "channel RMS greatest at allowed peak A peak B lag magn. phase".split()
+    assert lines[head].replace(" [s]", "").split() == "channel RMS maximum at tolerance peak A peak B lag magn. phase".split()
     starts = [at.start() for at in re.finditer(r"(?<=  )\S|(?<=A  )\S", lines[head])]
     for row in lines[head + 1 : head + 4]:
         cells = row.split("]", 1)[1].split()
