@@ -435,7 +435,7 @@ def test_the_horizon_keeps_its_budget(gudgeon, key):
     """Without a limit of the deck the search ends where its budget is up, given by --budget or by the section; the run does not."""
     budget = "12 s" if IS_SANITIZED else "3 s"
     text = changed(changed(plain_deck([]), "analysis.dynamic", end="4 s"), "output", every="1 ms", figures=None)
-    text += f"\n[precision]\nbudget = {budget if key else '10 min'}\nexponent_instants = 2000\n"
+    text += f"\n[precision]\nbudget = {budget if key else '10 min'}\nexponent_instants = 8000\n"
     began = time.monotonic()
     summary = run_with_horizon(gudgeon, text, "--write", "numbers", *(() if key else ("--budget", budget)))
     assert time.monotonic() - began < 60
