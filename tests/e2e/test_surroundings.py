@@ -79,7 +79,7 @@ def test_gnuplot_that_hangs(gudgeon, place, trap):
     assert done.returncode == 0 and time.monotonic() - begin < 20
     summary = Run(place / "out").summary
     assert summary["status"] == "complete" and summary["figures"] == []
-    assert sum("was not ready after 1 s" in warning for warning in summary["warnings"]) == 2
+    assert sum("gnuplot exceeded 1 s and was killed" in warning for warning in summary["warnings"]) == 2
     assert b"GUDGEON_GNUPLOT_SECONDS" in done.stdout
     assert gone(f"sleep {length}".replace(" ", "\0"))
 
@@ -116,8 +116,8 @@ def test_one_gnuplot_draws_several_pictures(gudgeon, place):
     ("exit 0\n", "wrote an incomplete picture"),
     (": > ${2%.gp}.png\n", "wrote an incomplete picture"),
     ("printf '\\211PNG\\r\\n\\032\\nhalf of it' > ${2%.gp}.png\n", "wrote an incomplete picture"),
-    ("echo no fonts >&2\nexit 3\n", "ended with code 3"),
-    ("kill -SEGV $$\n", "ended with code 139"),
+    ("echo no fonts >&2\nexit 3\n", "failed with exit code 3,"),
+    ("kill -SEGV $$\n", "failed with exit code 139,"),
 ])
 def test_gnuplot_that_fails(gudgeon, place, script, words):
     """No picture, half of one, or a failure: not reported as a figure."""
