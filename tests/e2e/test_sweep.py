@@ -331,7 +331,7 @@ def test_a_deck_edited_meanwhile_changes_nothing(gudgeon):
     written(directory, text.replace("restitution = 0.9", "restitution = 0.5"), "base.deck")
     assert process.wait() == 0
     assert (whole / "sweep.csv").read_bytes() == (directory / "out" / "sweep.csv").read_bytes()
-    assert "base.deck was changed while the sweep ran" in (directory / "out" / "summary.txt").read_text()
+    assert "base.deck changed during the sweep" in (directory / "out" / "summary.txt").read_text()
 
 
 def test_cases_from_a_file(gudgeon):
@@ -357,7 +357,7 @@ def test_cases_from_a_file(gudgeon):
     [
         ("cc[mm]\n1\n", "did you mean 'c'"),
         ("c[mm]\n1 2\n", "has 2 cells"),
-        ("c[mm],law\n1,\n", "is empty"),
+        ("c[mm],law\n1,\n", "empty cell"),
         ("c[kg]\n1\n", "this is a mass"),
         ("c[mm]\nx\n", "is not a number"),
         ("law\n3\n", "not a word"),
