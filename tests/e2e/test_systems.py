@@ -118,5 +118,5 @@ def test_libraries_write_no_messages(gudgeon, tmp_path, method):
     deck = written(tmp_path, changed(text, "analysis.dynamic", minimum_step="0.5 ms", initial_step="0.5 ms"))
     done = call_gudgeon(gudgeon, "run", deck, "--method", method, "--write", "numbers", "--out", tmp_path / "out", expect=5)
     lines = done.stderr.splitlines()
-    assert lines[0].startswith("error: the error cannot be kept within the tolerance")
+    assert lines[0].startswith("error: the error exceeds the tolerance even at the minimum step")
     assert all(line.startswith("  = ") for line in lines[1:])
