@@ -259,7 +259,7 @@ def test_maximum_step_of_the_deck_rules(gudgeon):
     assert "(maximum_step)" in explain(gudgeon, text)
     assert "f.fx: maximum step" in explain(gudgeon, deck("1e3N*exp(-((t-1.2345s)/1e-4s)^2)"))
     assert "f.fx: not smooth at t = 1 1.1 s" in explain(gudgeon, deck("10N*(step(t-1s)-step(t-1.1s))"))
-    assert "not smooth at 5999 instants" in explain(gudgeon, deck("1N*abs(sin(2*pi*1000Hz*t))"))
+    assert "not smooth at 5999 times" in explain(gudgeon, deck("1N*abs(sin(2*pi*1000Hz*t))"))
 
 
 def test_repeated_and_ideal_runs(gudgeon_debug):
