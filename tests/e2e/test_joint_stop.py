@@ -142,10 +142,10 @@ GOOD = {"lower[deg]": "-25", "upper[deg]": "40"}
 
 @pytest.mark.parametrize("limits, change, words", [
     ({"lever[mm]": "1"}, None, ["has no limit", "give lower, upper, or both"]),
-    ({"lower[deg]": "10", "upper[deg]": "5"}, None, ["leaves nothing between its limits"]),
-    ({"lower[deg]": "-100", "upper[deg]": "90"}, None, ["half a turn apart"]),
+    ({"lower[deg]": "10", "upper[deg]": "5"}, None, ["no range of motion", "upper must be greater than lower"]),
+    ({"lower[deg]": "-100", "upper[deg]": "90"}, None, ["half a revolution apart"]),
     ({"lower[mm]": "-25"}, None, ["a joint.revolute", "column lower is an angle there"]),
-    ({"lower[deg]": "-25", "upper[mm]": "40"}, None, ["not of one dimension"]),
+    ({"lower[deg]": "-25", "upper[mm]": "40"}, None, ["have different dimensions"]),
     ({"upper[kg]": "4"}, None, ["neither an angle nor a length"]),
     (GOOD, ("bump pin", "bump pit"), ["unknown joint 'pit'", "did you mean 'pin'? revolute or translational joints: pin"]),
     (GOOD, (" 0.25 hard", " 0 hard"), ["of an angle has no lever"]),
