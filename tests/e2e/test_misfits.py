@@ -82,11 +82,11 @@ def test_gears_that_fit(gudgeon, text):
 
 
 @pytest.mark.parametrize("text, words", [
-    (plane(MESH, i=50, j=31), ["joint 'mesh'", "0.081 m apart", "0.08 m apart"]),
-    (plane(MESH, i=50, j=-30), ["joint 'mesh'", "0.02 m apart", "0.08 m apart"]),
+    (plane(MESH, i=50, j=31), ["joint 'mesh'", "axis distance of 0.081 m", "the distance is 0.08 m"]),
+    (plane(MESH, i=50, j=-30), ["joint 'mesh'", "axis distance of 0.02 m", "the distance is 0.08 m"]),
     (plane(LINE, x=10, y=41, radius=40), ["joint 'teeth'", "radius 0.04 m", "0.041 m to the left"]),
     (plane(LINE, x=10, y=40, radius=-40), ["joint 'teeth'", "radius -0.04 m", "0.04 m to the left"]),
-    (space(SPATIAL_MESH, axis="0 0 -1", i=50, j=31), ["joint 'mesh'", "0.081 m apart", "0.08 m apart"]),
+    (space(SPATIAL_MESH, axis="0 0 -1", i=50, j=31), ["joint 'mesh'", "axis distance of 0.081 m", "the distance is 0.08 m"]),
     (space(SPATIAL_MESH, axis="0 1 0", i=50, j=30), ["joint 'mesh'", "has skew axes", "0.08 m"]),
     (space(SPATIAL_LINE, x=10, y=-40, radius=40), ["joint 'teeth'", "radius 0.04 m", "-0.04 m to the left"]),
 ])
@@ -114,7 +114,7 @@ def test_gears_that_cannot_be(gudgeon, text, code, words):
 SPRING = "[force.torsion_spring]\nname i j axis_i stiffness[N.m/rad]\ncoil ground second \"0 0 1\" 0.1\n"
 
 
-@pytest.mark.parametrize("spin, words", [("0", []), ("2", ["force element 'coil'", "5.73 deg apart"])])
+@pytest.mark.parametrize("spin, words", [("0", []), ("2", ["force element 'coil'", "angle between its axes of 5.73 deg"])])
 def test_axes_of_a_torsion_spring_that_part(gudgeon, spin, words):
     """A body that nothing holds turns with 2 rad/s about an axis across that of its spring for 50 ms: 0.1 rad."""
     found = warnings_of(gudgeon, space(SPRING, wx=spin, wy="0", end=50))
