@@ -232,7 +232,7 @@ def test_mistakes(gudgeon, tmp_path, figure, message):
     """Each is told at its word."""
     deck = written(tmp_path, changed(CRANK, "output", figures=figure))
     done = call(gudgeon, "check", deck, expect=3)
-    assert message in done.stderr and "scene.deck:22" in done.stderr, done.stderr
+    assert message in done.stderr and "scene.deck:21" in done.stderr, done.stderr
 
 
 def test_a_run_that_ends_early_draws_what_it_reached(gudgeon, tmp_path):
