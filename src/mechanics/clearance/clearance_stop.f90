@@ -144,7 +144,7 @@ contains
             help = "an angle for a pin, a length for a guide"
          else if (item%is_given("lower") .and. high%given .and. high%number <= low%number) then
             column = place_of(item, "upper")
-            message = "stop '"//item%name//"' leave no range of motion"
+            message = "stop '"//item%name//"' leaves no range of motion"
             help = "upper must be greater than lower"
          else if (is_angle .and. item%is_given("lower") .and. high%given .and. high%number - low%number >= pi) then
             column = place_of(item, "upper")

@@ -96,7 +96,7 @@ contains
          end associate
       end do
       if (.not. all(ieee_is_finite(accuracy%extremes%minimum))) then
-         call lines%line("  -: NaN; a contact point is defined only during contact")
+         call lines%line("  -: undefined; a contact point is defined only during contact")
       end if
       if (n > most_extremes) call lines%line("  and "//to_text(n - most_extremes)//" more in summary.json and run.h5")
    end subroutine extreme_lines
