@@ -56,7 +56,7 @@ contains
       if (present(method)) call use_method(run%loaded, method)
       call new_part(run%loaded%system, run%loaded%method, run%loaded%plan%output_times, none, run%part)
       call run%keeper%start(catalogue, error)
-      if (.not. allocated(error)) call begin_part(run%part, run%loaded%y, 1.0e-3_wp, run%tally, run%keeper, error)
+      if (.not. allocated(error)) call begin_part(run%part, run%loaded%y, 1.0e-2_wp, run%tally, run%keeper, error)
    end subroutine begin
 
    !> Another integrator with the deck's controls.
