@@ -34,7 +34,7 @@ class Kind:
 
     def __init__(self, name, told):
         self.name = name
-        block = re.search(r"(columns \(beside name\)|keys):\n((?:  .*\n)*)", told)
+        block = re.search(r"(columns \(besides name\)|keys):\n((?:  .*\n)*)", told)
         self.is_table = bool(block) and block.group(1) != "keys"
         self.keys = [Key(*pair) for pair in KEY.findall(block.group(2))] if block else []
 
