@@ -274,6 +274,10 @@ BENCH_HELPERS := $(sort $(filter-out $(BENCH_MAINS),$(wildcard tests/bench/*.f90
 GENERATED := $(B)/build_info.f90 $(B)/tests/run_tests.f90
 
 object = $(patsubst %,$(B)/obj/%.o,$(basename $(1)))
+# Sources and folders named below for flags of their own: a name that is not there ends make.
+named = $(foreach f,$(1),$(if $(wildcard $(f)),$(f),$(error Makefile names $(f), which is not there)))
+named_objects = $(call object,$(call named,$(1)))
+of_folders = $(addsuffix /%,$(call named,$(addprefix src/,$(1))))
 OBJECTS := $(call object,$(SOURCES) $(C_SOURCES)) $(B)/obj/gen/build_info.o
 MAIN_OBJECT := $(call object,$(MAIN))
 TEST_OBJECTS := $(call object,$(TEST_SOURCES) $(TEST_HELPERS)) $(B)/obj/gen/run_tests.o
@@ -433,7 +437,8 @@ $(B)/tests/many_decks: $(call object,$(FUZZ_MAIN) $(COVERAGE)) $(OBJECTS) $(B)/o
 # What runs once takes longer to optimise than it can gain: tests, the reading of decks, the verbs, the studies and the figures.
 ifeq ($(MODE),release)
 RUNS_ONCE := input/scene input/adams studies results/figures results/comparison app
-$(TEST_OBJECTS) $(call object,$(filter $(RUNS_ONCE:%=src/%/%),$(SOURCES)) src/analysis/assembly/driver_conflict): private FFLAGS += -O1
+$(TEST_OBJECTS) $(call object,$(filter $(call of_folders,$(RUNS_ONCE)),$(SOURCES))) \
+  $(call named_objects,src/analysis/assembly/driver_conflict.f90): private FFLAGS += -O1
 endif
 
 # Kernels that are text of a procedure so that they are part of it: the compiler finds sine and cosine too large for that. Their loops
@@ -441,21 +446,21 @@ endif
 # registers.
 ifeq ($(MODE),release)
 SHORT_LOOPS := -fno-tree-ch -fira-region=one -fno-move-loop-invariants -fno-tree-slsr
-$(call object,src/mechanics/system/mechanism_direct.f90): private FFLAGS += -O2 -fno-gcse -fno-code-hoisting -fno-tree-pre $(SHORT_LOOPS) \
+$(call named_objects,src/mechanics/system/mechanism_direct.f90): private FFLAGS += -O2 -fno-gcse -fno-code-hoisting -fno-tree-pre $(SHORT_LOOPS) \
   --param=max-inline-insns-auto=200
-$(call object,src/mechanics/clearance/round_contacts.f90): private FFLAGS += $(SHORT_LOOPS) --param=max-inline-insns-auto=200
+$(call named_objects,src/mechanics/clearance/round_contacts.f90): private FFLAGS += $(SHORT_LOOPS) --param=max-inline-insns-auto=200
 # what is looked at after each step
-$(call object,$(patsubst %,src/%.f90,analysis/dynamic/dynamic analysis/times/instants analysis/monitors/guards \
-  analysis/monitors/contact_watch_steps integrators/contract/integrator mechanics/reduction/planar_guided \
+$(call named_objects,$(patsubst %,src/%.f90,analysis/dynamic/dynamic analysis/times/output_times analysis/monitors/guards \
+  analysis/monitors/contact_monitor_steps integrators/contract/integrator mechanics/reduction/planar_one_dof \
   mechanics/system/mechanism_scales)): private FFLAGS += $(SHORT_LOOPS)
-$(call object,$(patsubst %,src/mechanics/%.f90,system/balanced_report clearance/round_reports)): private FFLAGS += -O2 -fno-gcse --param=max-inline-insns-auto=200
+$(call named_objects,$(patsubst %,src/mechanics/%.f90,system/balanced_report clearance/round_reports)): private FFLAGS += -O2 -fno-gcse --param=max-inline-insns-auto=200
 endif
 
 # What reads decks and makes kinds of their rows notes where it goes, for `make fuzz SECONDS=`.
 ifeq ($(MODE),sanitize)
 COVERED := $(addprefix foundation/,core text units numerics curves expressions contracts) input/functions input/deck input/scene \
   input/builder $(addprefix mechanics/,contact lubrication joints forces clearance)
-$(call object,$(filter $(COVERED:%=src/%/%),$(SOURCES))): private FFLAGS += -fsanitize-coverage=trace-pc
+$(call object,$(filter $(call of_folders,$(COVERED)),$(SOURCES))): private FFLAGS += -fsanitize-coverage=trace-pc
 $(B)/gudgeon $(B)/tests/run_tests: $(call object,$(COVERAGE))
 endif
 

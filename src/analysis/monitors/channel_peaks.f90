@@ -39,9 +39,11 @@ module channel_peaks
       integer, private :: n_row = 0                   !! rows since the last event, at most 3
       real(wp), private :: from = -huge(1.0_wp)       !! extremes start anew there [s]
       real(wp), private :: t(3) = 0.0_wp              !! (3) times of the last rows, the latest is the last [s]
-      real(wp), allocatable, private :: y(:, :)       !! (m, 3) states there [any]
-      real(wp), allocatable, private :: ydot(:, :)    !! (m, 3) their derivatives [any]
-      real(wp), allocatable, private :: x(:, :)       !! (n, 3) numbers there [any]
+      integer, private :: column(3) = [1, 2, 3]       !! (3) where these rows are in what follows
+      real(wp), allocatable, private :: y(:, :)       !! (m, 3) states, by column [any]
+      real(wp), allocatable, private :: ydot(:, :)    !! (m, 3) their derivatives, by column [any]
+      real(wp), allocatable, private :: x(:, :)       !! (n, 3) numbers, by column; 0 where missing [any]
+      logical, allocatable, private :: is_here(:, :)  !! (n, 3) they are not missing
       logical, allocatable, private :: is_known(:)    !! (n) the number is not missing in the last written row
       integer, allocatable, private :: bends(:)       !! (n) the last rows have a maximum (1) or a minimum (-1) between them; else 0
       type(text_t), allocatable, private :: units(:)  !! (n) SI
@@ -99,6 +101,7 @@ contains
       end do
       allocate (self%y(m, 3), self%ydot(m, 3), self%x(n, 3), self%noise(n), source=0.0_wp)
       allocate (self%pair%y0(m), self%pair%y1(m), self%pair%f0(m), self%pair%f1(m), self%pair%inner(m, 2), source=0.0_wp)
+      allocate (self%is_here(n, 3), source=.false.)
       allocate (self%is_known(n), source=.false.)
       allocate (self%bends(n), source=0)
       allocate (self%minimum(n), source=huge(1.0_wp))
@@ -131,31 +134,45 @@ contains
             self%most = -huge(1.0_wp)
          end if
       end if
-      do k = 1, 2
-         self%t(k) = self%t(k + 1)
-         self%y(:, k) = self%y(:, k + 1)
-         self%ydot(:, k) = self%ydot(:, k + 1)
-         self%x(:, k) = self%x(:, k + 1)
-      end do
-      self%t(3) = t
-      self%y(:, 3) = y
-      self%ydot(:, 3) = ydot
-      do k = 1, size(self%place)
-         associate (x => values(self%place(k)))
-            self%x(k, 3) = x
-            if (.not. is_written) cycle
-            self%is_known(k) = ieee_is_finite(x)
-            if (.not. self%is_known(k)) cycle
-            if (x < self%minimum(k)) self%minimum(k) = x
-            if (x > self%most(k)) self%most(k) = x
-         end associate
-      end do
-      if (is_written) call count_row(self)
+      self%t = [self%t(2:), t]
+      self%column = [self%column(2:), self%column(1)]
+      associate (new => self%column(3))
+         self%y(:, new) = y
+         self%ydot(:, new) = ydot
+         do k = 1, size(self%place)
+            self%is_here(k, new) = ieee_is_finite(values(self%place(k)))
+            self%x(k, new) = merge(values(self%place(k)), 0.0_wp, self%is_here(k, new))
+         end do
+         if (is_written) then
+            self%is_known = self%is_here(:, new)
+            call raise_extremes(size(self%place), self%x(:, new), self%is_known, self%minimum, self%most)
+            call count_row(self)
+         end if
+      end associate
       self%n_row = min(self%n_row + 1, 3)
       self%search = bracket_t()
       self%first = 0
-      if (self%n_row == 3) call find_bends(size(self%place), self%t, self%x(:, 1), self%x(:, 2), self%x(:, 3), self%bends)
+      associate (x => self%x, c => self%column)
+         if (self%n_row == 3) call find_bends(size(self%place), self%t, x(:, c(1)), x(:, c(2)), x(:, c(3)), self%bends)
+      end associate
    end subroutine add_row
+
+   !> The extremes with the numbers of a written row.
+   pure subroutine raise_extremes(n, x, is_known, minimum, most)
+      integer, intent(in) :: n                 !! numbers
+      real(wp), intent(in) :: x(n)             !! (n) the numbers [any]
+      logical, intent(in) :: is_known(n)       !! (n) the number is not missing
+      real(wp), intent(inout) :: minimum(n)    !! (n) the minimum so far [any]
+      real(wp), intent(inout) :: most(n)       !! (n) the maximum so far [any]
+
+      integer :: k
+
+      do k = 1, n
+         if (.not. is_known(k)) cycle
+         minimum(k) = min(minimum(k), x(k))
+         most(k) = max(most(k), x(k))
+      end do
+   end subroutine raise_extremes
 
    !> Count a written row. What is round-off is found anew each time that their number has doubled.
    pure subroutine count_row(self)
@@ -181,16 +198,18 @@ contains
       associate (search => self%search)
          do
             if (search%n > 0 .and. search%n < most_output_times) then
-               call search%propose(best_of(self), self%noise(search%of()), is_there)
+               call search%propose(best_of(self), self%noise(search%of), is_there)
                if (is_there) exit
             end if
-            search%n = 0
-            search%number = search%number + 1
-            k = search%of()
+            k = search%of + 1
+            do while (k <= size(self%place))
+               if (self%bends(k) /= 0) then
+                  if (self%is_known(k) .and. all(self%is_here(k, :))) exit
+               end if
+               k = k + 1
+            end do
             if (k > size(self%place)) return
-            if (self%bends(k) /= search%sign() .or. .not. self%is_known(k)) cycle
-            search%t = self%t
-            search%f = search%sign()*self%x(k, :)
+            call search%begin(k, self%bends(k), self%t, self%x(k, self%column))
             if (maxval(search%f) - minval(search%f) <= round_off*maxval(abs(search%f))) cycle
             call search%propose(best_of(self), self%noise(k), is_there)
             if (is_there) exit
@@ -203,8 +222,8 @@ contains
    pure real(wp) function best_of(self) result(best)
       class(channel_peaks_t), intent(in) :: self  !! the peaks
 
-      associate (k => self%search%of())
-         best = merge(self%most(k), -self%minimum(k), self%search%sign() == 1)
+      associate (k => self%search%of)
+         best = merge(self%most(k), -self%minimum(k), self%search%sign == 1)
       end associate
    end function best_of
 
@@ -212,7 +231,7 @@ contains
    pure integer function asked_for(self) result(place)
       class(channel_peaks_t), intent(in) :: self  !! the peaks
 
-      place = self%place(self%search%of())
+      place = self%place(self%search%of)
    end function asked_for
 
    !> The numbers at the instant that was asked for.
@@ -225,7 +244,7 @@ contains
       real(wp) :: f
       integer :: k
 
-      k = self%search%of()  ! the others are left alone: what is found of a number does not depend on which others there are
+      k = self%search%of  ! the others are left alone: what is found of a number does not depend on which others there are
       associate (search => self%search, x => self%x(k, :))
          f = values(self%asked_for())
          counts = ieee_is_finite(f) .and. ieee_is_finite(rough)
@@ -235,7 +254,7 @@ contains
             search%n = most_output_times
             return
          end if
-         f = search%sign()*f
+         f = search%sign*f
          self%minimum(k) = min(self%minimum(k), values(self%place(k)))
          self%most(k) = max(self%most(k), values(self%place(k)))
          call search%narrow(f)
@@ -257,10 +276,10 @@ contains
          pair%t0 = self%t(first)
          pair%h = self%t(first + 1) - self%t(first)
          pair%has_inner = .false.
-         pair%y0 = self%y(:, first)
-         pair%y1 = self%y(:, first + 1)
-         pair%f0 = self%ydot(:, first)
-         pair%f1 = self%ydot(:, first + 1)
+         pair%y0 = self%y(:, self%column(first))
+         pair%y1 = self%y(:, self%column(first + 1))
+         pair%f0 = self%ydot(:, self%column(first))
+         pair%f1 = self%ydot(:, self%column(first + 1))
       end associate
    end subroutine take_pair
 
@@ -331,7 +350,9 @@ contains
       call archive%put([self%t, self%minimum, self%most])
       call archive%put(merge(1, 0, self%is_known))
       do k = 1, 3
-         call archive%put([self%y(:, k), self%ydot(:, k), self%x(:, k)])
+         associate (c => self%column(k))
+            call archive%put([self%y(:, c), self%ydot(:, c), merge(self%x(:, c), not_a_number(), self%is_here(:, c))])
+         end associate
       end do
    end subroutine save_peaks
 
@@ -352,9 +373,13 @@ contains
       call archive%get(known)
       self%is_known = known == 1
       do k = 1, 3
-         call archive%get(self%y(:, k))
-         call archive%get(self%ydot(:, k))
-         call archive%get(self%x(:, k))
+         associate (c => self%column(k))
+            call archive%get(self%y(:, c))
+            call archive%get(self%ydot(:, c))
+            call archive%get(self%x(:, c))
+            self%is_here(:, c) = ieee_is_finite(self%x(:, c))
+            where (.not. self%is_here(:, c)) self%x(:, c) = 0.0_wp
+         end associate
       end do
    end subroutine load_peaks
 

@@ -3,7 +3,6 @@
 !>
 !> Source: successive parabolic interpolation (Brent, Algorithms for Minimization without Derivatives, 1973, ch. 5).
 module peak_bracket
-   use, intrinsic :: ieee_arithmetic, only: ieee_is_finite
    use kinds, only: wp
    implicit none (type, external)
    private
@@ -15,55 +14,55 @@ module peak_bracket
 
    !> The search for one extreme of a number times its sign.
    type :: bracket_t
-      integer :: number = 0                   !! 2 k - 1: maximum of number k, 2 k: its minimum
+      integer :: of = 0                       !! which number is looked at
+      integer :: sign = 1                     !! by which its values are multiplied: 1 for a maximum, -1 for a minimum
       integer :: n = 0                        !! instants looked at
       real(wp) :: t(3) = 0.0_wp               !! (3) instants [s]
       real(wp) :: f(3) = 0.0_wp               !! (3) values times the sign [any]
       real(wp) :: at = 0.0_wp                 !! instant asked for [s]
    contains
-      procedure :: of => number_of
-      procedure :: sign => sign_of
+      procedure :: begin => begin_bracket
       procedure :: propose
       procedure :: narrow
    end type bracket_t
 
 contains
 
-   !> Kind of vertex that the parabola through three rows has between them, see `propose`; 0 for a number that is NaN in a row.
+   !> Kind of vertex that the parabola through three rows has between them, see `propose`.
    pure subroutine find_bends(n, t, x1, x2, x3, bends)
       integer, intent(in) :: n                     !! numbers
       real(wp), intent(in) :: t(3)                 !! (3) times of the rows, increasing [s]
-      real(wp), intent(in) :: x1(n), x2(n), x3(n)  !! (n) numbers there [any]
+      real(wp), intent(in) :: x1(n), x2(n), x3(n)  !! (n) numbers there, all finite [any]
       integer, intent(inout) :: bends(n)           !! (n) 1: maximum, -1: minimum, 0: no vertex between them
 
-      real(wp) :: a, b, bend, slope
+      real(wp) :: a, b, bend, slope, towards
       integer :: k
 
       a = t(2) - t(1)
       b = t(3) - t(2)
-      do k = 1, n
-         bends(k) = 0
-         if (.not. (ieee_is_finite(x1(k)) .and. ieee_is_finite(x2(k)) .and. ieee_is_finite(x3(k)))) cycle
+      do k = 1, n  ! without branches, so that it is done for several numbers at once
          bend = 2.0_wp*((x2(k) - x1(k))/a - (x3(k) - x2(k))/b)
-         slope = (x2(k) - x1(k))*b/a + (x3(k) - x2(k))*a/b
-         if (bend < 0.0_wp) slope = -slope
-         if (slope > -a*abs(bend) .and. slope < b*abs(bend)) bends(k) = merge(1, -1, bend > 0.0_wp)
+         towards = sign(1.0_wp, bend)
+         slope = towards*((x2(k) - x1(k))*b/a + (x3(k) - x2(k))*a/b)
+         towards = merge(towards, 0.0_wp, slope > -a*abs(bend))
+         bends(k) = int(merge(towards, 0.0_wp, slope < b*abs(bend)))
       end do
    end subroutine find_bends
 
-   !> Which number is looked at.
-   pure integer function number_of(self) result(k)
-      class(bracket_t), intent(in) :: self  !! the bracket
+   !> Start the search for one extreme.
+   pure subroutine begin_bracket(self, of, sign, t, x)
+      class(bracket_t), intent(inout) :: self  !! the bracket
+      integer, intent(in) :: of                !! which number
+      integer, intent(in) :: sign              !! 1: its maximum, -1: its minimum
+      real(wp), intent(in) :: t(3)             !! (3) times of three rows, increasing [s]
+      real(wp), intent(in) :: x(3)             !! (3) the number there [any]
 
-      k = (self%number + 1)/2
-   end function number_of
-
-   !> Sign by which its values are multiplied: 1 for a maximum, -1 for a minimum.
-   pure integer function sign_of(self)
-      class(bracket_t), intent(in) :: self  !! the bracket
-
-      sign_of = merge(1, -1, modulo(self%number, 2) == 1)
-   end function sign_of
+      self%of = of
+      self%sign = sign
+      self%n = 0
+      self%t = t
+      self%f = sign*x
+   end subroutine begin_bracket
 
    !> The vertex of the parabola through a bracket, if it lies between rows and above the extreme so far.
    pure subroutine propose(self, best, noise, is_there)

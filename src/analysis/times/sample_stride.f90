@@ -25,7 +25,8 @@ module sample_stride
       integer :: n_step = 0                !! steps since the last sample
       integer :: n = 0                     !! samples since the last event, at most 3
       real(wp) :: t(3) = 0.0_wp            !! (3) times of the last samples [s]
-      real(wp), allocatable :: a(:, :)     !! (m, 3) accelerations there [any]
+      integer :: column(3) = [1, 2, 3]     !! (3) where these samples are in what follows
+      real(wp), allocatable :: a(:, :)     !! (m, 3) accelerations, by column [any]
       real(wp), allocatable :: most(:)     !! (m) their maximum magnitudes so far [any]
    contains
       procedure :: begin => begin_stride
@@ -78,31 +79,41 @@ contains
       real(wp), intent(in) :: t                      !! time [s]
       real(wp), intent(in) :: a(:)                   !! (m) accelerations [any]
 
-      real(wp) :: bend, part, scale
-      integer :: k
+      real(wp) :: bend
 
-      do k = 1, 2
-         self%t(k) = self%t(k + 1)
-         self%a(:, k) = self%a(:, k + 1)
-      end do
-      self%t(3) = t
-      self%a(:, 3) = a
+      self%t = [self%t(2:), t]
+      self%column = [self%column(2:), self%column(1)]
+      self%a(:, self%column(3)) = a
       self%most = max(self%most, abs(a))
       self%n = min(self%n + 1, 3)
       self%n_step = 0
       if (self%n < 3 .or. .not. self%t(3) > self%t(1)) return
-      part = (self%t(2) - self%t(1))/(self%t(3) - self%t(1))
-      bend = 0.0_wp
-      associate (floor => round_off*maxval(self%most))
-         do k = 1, size(a)
-            if (self%most(k) <= floor) cycle
-            scale = max(maxval(abs(self%a(k, :))), faded*self%most(k))
-            bend = max(bend, abs(self%a(k, 2) - (1.0_wp - part)*self%a(k, 1) - part*self%a(k, 3))/scale)
-         end do
+      associate (a => self%a, c => self%column)
+         bend = bend_of(size(self%most), self%t, a(:, c(1)), a(:, c(2)), a(:, c(3)), self%most)
       end associate
       if (bend < straight) self%length = min(2*self%length, longest)
       if (bend > bent) self%length = max(self%length/2, 1)
    end subroutine add_sample
+
+   !> Bend of the accelerations between three samples.
+   pure real(wp) function bend_of(m, t, a1, a2, a3, most) result(bend)
+      integer, intent(in) :: m                     !! accelerations
+      real(wp), intent(in) :: t(3)                 !! (3) times of the samples [s]
+      real(wp), intent(in) :: a1(m), a2(m), a3(m)  !! (m) accelerations there [any]
+      real(wp), intent(in) :: most(m)              !! (m) their maximum magnitudes so far [any]
+
+      real(wp) :: floor, part, scale
+      integer :: k
+
+      part = (t(2) - t(1))/(t(3) - t(1))
+      floor = round_off*maxval(most)
+      bend = 0.0_wp
+      do k = 1, m
+         if (most(k) <= floor) cycle
+         scale = max(abs(a1(k)), abs(a2(k)), abs(a3(k)), faded*most(k))
+         bend = max(bend, abs(a2(k) - (1.0_wp - part)*a1(k) - part*a3(k))/scale)
+      end do
+   end function bend_of
 
    !> Write what is remembered.
    subroutine save_stride(self, archive)
@@ -115,7 +126,7 @@ contains
       call archive%put([self%length, self%n_step, self%n])
       call archive%put([self%t, self%most])
       do k = 1, 3
-         call archive%put(self%a(:, k))
+         call archive%put(self%a(:, self%column(k)))
       end do
    end subroutine save_stride
 
@@ -133,7 +144,7 @@ contains
       call archive%get(self%t)
       call archive%get(self%most)
       do k = 1, 3
-         call archive%get(self%a(:, k))
+         call archive%get(self%a(:, self%column(k)))
       end do
    end subroutine load_stride
 
