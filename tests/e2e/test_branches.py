@@ -182,7 +182,7 @@ def test_torsion_spring_whose_axes_part(gudgeon, method):
     text = (SWING.replace("{tilt}", "0").replace("{angle}", "{1rad*t/(1 s)}") + spring
             + TAIL.format(end=3).replace("tolerance", f"method = {method}\ntolerance"))
     words = ended(gudgeon, text)
-    assert "force 'coil' has an undefined angle: the angle between its axes is " in words and "limit is 90 deg" in words
+    assert "force element 'coil' has an undefined angle: the angle between its axes is " in words and "limit is 90 deg" in words
 
 
 def test_rack_whose_pinion_tilts(gudgeon):

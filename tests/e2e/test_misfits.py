@@ -82,11 +82,11 @@ def test_gears_that_fit(gudgeon, text):
 
 
 @pytest.mark.parametrize("text, words", [
-    (plane(MESH, i=50, j=31), ["joint 'mesh'", "axis distance of 0.081 m", "the distance is 0.08 m"]),
-    (plane(MESH, i=50, j=-30), ["joint 'mesh'", "axis distance of 0.02 m", "the distance is 0.08 m"]),
+    (plane(MESH, i=50, j=31), ["joint 'mesh'", "an axis distance of 0.081 m", "the distance is 0.08 m"]),
+    (plane(MESH, i=50, j=-30), ["joint 'mesh'", "an axis distance of 0.02 m", "the distance is 0.08 m"]),
     (plane(LINE, x=10, y=41, radius=40), ["joint 'teeth'", "radius 0.04 m", "0.041 m to the left"]),
     (plane(LINE, x=10, y=40, radius=-40), ["joint 'teeth'", "radius -0.04 m", "0.04 m to the left"]),
-    (space(SPATIAL_MESH, axis="0 0 -1", i=50, j=31), ["joint 'mesh'", "axis distance of 0.081 m", "the distance is 0.08 m"]),
+    (space(SPATIAL_MESH, axis="0 0 -1", i=50, j=31), ["joint 'mesh'", "an axis distance of 0.081 m", "the distance is 0.08 m"]),
     (space(SPATIAL_MESH, axis="0 1 0", i=50, j=30), ["joint 'mesh'", "has skew axes", "0.08 m"]),
     (space(SPATIAL_LINE, x=10, y=-40, radius=40), ["joint 'teeth'", "radius 0.04 m", "-0.04 m to the left"]),
 ])

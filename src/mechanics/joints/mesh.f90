@@ -22,9 +22,8 @@ contains
       words = ""
       if (distance <= close_enough*maxval(abs(radius))) return
       if (abs(abs(sum(radius)) - distance) <= close_enough*maxval(abs(radius))) return
-      words = "has radii for an axis distance of "//real_text(abs(sum(radius)), 4)//" m, but the distance is "// &
-         real_text(distance, 4)// &
-              " m: the gears keep their ratio of radii and mesh where these divide that distance"
+      words = "has radii whose sum needs an axis distance of "//real_text(abs(sum(radius)), 4)//" m, but the distance is "// &
+              real_text(distance, 4)//" m: the gears keep their ratio and touch where that ratio divides the distance"
    end function distance_misfit
 
    !> Axes of bevel gears meet.
@@ -35,8 +34,7 @@ contains
 
       words = ""
       if (gap <= close_enough*maxval(abs(radius))) return
-      words = "has skew axes: their distance is "//real_text(gap, 4)// &
-              " m; the gears keep their ratio of radii"
+      words = "has skew axes, "//real_text(gap, 4)//" m apart: the gears keep their ratio"
    end function axes_misfit
 
    !> A pinion is beside its rack's pitch line by its radius, to the left if that is positive.

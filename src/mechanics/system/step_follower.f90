@@ -57,7 +57,7 @@ contains
          select type (set => system%loading%forces(k)%set)
          class is (spatial_torsion_spring_t)
             i = findloc(set%cosine > 0.0_wp, .false., dim=1)
-            if (i > 0) words = "force '"//set%names(i)%s//"' "//words_of_lost_angle(set, i)
+            if (i > 0) words = "force element '"//set%names(i)%s//"' "//words_of_lost_angle(set, i)
          end select
       end do
    end subroutine find_off_branch

@@ -10,7 +10,7 @@ module precision_text
    use precision_results, only: error_names, error_onsets, error_units, error_words, tol_sweep_t, n_compared, precision_t, &
         tol_run_done, &
       tol_run_failed, tol_run_other, tol_run_states, tol_run_t, tol_run_unrun
-   use text, only: real_text, replace, split_blank, starts_with, text_t, to_text
+   use text, only: counted, real_text, replace, split_blank, starts_with, text_t, to_text
    use text_buffer, only: buffer_t
    implicit none (type, external)
    private
@@ -29,7 +29,8 @@ contains
       type(buffer_t) :: lines
 
       call lines%line(title)
-      call lines%line("compared   "//to_text(size(study%tol_sweeps))//" settings on a motion of "//real_text(study%end, 6)// &
+      call lines%line("compared   "//counted(size(study%tol_sweeps), "setting", "settings")//" on a motion of "// &
+                      real_text(study%end, 6)// &
                       " s"//trim(merge(" with a stop condition", "                      ", study%is_stopped))//", at "// &
                       to_text(study%output_times)//" instants"//window_text(study))
       call lines%line("machine    "//study%machine%processor//"; "//study%machine%compiler)
