@@ -51,7 +51,45 @@ contains
 
    include "push.inc"
    include "../../foundation/numerics/across.inc"
-   include "spatial_loads.inc"
+
+   !> Add the forces of the contacts that act to the loads, and set what is integrated: what damping and friction take, and the
+   !> normal force.
+   pure subroutine add_loads(n, n_each, memory, body, contacts, f_n, f_elastic, f_t, n_body, force, moment, integrands)
+      integer, intent(in) :: n                           !! number of contacts
+      integer, intent(in) :: n_each                      !! contacts of an item
+      type(contact_memory_t), intent(in) :: memory(n)    !! (n) states
+      integer, intent(in) :: body(2, n)                  !! (2, items) bodies i and j
+      type(point_contact_t), intent(in) :: contacts(n)   !! (n) kinematics of those that act
+      real(wp), intent(in) :: f_n(n)                     !! (n) normal forces [N]
+      real(wp), intent(in) :: f_elastic(n)               !! (n) their elastic parts [N]
+      real(wp), intent(in) :: f_t(n)                     !! (n) friction forces on j along t [N]
+      integer, intent(in) :: n_body                      !! number of bodies
+      real(wp), intent(inout) :: force(3, 0:n_body)      !! (3, 0:bodies) forces [N]
+      real(wp), intent(inout) :: moment(3, 0:n_body)     !! (3, 0:bodies) moments about the centres of mass [N.m]
+      real(wp), intent(inout) :: integrands(n_integrand, n)  !! (3, n) power lost and normal force, set [W and N]
+
+      real(wp) :: f(3)
+      integer :: i, item, j, k
+
+      do k = 1, n
+         if (.not. memory(k)%is_touching) then
+            integrands(:, k) = 0.0_wp
+            if (.not. f_n(k) > 0.0_wp) cycle  ! but for laws that act apart
+         end if
+         item = k
+         if (n_each > 1) item = (k - 1)/n_each + 1
+         i = body(1, item)
+         j = body(2, item)
+         f = -f_n(k)*contacts(k)%normal + f_t(k)*contacts(k)%tangent
+         force(:, i) = force(:, i) - f
+         force(:, j) = force(:, j) + f
+         moment(:, i) = moment(:, i) - across(contacts(k)%arm_i, f)
+         moment(:, j) = moment(:, j) + across(contacts(k)%arm_j, f)
+         integrands(loss_contact, k) = (f_n(k) - f_elastic(k))*contacts(k)%rate
+         integrands(loss_friction, k) = -f_t(k)*contacts(k)%v_t_work
+         integrands(normal_impulse, k) = f_n(k)
+      end do
+   end subroutine add_loads
 
    !> Measure the contacts that act, and take what the law gets of them.
    subroutine measure_touching(self, motion)

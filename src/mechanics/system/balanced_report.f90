@@ -205,7 +205,38 @@ contains
 
    include "../reduction/planar_accelerate.inc"
    include "../bodies/report_bodies.inc"
-   include "../reduction/planar_balance.inc"
+
+   !> Force that holds each body, and its moment about the centre of mass, from the tips to the ground.
+   pure subroutine find_wrenches(n, body, base, n_body, mass, r, a, alpha, force, moment, wrench)
+      integer, intent(in) :: n                          !! number of bodies that are requested
+      integer, intent(in) :: body(n)                    !! (n) these, each before what it is held by
+      integer, intent(in) :: base(n)                    !! (n) what they are held by, 0: the ground
+      integer, intent(in) :: n_body                     !! number of bodies
+      real(wp), intent(in) :: mass(3, n_body)           !! (3, bodies) masses [kg, kg, kg.m^2]
+      real(wp), intent(in) :: r(3, 0:n_body)            !! (3, 0:bodies) centres of mass [m]
+      real(wp), intent(in) :: a(3, 0:n_body)            !! (3, 0:bodies) accelerations [m/s^2]
+      real(wp), intent(in) :: alpha(3, 0:n_body)        !! (3, 0:bodies) angular accelerations [rad/s^2]
+      real(wp), intent(in) :: force(3, 0:n_body)        !! (3, 0:bodies) applied forces [N]
+      real(wp), intent(in) :: moment(3, 0:n_body)       !! (3, 0:bodies) applied moments about the centres of mass [N.m]
+      real(wp), intent(inout) :: wrench(3, 0:n_body)    !! (3, 0:bodies) of the requested bodies: what holds them [N, N, N.m]
+
+      integer :: b, c, k
+
+      do k = 1, n
+         b = body(k)
+         wrench(1, b) = mass(1, b)*a(1, b) - force(1, b)
+         wrench(2, b) = mass(2, b)*a(2, b) - force(2, b)
+         wrench(3, b) = mass(3, b)*alpha(3, b) - moment(3, b)
+      end do
+      do k = 1, n
+         b = body(k)
+         c = base(k)
+         if (c == 0) cycle
+         wrench(1, c) = wrench(1, c) + wrench(1, b)
+         wrench(2, c) = wrench(2, c) + wrench(2, b)
+         wrench(3, c) = wrench(3, c) + wrench(3, b) + (r(1, b) - r(1, c))*wrench(2, b) - (r(2, b) - r(2, c))*wrench(1, b)
+      end do
+   end subroutine find_wrenches
 
    !> Quantities of joints and drivers.
    subroutine report_held(n, reading, n_body, wrench, n_set, joints, motion, n_value, values)
