@@ -74,13 +74,13 @@ contains
       class(step_nodes_t), intent(inout) :: self  !! the states
       real(wp), intent(in) :: s                   !! its place in the step, 0 to 1 [1]
       real(wp), intent(in) :: y(:)                !! (all) the state [any]
-      real(wp), intent(in) :: f(:)                !! (all) its derivative [any]
+      real(wp), intent(in), optional :: f(:)      !! (all) its derivative; absent: the polynomial is that of Lagrange [any]
 
       if (self%n == most .or. any(abs(s - [0.0_wp, self%s(:self%n), 1.0_wp]) < min_distance)) return
       self%n = self%n + 1
       self%s(self%n) = s
       self%y(:, self%n) = y
-      self%f(:, self%n) = f
+      if (present(f)) self%f(:, self%n) = f
    end subroutine nodes_add
 
    !> Whether the storage is full.

@@ -115,6 +115,10 @@ contains
       self%contraction = contraction
       self%is_stale = is_stale
       if (status /= advance_step .or. .not. self%nodes%are_of_use) return
+      if (self%is_stiff) then  ! the polynomial has states only
+         call self%nodes%add(s, y)
+         return
+      end if
       self%count%n_evaluations = self%count%n_evaluations + 1
       call system%evaluate(self%step%t0 + s*self%step%h, y, self%scratch, status)
       if (status == 0) call self%nodes%add(s, y, self%scratch)
