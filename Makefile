@@ -44,7 +44,7 @@ inner = +@$(MAKE) $(parallel) MODE=
 # Tests on all processors where pytest-xdist is there, each file of tests on one of them; PYTEST='-n 0' for one after the other
 workers = $(if $(shell $(PYTHON) -c 'import xdist' 2>/dev/null && echo yes),-p xdist -n $(JOBS) --dist loadfile)
 
-.PHONY: all install uninstall debug run quick test mutate release test-sanitize test-debian check bench bench-peers vtk-test browser-test slurm-test stability certify fuzz figures studies film-table film-errors lint format docs clean help
+.PHONY: all install uninstall debug run quick test mutate release test-sanitize test-debian check bench bench-peers new-kind-test vtk-test browser-test slurm-test stability certify fuzz figures studies film-table film-errors lint format docs clean help
 .PHONY: objects binary test_program bench_programs fuzz_program film_programs
 
 all:
@@ -113,6 +113,12 @@ bench-peers:
 	$(inner)release binary
 	@tests/bench/peers/set_up.sh $(abspath $(BUILD))/bench/peers
 	@$(PYTHON) -B tests/bench/peers/peers.py --build $(abspath $(BUILD)) $(PEERS)
+
+# the worked examples of docs/new-kind.md added to a copy of the sources, built and run; some minutes
+new-kind-test:
+	$(inner)release binary
+	@GUDGEON_NEW_KIND=1 GUDGEON_BUILD=$(abspath $(BUILD)) PYTEST_DISABLE_PLUGIN_AUTOLOAD=1 \
+	  $(PYTHON) -B -m pytest -c tests/pytest.ini $(PYTEST) tests/scripts/test_new_kind.py
 
 # motion.vtkhdf read by VTK itself, from PyPI in a virtual environment
 vtk-test:
@@ -207,6 +213,7 @@ help:
 	@echo "make release    checks that version, changelog, citation and man page agree; build/gudgeon-VERSION.tar.gz"
 	@echo "make bench      the timers of tests/bench             make lint     format and style; make format corrects the format"
 	@echo "make bench-peers  other programs (Simbody, MuJoCo, Exudyn) on the same scenes: time against error; PEERS='--quick'"
+	@echo "make new-kind-test  the worked examples of docs/new-kind.md added to a copy of the sources, built and run"
 	@echo "make vtk-test   the file of a motion (motion = vtkhdf) read by VTK itself, from PyPI in a virtual environment"
 	@echo "make browser-test  pages of animations and of runs opened by Chromium: no error, another picture after a step"
 	@echo "make slurm-test    a sweep as a job array of a Slurm on this host, with tasks killed and out of time (as root)"
