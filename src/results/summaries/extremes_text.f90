@@ -1,20 +1,18 @@
-!> The extremes of a run in the summaries: a table of the channels and one of the clearance joints.
+!> The extremes of a run in summary.txt: a table of the channels and one of the clearance joints.
 module extremes_text
    use catalogue, only: catalogue_t
    use channel_names, only: scalar_name
    use channel_noise, only: known_text
    use extremes, only: extremes_t, joint_extremes_t
    use, intrinsic :: ieee_arithmetic, only: ieee_is_finite
-   use json_text, only: json_object_t
-   use kinds, only: i8, wp
-   use text, only: append_text, text_t, to_text
+   use kinds, only: wp
+   use text, only: to_text
    use text_buffer, only: buffer_t
    implicit none (type, external)
    private
-   public :: channel_objects, channel_table, joint_objects, joint_table
+   public :: channel_table, joint_table
 
    integer, parameter :: most_lines = 40     !! channels in summary.txt
-   integer, parameter :: most_objects = 1000 !! channels in summary.json
    integer, parameter :: widest_name = 60    !! characters of a name that others are lined up with
 
 contains
@@ -103,68 +101,6 @@ contains
          call lines%line("           "//to_text(size(joints) - most_lines)//" more in summary.json and in run.h5, /extremes")
       end if
    end subroutine joint_table
-
-   !> The extremes of the channels as objects.
-   function channel_objects(extremes, catalogue) result(objects)
-      type(extremes_t), intent(in) :: extremes      !! what was gathered
-      type(catalogue_t), intent(in) :: catalogue    !! what can be recorded
-      type(text_t), allocatable :: objects(:)       !! (at most 1000) objects as text
-
-      integer :: k
-
-      allocate (objects(0))
-      do k = 1, min(size(extremes%channels), most_objects)
-         block
-            type(json_object_t) :: json
-
-            call json%start(1)
-            call json%put_text("channel", scalar_name(catalogue, extremes%channels(k)))
-            call json%put_text("unit", unit_of(extremes, catalogue, k))
-            associate (one => extremes%told(k))
-               call json%put_real("least", one%minimum)
-               call json%put_real("least_time", one%min_time)
-               call json%put_real("greatest", one%maximum)
-               call json%put_real("greatest_time", one%max_time)
-            end associate
-            call json%put_real("mean", extremes%mean(k))
-            call json%put_real("rms", extremes%rms(k))
-            call append_text(objects, json%get())
-         end block
-      end do
-   end function channel_objects
-
-   !> What the clearance joints went through as objects.
-   function joint_objects(joints) result(objects)
-      type(joint_extremes_t), intent(in) :: joints(:) !! (n) the joints with contacts
-      type(text_t), allocatable :: objects(:)         !! (n) objects as text
-
-      integer :: k
-
-      allocate (objects(0))
-      do k = 1, size(joints)
-         block
-            type(json_object_t) :: json
-
-            call json%start(1)
-            associate (joint => joints(k))
-               call json%put_text("joint", joint%name)
-               call json%put_integer("impacts", int(joint%impacts, i8))
-               call json%put_real("contact_fraction", joint%contact_fraction)
-               call json%put_real("impact_speed", joint%speed)
-               call json%put_real("impact_speed_onset", joint%speed_onset)
-               call json%put_real("peak_force", joint%force)
-               call json%put_real("peak_force_onset", joint%force_onset)
-               call json%put_real("peak_force_time", joint%force_time)
-               call json%put_real("peak_penetration", joint%penetration)
-               call json%put_real("peak_penetration_onset", joint%penetration_onset)
-               call json%put_real("peak_penetration_time", joint%penetration_time)
-               call json%put_real("impulse", joint%impulse)
-               call json%put_real("energy_lost", joint%energy_lost)
-            end associate
-            call append_text(objects, json%get())
-         end block
-      end do
-   end function joint_objects
 
    !> Name of a number with its unit.
    function full_name(extremes, catalogue, k) result(name)

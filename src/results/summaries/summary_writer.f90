@@ -6,17 +6,21 @@ module summary_writer
    use display_units, only: choose_unit, display_unit_t
    use event_list, only: event_list_t, number_names
    use extremes, only: extremes_t, joint_extremes_t
-   use extremes_text, only: channel_objects, channel_table, joint_objects, joint_table
-   use horizon_text, only: add_horizon, horizon_json
+   use extremes_tables, only: channel_extremes, joint_extremes
+   use extremes_text, only: channel_table, joint_table
+   use horizon_table, only: table_of_horizon
+   use horizon_text, only: add_horizon
    use, intrinsic :: ieee_arithmetic, only: ieee_is_finite
+   use json_table, only: put_facts, put_rows
    use json_text, only: json_object_t
-   use kinds, only: i8, not_a_number, wp
+   use kinds, only: i8, wp
    use linear_text, only: linear_json, linear_lines
    use output_plan, only: output_plan_t
    use plot_text, only: valid_utf8
    use posix, only: utc_time
-   use recorder, only: row_end, row_jump, row_onset, row_peak, row_stop, status_complete, summary_t
+   use recorder, only: row_end, row_jump, row_onset, row_peak, status_complete, summary_t
    use statistics, only: number_t
+   use summary_table, only: relative_residual, seconds_per_rhs, table_of_cost, table_of_summary
    use text, only: append_text, real_text, text_t, to_text
    use text_buffer, only: buffer_t
    use text_table, only: one_line
@@ -25,6 +29,7 @@ module summary_writer
    public :: accuracy_lines, complete_summary, cost_lines, first_impacts, headline, outcome_t, summary_json, summary_lines
 
    integer, parameter :: most_impacts = 5          !! rows of the table of first impacts
+   integer, parameter :: most_channels = 1000      !! rows of the table of extremes in summary.json
    real(wp), parameter :: worth_telling = 1.0e-6_wp  !! way of a body in the assembly [m]
    character(*), parameter :: kind_contact = "contact"  !! kind of event that is an impact
 
@@ -55,28 +60,6 @@ contains
       if (.not. allocated(full%method%stabilisation)) full%method%stabilisation = ""
       if (.not. allocated(full%equilibrium)) full%equilibrium = ""
    end function complete_summary
-
-   !> Time per evaluation of the right-hand side, output aside; NaN if not known.
-   pure real(wp) function seconds_per_rhs(summary)
-      type(summary_t), intent(in) :: summary  !! of the run
-
-      integer(i8) :: n
-
-      seconds_per_rhs = not_a_number()
-      n = summary%count%rhs_evaluations - summary%count%output_evaluations
-      if (n > 0) seconds_per_rhs = summary%cpu_seconds/real(n, wp)
-   end function seconds_per_rhs
-
-   !> Residual of the ledger over the largest energy, NaN if not known.
-   pure real(wp) function relative_residual(summary)
-      type(summary_t), intent(in) :: summary  !! of the run
-
-      relative_residual = not_a_number()
-      if (.not. (ieee_is_finite(summary%quality%energy_residual_max) .and. ieee_is_finite(summary%quality%energy_max))) return
-      if (summary%quality%has_ledger .and. summary%quality%energy_max > 0.0_wp) then
-         relative_residual = summary%quality%energy_residual_max/summary%quality%energy_max
-      end if
-   end function relative_residual
 
    !> The summary for people.
    function summary_lines(plan, summary, events, outcome, catalogue) result(text)
@@ -285,13 +268,14 @@ contains
       call json%put_text("directory", plan%directory)
       call json%put_integer("degrees_of_freedom", int(plan%n_freedom, i8))
       call json%put_real("assembly_moved", plan%moved)
-      call put_summary(json, summary)
+      call put_facts(json, table_of_summary(summary))
+      call put_facts(json, table_of_cost(summary))
       call linear_json(json, summary%linear)
       if (plan%accuracy%asked > 0.0_wp) call json%put_object("accuracy", accuracy_json(plan%accuracy))
-      call horizon_json(plan%horizon, json)
+      if (allocated(plan%horizon%t)) call put_facts(json, table_of_horizon(plan%horizon))
       if (plan%statistics%is_wanted) call json%put_object("statistics", numbers_object(outcome%numbers))
-      call json%put_objects("loose_joints", joint_objects(outcome%joints))
-      call json%put_objects("extremes", channel_objects(outcome%extremes, catalogue))
+      call put_rows(json, joint_extremes(outcome%joints), 1)
+      call put_rows(json, channel_extremes(outcome%extremes, catalogue), 1, most_channels)
       call json%put_objects("first_impacts", impact_objects(events))
       call json%put_list("files", outcome%files)
       if (plan%with%csv) call json%put_list("csv", outcome%csv)
@@ -314,45 +298,6 @@ contains
       end do
       object = json%get()
    end function parameter_object
-
-   !> The members that are the summary itself.
-   subroutine put_summary(json, summary)
-      type(json_object_t), intent(inout) :: json   !! the object
-      type(summary_t), intent(in) :: summary       !! cost and errors
-
-      call json%put_text("status", summary%status)
-      call json%put_text("message", summary%message)
-      call json%put_text("method", summary%method%integrator)
-      call json%put_text("solver", summary%method%solver)
-      call json%put_text("stabilisation", summary%method%stabilisation)
-      call json%put_text("equilibrium", summary%equilibrium)
-      call json%put_real("tolerance", summary%method%tolerance)
-      call json%put_real("time_start", summary%time_start)
-      call json%put_real("time_end", summary%time_end)
-      call json%put_integer("groups", int(summary%groups, i8))
-      call json%put_integer("steps", summary%count%steps)
-      call json%put_integer("rejected_steps", summary%count%rejected_steps)
-      call json%put_integer("rhs_evaluations", summary%count%rhs_evaluations)
-      call json%put_integer("output_evaluations", summary%count%output_evaluations)
-      call json%put_integer("factorisations", summary%count%factorisations)
-      call json%put_integer("events", int(summary%count%events, i8))
-      call json%put_integer("contacts", int(summary%count%contacts, i8))
-      call json%put_integer("samples", int(summary%count%samples, i8))
-      call json%put_integer("onset_rows", int(summary%count%rows(row_onset), i8))
-      call json%put_integer("peak_rows", int(summary%count%rows(row_peak), i8))
-      call json%put_integer("end_rows", int(summary%count%rows(row_end), i8))
-      call json%put_integer("jump_rows", int(summary%count%rows(row_jump), i8))
-      call json%put_integer("stop_rows", int(summary%count%rows(row_stop), i8))
-      call json%put_logical("ledger", summary%quality%has_ledger)
-      call json%put_real("energy_max", summary%quality%energy_max)
-      call json%put_real("energy_residual_max", summary%quality%energy_residual_max)
-      call json%put_real("energy_residual_relative", relative_residual(summary))
-      call json%put_real("violation_max", summary%quality%violation_max)
-      call json%put_real("violation_rate_max", summary%quality%violation_rate_max)
-      call json%put_real("cpu_seconds", summary%cpu_seconds)
-      call json%put_real("wall_seconds", summary%wall_seconds)
-      call json%put_real("seconds_per_rhs", seconds_per_rhs(summary))
-   end subroutine put_summary
 
    !> The statistics as an object.
    function numbers_object(numbers) result(object)

@@ -14,22 +14,22 @@ module hdf5_writer
    use event_list, only: event_list_t
    use extremes, only: extremes_t, joint_extremes_t
    use film_fields, only: film_field_t
-   use hdf5_accuracy, only: bytes_of_accuracy, write_accuracy
+   use accuracy_table, only: table_of_accuracy
    use hdf5, only: h5dclose_f, h5fclose_f, h5fflush_f, h5gclose_f, h5f_scope_local_f, hid_t, hsize_t
    use hdf5_attributes, only: text_attribute
    use hdf5_calls, only: is_memory_short, new_file, new_group, open_file, open_library
    use hdf5_copy, only: copy_rows
    use hdf5_datasets, only: text_dataset
    use hdf5_events, only: event_table_t
-   use hdf5_extremes, only: bytes_of_extremes, write_extremes
+   use extremes_tables, only: channel_extremes, joint_extremes
+   use films_table, only: table_of_eigenvalues, table_of_films
    use hdf5_fields, only: bytes_of_fields, write_fields
    use hdf5_layout, only: dataset_t, make_quantities, make_root, make_row_kind, make_time, rows_of_block, write_status
    use hdf5_probe, only: file_can_be_read, row_sums_t
    use hdf5_rows, only: write_rows, write_states
    use hdf5_statistics, only: write_statistics
-   use hdf5_summary, only: write_summary
-   use films_group, only: write_films
-   use horizon_group, only: write_horizon
+   use hdf5_table, only: bytes_of_row, write_table
+   use horizon_table, only: table_of_digits, table_of_horizon
    use kinds, only: i8, wp
    use output_marker, only: enter_file, note_files
    use output_plan, only: output_plan_t
@@ -37,6 +37,7 @@ module hdf5_writer
    use posix, only: path_exists, release_space, remove_file, rename_path, reserve_space, sync_path, system_message
    use recorder, only: status_failed, summary_t
    use statistics, only: number_t, statistics_t
+   use summary_table, only: table_of_cost, table_of_summary
    use archive, only: archive_t
    use text, only: text_t, to_text
    implicit none (type, external)
@@ -115,7 +116,10 @@ contains
       call new_group(self%file, "summary", group, status)
       if (status >= 0) call h5gclose_f(group, closed)
       call make_provenance(self%file, plan, status)
-      call write_horizon(self%file, plan%horizon, status)
+      if (allocated(plan%horizon%t)) then
+         call write_table(self%file, table_of_horizon(plan%horizon), status)
+         call write_table(self%file, table_of_digits(plan%horizon), status)
+      end if
       if (status >= 0) call flush_file(self, status)
       call note_files()
       if (status >= 0) return
@@ -334,14 +338,15 @@ contains
       type(text_t), intent(in) :: warnings(:)            !! (any) what a careful reader should know
       type(error_t), allocatable, intent(out) :: error   !! it cannot be written
 
-      integer :: k, status
+      integer :: k, n, status
 
       if (self%file < 0) return
       status = 0
       if (.not. self%is_broken) call write_block(self, events, error)
       if (.not. self%is_broken) then
-         call reserve(self, sum([(len(warnings(k)%s, i8), k=1, size(warnings))]) + bytes_of_accuracy(self%accuracy) &
-                                    + bytes_of_fields(fields) + bytes_of_extremes(extremes, joints), error)
+         n = size(extremes%channels) + size(joints)
+         if (allocated(self%accuracy%extremes)) n = n + size(self%accuracy%extremes)
+         call reserve(self, sum([(len(warnings(k)%s, i8), k=1, size(warnings))]) + bytes_of_fields(fields) + n*bytes_of_row, error)
       end if
       if (self%is_broken) then
          ! only what needs no new space
@@ -351,12 +356,15 @@ contains
          if (statistics%plan%is_wanted) then
             call write_statistics(self%file, statistics, catalogue, events, summary%time_end, numbers, status)
          end if
-         if (self%accuracy%asked > 0.0_wp) call write_accuracy(self%file, self%accuracy, status)
-         call write_extremes(self%file, extremes, joints, catalogue, status)
+         if (self%accuracy%asked > 0.0_wp) call write_table(self%file, table_of_accuracy(self%accuracy), status)
+         if (size(extremes%channels) > 0) call write_table(self%file, channel_extremes(extremes, catalogue), status)
+         if (size(joints) > 0) call write_table(self%file, joint_extremes(joints), status)
          call write_fields(self%file, fields, status)
          call text_dataset(self%file, "warnings", warnings, .false., "warnings", status)
-         call write_films(self%file, summary%linear, status)
-         call write_summary(self%file, summary, status)
+         if (allocated(summary%linear%films)) call write_table(self%file, table_of_films(summary%linear), status)
+         if (summary%linear%is_judged) call write_table(self%file, table_of_eigenvalues(summary%linear), status)
+         call write_table(self%file, table_of_summary(summary), status)
+         call write_table(self%file, table_of_cost(summary), status)
          call text_attribute(self%file, "status_message", summary%message, status)
          call write_status(self%file, summary%status, status)
       end if
