@@ -24,8 +24,7 @@ module verb_precision
    use precision_results, only: error_names, precision_t
    use precision_study, only: study_precision
    use precision_table, only: table_of_tol_runs
-   use precision_tables, only: precision_report
-   use precision_text, only: precision_summary
+   use precision_text, only: precision_report, precision_summary
    use processor, only: processor_name
    use progress, only: progress_t
    use run_audit, only: limits_t

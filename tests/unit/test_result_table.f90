@@ -7,12 +7,15 @@ module test_result_table
    use hdf5_calls, only: new_file, open_library
    use hdf5_read, only: has_dataset, read_reals, read_texts
    use hdf5_table, only: write_table
-   use json_table, only: put_facts, put_rows
+   use html_table, only: add_section
+   use json_table, only: put_tables
    use json_text, only: json_object_t
    use kinds, only: i8, not_a_number, wp
    use output_scene, only: clean_scratch, scratch_directory
-   use result_table, only: in_hdf5, in_text_files, result_table_t
+   use result_table, only: in_hdf5, in_text_files, only_shown, result_table_t
    use text, only: text_t
+   use text_buffer, only: buffer_t
+   use text_of_table, only: add_table
    implicit none (type, external)
    private
    public :: run_test_result_table
@@ -29,6 +32,9 @@ contains
       call suite%test("json_has_an_object_for_each_row", json_has_an_object_for_each_row)
       call suite%test("hdf5_has_a_dataset_for_each_column", hdf5_has_a_dataset_for_each_column)
       call suite%test("a_table_without_rows", a_table_without_rows)
+      call suite%test("tables_share_an_object", tables_share_an_object)
+      call suite%test("text_has_the_columns_with_a_heading", text_has_the_columns_with_a_heading)
+      call suite%test("html_has_units_that_read_well", html_has_units_that_read_well)
    end subroutine run_test_result_table
 
    !> A table of two rows.
@@ -55,6 +61,7 @@ contains
       call table%put("force", "N N.m", "maximum force and moment", [1.0_wp, 2.0_wp, 3.0_wp, 4.0_wp], shape=[2], parts=parts)
       call table%put("ladder", "1", "number", integers=[1, 2], formats=in_hdf5)
       call table%put("state", "1", "in words", texts=names([2, 1]), formats=in_text_files)
+      call table%put("count", "1", "evaluations", counts=[5000000000_i8, 2_i8], formats=in_hdf5)
    end subroutine make_table
 
    !> Columns and facts know type, unit, help and name in HDF5 files.
@@ -65,7 +72,7 @@ contains
 
       call make_table(table)
       call check_equal(error, size(table%facts), 6, "facts")
-      call check_equal(error, size(table%columns), 7, "columns")
+      call check_equal(error, size(table%columns), 8, "columns")
       call check_equal(error, table%columns(1)%dataset, "name", "name in HDF5 files")
       call check_true(error, allocated(table%columns(3)%reals), "a column of reals")
       call check_true(error, allocated(table%facts(5)%logicals), "a logical fact")
@@ -89,21 +96,19 @@ contains
    subroutine json_has_an_object_for_each_row(error)
       type(error_t), allocatable, intent(out) :: error  !! what failed
 
-      type(json_object_t) :: all, first
+      type(json_object_t) :: all
       type(result_table_t) :: table
 
       call make_table(table)
       call all%start(0)
-      call put_facts(all, table)
+      table%most_in_json = 1
+      call put_tables(all, [table])
       call check_equal(error, all%get(), "{"//nl//"  ""method"": ""radau"","//nl//"  ""tolerance"": 1e-6,"//nl// &
                        "  ""steps"": 12,"//nl//"  ""evaluations"": 5000000000,"//nl//"  ""is_cut"": true,"//nl// &
-                       "  ""seconds"": null"//nl//"}", "facts")
-      call first%start(0)
-      call put_rows(first, table, 1, most=1)
-      call check_equal(error, first%get(), "{"//nl//"  ""joints"": [{"//nl//"    ""joint"": ""pin, upper"","//nl// &
+                       "  ""seconds"": null,"//nl//"  ""joints"": [{"//nl//"    ""joint"": ""pin, upper"","//nl// &
                        "    ""impacts"": 3,"//nl//"    ""speed"": 0.5,"//nl//"    ""is_open"": false,"//nl// &
                        "    ""force_x"": 1,"//nl//"    ""force_y"": 2,"//nl//"    ""state"": ""a \""slot\"""""//nl// &
-                       "  }]"//nl//"}", "the first row")
+                       "  }]"//nl//"}", "facts and the first row")
    end subroutine json_has_an_object_for_each_row
 
    !> What was written is read back; columns of other formats are not there.
@@ -131,6 +136,8 @@ contains
       call check_equal(error, nint(values(3)), 3, "the first part of the second row")
       call read_reals(file, "extremes/joints/is_open", values, status)
       call check_equal(error, nint(values(2)), 1, "a logical")
+      call read_reals(file, "extremes/joints/count", values, status)
+      call check_equal(error, nint(values(1)/1.0e6_wp), 5000, "a count beyond 32 bits")
       call check_equal(error, status, 0, "status of the reader")
       call check_true(error, has_dataset(file, "extremes/joints", "ladder"), "a column of HDF5 files only")
       call check_true(error, .not. has_dataset(file, "extremes/joints", "state"), "a column of text files only")
@@ -149,8 +156,81 @@ contains
       call table%put("speed", "m/s", "impact speed", [real(wp) ::])
       call check_equal(error, csv_text(table), "speed [m/s]"//nl, "CSV")
       call json%start(0)
-      call put_rows(json, table, 1)
+      call put_tables(json, [table])
       call check_equal(error, json%get(), "{"//nl//"  ""joints"": []"//nl//"}", "JSON")
    end subroutine a_table_without_rows
+
+   !> Tables with the same object are members of it.
+   subroutine tables_share_an_object(error)
+      type(error_t), allocatable, intent(out) :: error  !! what failed
+
+      type(json_object_t) :: json
+      type(result_table_t) :: first, second
+
+      call first%start("modes", "", 0, object="motion")
+      call first%fact("judged", .true.)
+      call second%start("onset", "", 0, object="motion")
+      call second%fact("speed", 2.0_wp)
+      call json%start(0)
+      call put_tables(json, [first, second])
+      call check_equal(error, json%get(), "{"//nl//"  ""motion"": {"//nl//"    ""judged"": true,"//nl//"    ""speed"": 2"//nl// &
+                       "  }"//nl//"}", "JSON")
+   end subroutine tables_share_an_object
+
+   !> A table that people see: names with units, round-off as zero, a row that is of little interest.
+   subroutine make_shown(table)
+      type(result_table_t), intent(out) :: table  !! the table
+
+      type(text_t) :: names(3)
+
+      names(1)%s = "rod.angle"
+      names(2)%s = "pin.x"
+      names(3)%s = "pin.state"
+      call table%start("channels", "", 3, title="values", elsewhere="run.h5")
+      call table%put("channel", "1", "name", texts=names, heading="channel")
+      call table%put("value", "list", "value", [2.5_wp, 1.0e-20_wp, 1.0_wp], heading="max")
+      call table%put("hidden", "m", "not for people", [1.0_wp, 2.0_wp, 3.0_wp])
+      call table%put("time", "s", "its time; NaN: none", [0.00125_wp, not_a_number(), 0.5_wp], heading="at", digits=3)
+      call table%put("hits", "1", "contacts", integers=[7, 12, 0], formats=only_shown, heading="hits")
+      table%units = names
+      table%units(1)%s = "rad"
+      table%units(2)%s = "m"
+      table%units(3)%s = "1"
+      table%noise = [0.0_wp, 1.0e-18_wp, 0.0_wp]
+      table%is_minor = [.false., .false., .true.]
+      table%left_out = 4
+   end subroutine make_shown
+
+   !> Columns are as wide as their longest cell; rows that are not shown are counted.
+   subroutine text_has_the_columns_with_a_heading(error)
+      type(error_t), allocatable, intent(out) :: error  !! what failed
+
+      type(buffer_t) :: lines
+      type(result_table_t) :: table
+
+      call make_shown(table)
+      call add_table(lines, table)
+      call check_equal(error, lines%get(), nl//"values                      max   at [s]  hits"//nl// &
+                       "           rod.angle [rad]  2.5  0.00125     7"//nl// &
+                       "           pin.x [m]          0        -    12"//nl//"           4 more in run.h5"//nl, "text")
+   end subroutine text_has_the_columns_with_a_heading
+
+   !> A unit for each row where they differ, one for a column where they do not.
+   subroutine html_has_units_that_read_well(error)
+      type(error_t), allocatable, intent(out) :: error  !! what failed
+
+      type(buffer_t) :: lines
+      type(result_table_t) :: table
+
+      call make_shown(table)
+      table%columns(4)%reals(3) = 0.002_wp
+      call add_section(lines, table)
+      call check_equal(error, lines%get(), "<h2 id=""channels"">values</h2>"//nl//"<div class=""scroll""><table><thead><tr>"// &
+                       "<th>channel</th><th>unit</th><th>max</th><th>at [ms]</th><th>hits</th></tr></thead><tbody>"//nl// &
+                       "<tr><td>rod.angle</td><td>°</td><td>143.24</td><td>1.25</td><td>7</td></tr>"//nl// &
+                       "<tr><td>pin.x</td><td>fm</td><td>0</td><td>-</td><td>12</td></tr>"//nl// &
+                       "<tr><td>pin.state</td><td></td><td>1</td><td>2</td><td>0</td></tr>"//nl//"</tbody></table></div>"//nl// &
+                       "<p>4 more in run.h5</p>"//nl, "page")
+   end subroutine html_has_units_that_read_well
 
 end module test_result_table

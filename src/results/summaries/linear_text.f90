@@ -1,17 +1,13 @@
-!> Films at a steady state and small motions about it, as text and for scripts.
+!> Films at a steady state and small motions about it, as text.
 module linear_text
-   use films_table, only: table_of_eigenvalues, table_of_films
    use, intrinsic :: ieee_arithmetic, only: ieee_is_finite
-   use json_table, only: put_facts, put_rows
-   use json_text, only: json_object_t
    use kinds, only: pi, two_pi, wp
    use linearised, only: film_coefficients_t, linearised_t
-   use result_table, only: result_table_t
    use text, only: append_text, real_text, text_t
    use text_buffer, only: buffer_t
    implicit none (type, external)
    private
-   public :: film_lines, linear_json, linear_lines
+   public :: film_lines, linear_lines
 
    integer, parameter :: n_digit = 5                                      !! digits that are printed
    character(*), parameter :: place(4) = ["xx", "xy", "yx", "yy"]         !! of the entries of a matrix, row by row
@@ -104,23 +100,5 @@ contains
       if (abs(film%journal_speed) > 0.0_wp) words = ", "//real_text(film%whirl_frequency/abs(film%journal_speed), n_digit)// &
                                                     " times the journal speed"
    end function ratio_words
-
-   !> The same for scripts; nothing if no film was linearised.
-   subroutine linear_json(json, linear)
-      type(json_object_t), intent(inout) :: json  !! the object
-      type(linearised_t), intent(in) :: linear    !! what is known
-
-      type(json_object_t) :: part
-      type(result_table_t) :: films
-
-      if (.not. allocated(linear%films)) return
-      films = table_of_films(linear)
-      call put_rows(json, films, 1)
-      call part%start(1)
-      call part%put_logical("judged", linear%is_judged)
-      if (linear%is_judged) call put_rows(part, table_of_eigenvalues(linear), 2)
-      call put_facts(part, films)
-      call json%put_object("small_motions", part%get())
-   end subroutine linear_json
 
 end module linear_text

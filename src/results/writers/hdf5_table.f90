@@ -7,14 +7,23 @@ module hdf5_table
    use hdf5_calls, only: new_group
    use hdf5_datasets, only: integer_dataset, real_dataset, text_dataset
    use kinds, only: i8, wp
-   use result_table, only: in_text_files, result_column_t, result_table_t
+   use result_table, only: in_hdf5, result_column_t, result_table_t
+   use text, only: join
    implicit none (type, external)
    private
-   public :: bytes_of_row, write_table
+   public :: bytes_of_table, write_table
 
    integer(i8), parameter :: bytes_of_row = 512_i8  !! of names, a unit and a dozen numbers, at most
 
 contains
+
+   !> Bytes that the rows of a table take in a file at most.
+   elemental integer(i8) function bytes_of_table(table) result(bytes)
+      type(result_table_t), intent(in) :: table     !! the table
+
+      bytes = 0
+      if (table%group /= "") bytes = bytes_of_row*table%n
+   end function bytes_of_table
 
    !> Write a table.
    subroutine write_table(file, table, status)
@@ -25,7 +34,7 @@ contains
       integer(hid_t) :: group
       integer :: closed, k
 
-      if (status < 0) return
+      if (status < 0 .or. table%group == "") return
       if (size(table%facts) > 0) then
          call h5gopen_f(file, table%group, group, status)
          if (status < 0) then
@@ -49,7 +58,7 @@ contains
       type(result_column_t), intent(in) :: fact     !! the fact
       integer, intent(inout) :: status              !! negative: failed
 
-      if (fact%formats == in_text_files) return
+      if (iand(fact%formats, in_hdf5) == 0) return
       if (allocated(fact%texts)) call text_attribute(group, fact%dataset, fact%texts(1)%s, status)
       if (allocated(fact%reals)) call real_attribute(group, fact%dataset, fact%reals(1), status)
       if (allocated(fact%integers)) call long_attribute(group, fact%dataset, fact%integers(1), status)
@@ -63,15 +72,19 @@ contains
       type(result_column_t), intent(in) :: column   !! the column
       integer, intent(inout) :: status              !! negative: failed
 
-      if (column%formats == in_text_files) return
+      character(:), allocatable :: unit
+
+      if (iand(column%formats, in_hdf5) == 0) return
       associate (path => table%group//"/"//column%dataset, n => [table%n])
          if (allocated(column%texts)) call text_dataset(file, path, column%texts, .false., column%help, status)
          if (allocated(column%reals)) then
-            call real_dataset(file, path, [column%shape, n], column%reals, column%unit, column%help, status)
+            unit = column%unit
+            if (unit == "rows") unit = join(table%units, " ")
+            call real_dataset(file, path, [column%shape, n], column%reals, unit, column%help, status)
          else if (column%is_count) then
             call real_dataset(file, path, n, real(column%integers, wp), column%unit, column%help, status)
          else if (allocated(column%integers)) then
-            call integer_dataset(file, path, n, int(column%integers), column%help, status)
+            call integer_dataset(file, path, [column%shape, n], int(column%integers), column%help, status)
          else if (allocated(column%logicals)) then
             call integer_dataset(file, path, n, merge(1, 0, column%logicals), column%help, status)
          end if

@@ -15,7 +15,7 @@ module precision_file
    use output_plan, only: output_plan_t
    use precision_results, only: error_names, error_units, error_words, n_compared, n_error, n_statistic, precision_t, &
       statistic_names, statistic_units, statistic_words
-   use precision_table, only: table_of_tol_runs
+   use precision_table, only: table_of_settings, table_of_tol_runs
    use recorder, only: status_complete
    use result_table, only: result_table_t
    use text, only: append_text, text_t
@@ -42,7 +42,7 @@ contains
       if (status >= 0) then
          call text_attribute(file, "machine", study%machine%processor, status)
          call text_attribute(file, "compile_flags", study%machine%flags, status)
-         call write_tol_sweeps(file, study, status)
+         call write_table(file, table_of_settings(study), status)
          call write_tol_runs(file, study, status)
          call write_reference(file, study, status)
          call write_statistics(file, study, status)
@@ -57,28 +57,6 @@ contains
       end if
       call end_whole_file(path, file, status, error)
    end subroutine write_precision
-
-   !> The settings and what their runs report together.
-   subroutine write_tol_sweeps(file, study, status)
-      integer(hid_t), intent(in) :: file          !! the file
-      type(precision_t), intent(in) :: study      !! results
-      integer, intent(inout) :: status            !! negative: failed
-
-      type(result_table_t) :: table
-      type(text_t) :: names(size(study%tol_sweeps))
-      integer :: k
-
-      do k = 1, size(names)
-         names(k)%s = study%tol_sweeps(k)%name
-      end do
-      call table%start("ladders", "ladders", size(names))
-      call table%put("names", "1", "settings compared", texts=names)
-      call table%put("is_fixed", "1", "1: sequence of fixed steps, 0: of tolerances", logicals=study%tol_sweeps%is_fixed)
-      call table%put("order", "1", "observed order: -d ln error/d ln steps", study%tol_sweeps%order)
-      call table%put("exponent", "1", "d ln error/d ln tolerance", study%tol_sweeps%exponent)
-      call table%put("ratio", "1", "median of error over tolerance", study%tol_sweeps%ratio)
-      call write_table(file, table, status)
-   end subroutine write_tol_sweeps
 
    !> The types of error, and every run.
    subroutine write_tol_runs(file, study, status)

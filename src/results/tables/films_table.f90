@@ -1,15 +1,25 @@
 !> Films at a steady state and small motions about it, as a table: facts of the mechanism, and a row for each film.
 module films_table
    use linearised, only: linearised_t
-   use result_table, only: in_hdf5, in_text_files, result_table_t
+   use result_table, only: in_text_files, result_table_t
    use text, only: text_t
    implicit none (type, external)
    private
-   public :: table_of_eigenvalues, table_of_films
+   public :: tables_of_films
 
    character(*), parameter :: places(4) = ["xx", "xy", "yx", "yy"]  !! of the entries of a matrix, row by row
 
 contains
+
+   !> All that is known of films at a steady state, and of small motions about it.
+   function tables_of_films(linear) result(tables)
+      type(linearised_t), intent(in) :: linear           !! what is known
+      type(result_table_t), allocatable :: tables(:)     !! none if no film was linearised
+
+      allocate (tables(0))
+      if (.not. allocated(linear%films)) return
+      tables = [table_of_films(linear), table_of_eigenvalues(linear), table_of_onset(linear)]
+   end function tables_of_films
 
    !> The films.
    function table_of_films(linear) result(table)
@@ -25,13 +35,6 @@ contains
          names(k)%s = linear%films(k)%joint
       end do
       call table%start("films", "films", n)
-      call table%fact("judged", linear%is_judged, formats=in_hdf5)
-      if (linear%is_searched) then
-         call table%fact("onset_text", linear%onset_words)
-         call table%fact("onset", linear%onset)
-         call table%fact("onset_frequency", linear%onset_frequency)
-         call table%fact("searched_to", linear%searched_to)
-      end if
       associate (films => linear%films)
          call table%put("joint", "1", "joint of each film", texts=names, dataset="names")
          call table%put("eccentricity_ratio", "1", "eccentricity ratio", films%eccentricity_ratio)
@@ -69,17 +72,33 @@ contains
       end do
    end function names_of
 
-   !> The eigenvalues.
+   !> Whether the motion is stable, and the eigenvalues if that is known.
    function table_of_eigenvalues(linear) result(table)
-      type(linearised_t), intent(in) :: linear     !! what is known, its stability judged
+      type(linearised_t), intent(in) :: linear     !! what is known
       type(result_table_t) :: table                !! a row for each eigenvalue
 
+      call table%start("eigenvalues", "films", 0, "small_motions")
+      call table%fact("judged", linear%is_judged)
+      if (.not. linear%is_judged) return
       associate (values => linear%eigenvalues)
-         call table%start("eigenvalues", "films", size(values, 2))
+         table%n = size(values, 2)
          call table%put("eigenvalues", "1/s", "eigenvalues of the mechanism: real and imaginary parts, fastest growth first", &
                         reshape(values, [size(values)]), shape=[2], &
                         parts=names_of("", [character(9) :: "growth", "frequency"]))
       end associate
    end function table_of_eigenvalues
+
+   !> The speed at which whirl sets in.
+   function table_of_onset(linear) result(table)
+      type(linearised_t), intent(in) :: linear     !! what is known
+      type(result_table_t) :: table                !! facts only
+
+      call table%start("onset", "films", 0, "small_motions")
+      if (.not. linear%is_searched) return
+      call table%fact("onset_text", linear%onset_words)
+      call table%fact("onset", linear%onset)
+      call table%fact("onset_frequency", linear%onset_frequency)
+      call table%fact("searched_to", linear%searched_to)
+   end function table_of_onset
 
 end module films_table

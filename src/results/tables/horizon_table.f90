@@ -34,9 +34,10 @@ contains
       call table%fact("brought_back", horizon%n_renewed, formats=in_hdf5)
       call put_digits(horizon%digits, "horizon_")
       if (horizon%asked > 0.0_wp) call put_digits(horizon%run_digits, "horizon_of_run_")
-      call table%put("time", "s", "instants", horizon%t)
-      call table%put("growth", "1", "ln of the growth of a perturbation, from the tangent equations", horizon%tangent%growth)
-      call table%put("growth_by_twin", "1", "the same, from a neighbouring trajectory", horizon%twin%growth)
+      call table%put("time", "s", "instants", horizon%t, formats=in_hdf5)
+      call table%put("growth", "1", "ln of the growth of a perturbation, from the tangent equations", horizon%tangent%growth, &
+                     formats=in_hdf5)
+      call table%put("growth_by_twin", "1", "the same, from a neighbouring trajectory", horizon%twin%growth, formats=in_hdf5)
 
    contains
 

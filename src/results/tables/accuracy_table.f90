@@ -1,8 +1,9 @@
 !> What a run with a required accuracy knows of its errors, as a table: facts of the run, and a row for each channel.
 module accuracy_table
-   use accuracy_results, only: accuracy_t, claim_words
-   use result_table, only: in_text_files, result_table_t
-   use text, only: join, text_t
+   use accuracy_results, only: accuracy_t, claim_window, claim_words
+   use, intrinsic :: ieee_arithmetic, only: ieee_is_finite
+   use result_table, only: in_text_files, only_shown, result_table_t
+   use text, only: append_text, real_text, text_t
    implicit none (type, external)
    private
    public :: table_of_accuracy, worst_of
@@ -12,11 +13,10 @@ contains
    !> The table.
    function table_of_accuracy(accuracy, growth) result(table)
       type(accuracy_t), intent(in) :: accuracy          !! what is known
-      character(*), intent(in), optional :: growth      !! growth of small errors, in words
+      character(*), intent(in) :: growth                !! growth of small errors, in words
       type(result_table_t) :: table                     !! a row for each channel
 
       type(text_t), allocatable :: names(:), units(:)
-      character(:), allocatable :: all_units
       integer :: k, n
 
       n = size(accuracy%extremes)
@@ -25,8 +25,12 @@ contains
          names(k)%s = accuracy%extremes(k)%name
          units(k)%s = accuracy%extremes(k)%unit
       end do
-      all_units = join(units, " ")
-      call table%start("extremes", "accuracy", n)
+      call table%start("extremes", "accuracy", n, "accuracy", "extremes", "summary.json and in run.h5, /accuracy")
+      if (accuracy%claim == claim_window) table%title = "extremes up to t = "//real_text(accuracy%until, 6)//" s"
+      if (.not. all(ieee_is_finite(accuracy%extremes%minimum))) then
+         call append_text(table%notes, "-: undefined; a contact point is defined only during contact")
+      end if
+      table%units = units
       call table%fact("asked", accuracy%asked)
       call table%fact("claim", trim(claim_words(accuracy%claim)))
       call table%fact("error", accuracy%error)
@@ -40,16 +44,17 @@ contains
       call table%fact("other_contacts_from", accuracy%evidence%other_from)
       call table%fact("limited_by", worst_of(accuracy), formats=in_text_files)
       call table%fact("reason", accuracy%reason)
-      if (present(growth) .and. accuracy%growth%reason == "") call table%fact("growth", growth, formats=in_text_files)
+      if (accuracy%growth%reason == "") call table%fact("growth", growth, formats=in_text_files)
       call table%fact("runs", accuracy%evidence%runs)
       call table%fact("seconds", accuracy%evidence%spent, formats=in_text_files)
-      call table%put("name", "1", "channels with known errors", texts=names, dataset="names")
+      call table%put("name", "1", "channels with known errors", texts=names, dataset="names", heading="channel")
       call table%put("unit", "1", "their units", texts=units, dataset="units")
       associate (extremes => accuracy%extremes)
-         call table%put("scale", all_units, "reference values of relative errors", extremes%scale)
-         call table%put("error", all_units, "maximum error up to claimed_until, and of the extremes", extremes%error)
-         call table%put("min", all_units, "minimum up to claimed_until", extremes%minimum)
-         call table%put("max", all_units, "maximum up to claimed_until", extremes%most)
+         call table%put("scale", "rows", "reference values of relative errors", extremes%scale)
+         call table%put("error", "rows", "maximum error up to claimed_until, and of the extremes", extremes%error)
+         call table%put("min", "rows", "minimum up to claimed_until", extremes%minimum, heading="min", digits=12)
+         call table%put("max", "rows", "maximum up to claimed_until", extremes%most, heading="max", digits=12)
+         call table%put("error", "rows", "as above", extremes%error, formats=only_shown, heading="+-", digits=2)
       end associate
    end function table_of_accuracy
 
