@@ -5,8 +5,10 @@ module verb_compare
    use column_history, only: history_of_columns
    use comparison, only: compare_histories, comparison_t
    use comparison_figures, only: write_overlays
-   use comparison_report, only: comparison_json, comparison_rows, comparison_text, verdict_text
+   use comparison_report, only: comparison_json, comparison_text, verdict_text
+   use comparison_tables, only: table_of_channels
    use console, only: say
+   use csv_table, only: csv_text
    use errors, only: error_t, exit_different, exit_file, exit_usage, set_error
    use gnuplot_runs, only: draw_figures
    use kinds, only: wp
@@ -298,7 +300,9 @@ contains
          text = text//"warning: "//warnings(k)%s//new_line("a")
       end do
       object = comparison_json(found, first, second, directory%path, pictures, warnings)
-      if (.not. allocated(error)) call replace_file(directory%path//"/compare.csv", comparison_rows(found), error)
+      if (.not. allocated(error)) then
+         call replace_file(directory%path//"/compare.csv", csv_text(table_of_channels(found), with_units=.false.), error)
+      end if
       if (.not. allocated(error)) call replace_file(directory%path//"/summary.txt", text, error)
       if (.not. allocated(error)) call replace_file(directory%path//"/summary.json", object//new_line("a"), error)
       call directory%close()

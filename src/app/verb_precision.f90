@@ -4,6 +4,7 @@ module verb_precision
    use build_info, only: compile_flags, compiler
    use catalogue, only: catalogue_t
    use console, only: say
+   use csv_table, only: csv_text
    use errors, only: error_t, exit_integration, exit_usage, set_error
    use gnuplot_runs, only: draw_figures
    use item, only: place_of
@@ -22,8 +23,8 @@ module verb_precision
    use precision_plots, only: write_precision_plots
    use precision_results, only: error_names, precision_t
    use precision_study, only: study_precision
-   use precision_tables, only: precision_csv, precision_report
-   use precision_text, only: precision_summary
+   use precision_table, only: table_of_tol_runs
+   use precision_text, only: precision_report, precision_summary
    use processor, only: processor_name
    use progress, only: progress_t
    use run_audit, only: limits_t
@@ -165,7 +166,7 @@ contains
       allocate (pictures(0))
       call write_file(plan%directory//"/deck.echo", echo_scene(loaded%deck, loaded%scene), error)
       if (.not. allocated(error)) call write_precision(plan, study, error)
-      if (.not. allocated(error)) call replace_file(plan%directory//"/precision.csv", precision_csv(study), error)
+      if (.not. allocated(error)) call replace_file(plan%directory//"/precision.csv", csv_text(table_of_tol_runs(study)), error)
       if (.not. allocated(error)) then
          call replace_file(plan%directory//"/precision.txt", precision_report(study, plan%title), error)
       end if

@@ -1,5 +1,6 @@
 !> A sweep that is under way: its runs, where they are, what came of them, and the files that say so.
 module sweep_work
+   use csv_table, only: csv_text
    use errors, only: error_t, exit_assembly, exit_audit, exit_deck, exit_integration, exit_ok, exit_usage
    use file_store, only: kept_files
    use kinds, only: wp
@@ -15,7 +16,7 @@ module sweep_work
    use sweep_file, only: write_sweep
    use sweep_journal, only: journal_t, origin_of_sweep_t
    use sweep_results, only: sweep_results_t
-   use sweep_tables, only: cases_csv, runs_csv
+   use sweep_tables, only: table_of_cases, table_of_runs
    use text, only: append_text, exact_text, starts_with, text_t, to_text
    use text_file, only: fail_file, replace_file
    implicit none (type, external)
@@ -207,8 +208,9 @@ contains
 
       call work%results%settle()
       call write_sweep(work%plan, work%results, state, message, directories, error)
-      if (.not. allocated(error)) call replace_file(work%plan%directory//"/sweep.csv", runs_csv(work%results), error)
-      if (.not. allocated(error)) call replace_file(work%plan%directory//"/cases.csv", cases_csv(work%results), error)
+      if (.not. allocated(error)) call replace_file(work%plan%directory//"/sweep.csv", csv_text(table_of_runs(work%results)), error)
+      if (allocated(error)) return
+      call replace_file(work%plan%directory//"/cases.csv", csv_text(table_of_cases(work%results)), error)
    end subroutine write_results
 
    !> How many runs failed, or are missing; blank if none.

@@ -10,7 +10,7 @@ module run_recorder
    use channels, only: selection_t
    use errors, only: error_t, exit_file, set_error
    use event_list, only: event_list_t
-   use extremes, only: extremes_t, joints_at_extremes
+   use extremes, only: extremes_t, joint_extremes_t, joints_at_extremes
    use figure_words, only: figure_t
    use film_fields, only: append_field, film_field_t
    use film_words, only: missing_films
@@ -25,6 +25,7 @@ module run_recorder
    use output_plan, only: output_plan_t
    use progress, only: progress_t
    use recorder, only: event_t, recorder_t, row_instant, row_jump, row_onset, row_stop, status_complete, status_stopped, summary_t
+   use run_tables, only: tables_of_run
    use saved_run, only: saved_run_t
    use scene_poses, only: pose_reader_t
    use statistics, only: statistics_t
@@ -283,6 +284,7 @@ contains
       type(error_t), allocatable, intent(out) :: error   !! a file cannot be written
 
       type(error_t), allocatable :: second
+      type(joint_extremes_t), allocatable :: joints(:)
       type(text_t), allocatable :: files(:)
       integer :: k
 
@@ -298,8 +300,9 @@ contains
          do k = 1, size(outcome%numbers)
             outcome%numbers(k)%noise = self%extremes%noise_in(outcome%numbers(k)%unit)
          end do
-         outcome%extremes = self%extremes
-         call joints_at_extremes(self%items, self%events, full%time_start, full%time_end, outcome%joints)
+         call joints_at_extremes(self%items, self%events, full%time_start, full%time_end, joints)
+         outcome%tables = tables_of_run(self%plan, full, self%statistics, outcome%numbers, self%extremes, joints, self%items, &
+                                        self%events)
          allocate (outcome%pictures(0), outcome%warnings(0), outcome%files(0), outcome%csv(0))
          call append_all(outcome%warnings, [self%plan%warnings, full%warnings])
          if (allocated(self%wants_fields)) call append_all(outcome%warnings, missing_films(self%wants_fields, self%fields))
@@ -309,8 +312,7 @@ contains
             call append_text(outcome%warnings, "the time histories are empty: the run ended before their start")
          end if
          if (self%plan%with%hdf5) then
-            call self%hdf5%finish(full, self%events, self%statistics, self%items, outcome%numbers, self%extremes, outcome%joints, &
-                                  self%fields, outcome%warnings, error)
+            call self%hdf5%finish(full, self%events, outcome%tables, self%fields, outcome%warnings, error)
          end if
          if (self%plan%with%texts) then
             call self%texts%finish(self%last_time, self%events, second)

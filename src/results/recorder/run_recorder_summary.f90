@@ -23,11 +23,11 @@ contains
 
       associate (summary => self%summary, outcome => self%outcome)
          if (.not. self%plan%with%summary .and. self%plan%show == show_nothing) return
-      lines = summary_lines(self%plan, summary, self%events, outcome, self%items)
-         json = summary_json(self%plan, summary, self%events, outcome, self%items)
+         lines = summary_lines(self%plan, summary, outcome)
+         json = summary_json(self%plan, outcome)
          if (self%plan%with%report) then
             call replace_file(self%plan%directory//"/"//report_name, &
-                              report_text(self%plan, summary, self%events, outcome, self%items, self%figures, lines), error)
+                              report_text(self%plan, summary, outcome, self%figures, lines), error)
          end if
          call replace_summaries(self, lines, json, second)
          call join_errors(error, second)
@@ -50,8 +50,7 @@ contains
       if (size(self%figures) == 0) return
       outcome = self%outcome
       call append_text(outcome%warnings, "the run ended before its figures were drawn")
-      call replace_summaries(self, summary_lines(self%plan, self%summary, self%events, outcome, self%items), &
-                             summary_json(self%plan, self%summary, self%events, outcome, self%items), error)
+      call replace_summaries(self, summary_lines(self%plan, self%summary, outcome), summary_json(self%plan, outcome), error)
    end procedure write_without_figures
 
    !> Write both summaries, whole.

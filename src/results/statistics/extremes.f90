@@ -7,7 +7,7 @@
 module extremes
    use catalogue, only: catalogue_t
    use channel_names, only: scalar_t
-   use channel_noise, only: noise_of_channels, shown
+   use channel_noise, only: noise_of_channels
    use contact_statistics, only: joint_statistics_t, joints_of, statistics_of_joints
    use event_list, only: event_list_t
    use, intrinsic :: ieee_arithmetic, only: ieee_is_finite
@@ -59,8 +59,6 @@ module extremes
       procedure :: told
       procedure :: find_noise
       procedure :: noise_in
-      procedure :: shown_extreme
-      procedure :: shown_rms
       procedure :: has_values
       procedure :: size_of
       procedure :: is_nothing
@@ -262,24 +260,6 @@ contains
       end do
    end function noise_in
 
-   !> What a number went through, for people: round-off is zero.
-   pure type(extreme_t) function shown_extreme(self, k) result(one)
-      class(extremes_t), intent(in) :: self   !! what was gathered, its noise found
-      integer, intent(in) :: k                !! which number
-
-      one = self%told(k)
-      one%minimum = shown(one%minimum, self%noise(k))
-      one%maximum = shown(one%maximum, self%noise(k))
-   end function shown_extreme
-
-   !> Root mean square for people: round-off is zero.
-   pure real(wp) function shown_rms(self, k) result(rms)
-      class(extremes_t), intent(in) :: self   !! what was gathered, its noise found
-      integer, intent(in) :: k                !! which number
-
-      rms = shown(self%rms(k), self%noise(k))
-   end function shown_rms
-
    !> Whether a channel ever had a number.
    pure logical function has_values(self, k)
       class(extremes_t), intent(in) :: self   !! what was gathered
@@ -353,7 +333,6 @@ contains
       mean = self%mean(k)
       if (.not. span_of(self, k) > 0.0_wp) return
       if (abs(mean) < round_off*self%rms(k)) mean = 0.0_wp
-      mean = shown(mean, self%noise(k))
    end function shown_mean
 
    !> Whether a number was zero, or round-off, all the time.

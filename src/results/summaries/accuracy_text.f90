@@ -1,18 +1,15 @@
-!> What a run whose accuracy was asked for knows of its errors, as text and for scripts.
+!> What a run whose accuracy was asked for knows of its errors, as text.
 module accuracy_text
-   use accuracy_results, only: accuracy_t, claim_none, claim_reached, claim_whole, claim_window, claim_words
-   use channel_noise, only: known_text
+   use accuracy_results, only: accuracy_t, claim_none, claim_reached, claim_whole, claim_window
+   use accuracy_table, only: worst_of
    use, intrinsic :: ieee_arithmetic, only: ieee_is_finite
-   use json_text, only: json_object_t
-   use kinds, only: i8, wp
+   use kinds, only: wp
    use precision_text, only: growth_words, short
-   use text, only: append_text, real_text, text_t, to_text
+   use text, only: real_text, to_text
    use text_buffer, only: buffer_t
    implicit none (type, external)
    private
-   public :: accuracy_json, asked_lines, extreme_lines
-
-   integer, parameter :: most_extremes = 40   !! rows of the table of extremes
+   public :: asked_lines
 
 contains
 
@@ -62,108 +59,5 @@ contains
       end if
       call lines%line("           "//to_text(accuracy%evidence%runs)//" runs in "//real_text(accuracy%evidence%spent, 3)//" s")
    end subroutine asked_lines
-
-   !> The channel that limits the accuracy.
-   function worst_of(accuracy) result(name)
-      type(accuracy_t), intent(in) :: accuracy     !! what is known
-      character(:), allocatable :: name            !! of the channel
-
-      name = ""
-      if (accuracy%worst > 0) name = accuracy%extremes(accuracy%worst)%name
-   end function worst_of
-
-   !> The extremes with their intervals.
-   subroutine extreme_lines(lines, accuracy)
-      type(buffer_t), intent(inout) :: lines       !! the summary
-      type(accuracy_t), intent(in) :: accuracy     !! what is known
-
-      character(:), allocatable :: name
-      integer :: k, n
-
-      n = size(accuracy%extremes)
-      if (n == 0) return
-      call lines%line("")
-      name = "extremes"  ! located: those of the run
-      if (accuracy%claim == claim_window) name = name//" up to t = "//real_text(accuracy%until, 6)//" s"
-      call lines%line(padded(name, 42)//right("min", 20)//right("max", 20)//right("+-", 11))
-      do k = 1, min(n, most_extremes)
-         associate (extreme => accuracy%extremes(k))
-            name = "  "//extreme%name
-            if (extreme%unit /= "1") name = name//" ["//extreme%unit//"]"
-            call lines%line(padded(name, 42)//right(known_text(extreme%minimum, 12), 20)//right(known_text(extreme%most, 12), &
-                                                                                                20)// &
-                            right(short(extreme%error), 11))
-         end associate
-      end do
-      if (.not. all(ieee_is_finite(accuracy%extremes%minimum))) then
-         call lines%line("  -: undefined; a contact point is defined only during contact")
-      end if
-      if (n > most_extremes) call lines%line("  and "//to_text(n - most_extremes)//" more in summary.json and run.h5")
-   end subroutine extreme_lines
-
-   !> A string with blanks behind it.
-   pure function padded(string, width) result(s)
-      character(*), intent(in) :: string   !! any string
-      integer, intent(in) :: width         !! of the field
-      character(:), allocatable :: s       !! never shorter than the string
-
-      s = string//repeat(" ", max(width - len(string), 0))
-   end function padded
-
-   !> A string with blanks before it.
-   pure function right(string, width) result(s)
-      character(*), intent(in) :: string   !! any string
-      integer, intent(in) :: width         !! of the field
-      character(:), allocatable :: s       !! never shorter than the string and a blank
-
-      s = repeat(" ", max(width - len(string), 1))//string
-   end function right
-
-   !> All of it as an object.
-   function accuracy_json(accuracy) result(object)
-      type(accuracy_t), intent(in) :: accuracy     !! what is known
-      character(:), allocatable :: object          !! as text
-
-      type(json_object_t) :: json
-      type(text_t), allocatable :: extremes(:)
-      integer :: k
-
-      allocate (extremes(0))
-      do k = 1, size(accuracy%extremes)
-         block
-            type(json_object_t) :: one
-
-            associate (extreme => accuracy%extremes(k))
-               call one%start(2)
-               call one%put_text("name", extreme%name)
-               call one%put_text("unit", extreme%unit)
-               call one%put_real("scale", extreme%scale)
-               call one%put_real("error", extreme%error)
-               call one%put_real("min", extreme%minimum)
-               call one%put_real("max", extreme%most)
-            end associate
-            call append_text(extremes, one%get())
-         end block
-      end do
-      call json%start(1)
-      call json%put_real("asked", accuracy%asked)
-      call json%put_text("claim", trim(claim_words(accuracy%claim)))
-      call json%put_real("error", accuracy%error)
-      call json%put_real("error_at_end", accuracy%error_at_end)
-      call json%put_real("claimed_until", accuracy%until)
-      call json%put_real("asked_until", accuracy%asked_until)
-      call json%put_text("coarser", accuracy%evidence%coarser)
-      call json%put_real("coarser_difference", accuracy%evidence%apart(1))
-      call json%put_text("confirmed_by", accuracy%evidence%confirmation)
-      call json%put_real("confirmed_difference", accuracy%evidence%apart(2))
-      call json%put_real("other_contacts_from", accuracy%evidence%other_from)
-      call json%put_text("limited_by", worst_of(accuracy))
-      call json%put_text("reason", accuracy%reason)
-      if (accuracy%growth%reason == "") call json%put_text("growth", growth_words(accuracy%growth))
-      call json%put_integer("runs", int(accuracy%evidence%runs, i8))
-      call json%put_real("seconds", accuracy%evidence%spent)
-      call json%put_objects("extremes", extremes)
-      object = json%get()
-   end function accuracy_json
 
 end module accuracy_text

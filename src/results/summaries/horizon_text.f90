@@ -1,17 +1,16 @@
-!> The largest Lyapunov exponent and the horizon as text, and for scripts.
+!> The largest Lyapunov exponent and the horizon as text.
 module horizon_text
    use batch_means, only: estimate_t
-   use exponent, only: exponent_t, horizon_t, verdict, verdict_apart, verdict_differ, verdict_together, verdict_unclear, &
+   use exponent, only: horizon_t, verdict, verdict_apart, verdict_differ, verdict_together, verdict_unclear, &
       verdict_unknown
    use growth, only: n_digit
    use, intrinsic :: ieee_arithmetic, only: ieee_is_finite
-   use json_text, only: json_object_t
-   use kinds, only: i8, wp
+   use kinds, only: wp
    use text, only: segment, real_text, to_text
    use text_buffer, only: buffer_t
    implicit none (type, external)
    private
-   public :: add_horizon, horizon_json
+   public :: add_horizon
 
 contains
 
@@ -109,49 +108,5 @@ contains
       if (k > 0) words = words//", "//to_text(k)//" "//trim(merge("to the end of the search", "to the end              ", is_cut))
       words = segment(words, 3)
    end function digits_text
-
-   !> The same for scripts.
-   subroutine horizon_json(horizon, json)
-      type(horizon_t), intent(in) :: horizon       !! what is known
-      type(json_object_t), intent(inout) :: json   !! grown
-
-      integer :: k
-
-      if (.not. allocated(horizon%t)) return
-      call put(horizon%tangent, "exponent")
-      if (horizon%with_twin) then
-         call put(horizon%twin, "exponent_by_twin")
-         call json%put_logical("exponents_agree", horizon%is_agreed)
-      end if
-      call json%put_real("exponent_from", horizon%after)
-      call json%put_real("exponent_to", horizon%t(size(horizon%t)))
-      call json%put_logical("exponent_cut", horizon%is_cut)
-      call json%put_integer("exponent_jumps", int(horizon%n_crossed, i8))
-      call json%put_integer("exponent_grazing", int(horizon%n_grazed, i8))
-      call json%put_integer("exponent_together", int(horizon%n_together, i8))
-      do k = 1, n_digit
-         call json%put_real("horizon_"//to_text(k), horizon%digits(k))
-      end do
-      if (horizon%asked <= 0.0_wp) return
-      do k = 1, n_digit
-         call json%put_real("horizon_of_run_"//to_text(k), horizon%run_digits(k))
-      end do
-
-   contains
-
-      !> What a method says.
-      subroutine put(exponent, name)
-         type(exponent_t), intent(in) :: exponent   !! the method's
-         character(*), intent(in) :: name           !! of its numbers
-
-         call json%put_text(name//"_reason", exponent%reason)
-         if (exponent%reason /= "") return
-         call json%put_real(name, exponent%rate%value)
-         call json%put_real(name//"_interval", exponent%rate%half)
-         call json%put_integer(name//"_batches", int(exponent%rate%n_batch, i8))
-         call json%put_real(name//"_effective", exponent%rate%n_effective)
-      end subroutine put
-
-   end subroutine horizon_json
 
 end module horizon_text

@@ -1,14 +1,13 @@
-!> Films at a steady state and small motions about it, as text and for scripts.
+!> Films at a steady state and small motions about it, as text.
 module linear_text
    use, intrinsic :: ieee_arithmetic, only: ieee_is_finite
-   use json_text, only: json_object_t
    use kinds, only: pi, two_pi, wp
    use linearised, only: film_coefficients_t, linearised_t
    use text, only: append_text, real_text, text_t
    use text_buffer, only: buffer_t
    implicit none (type, external)
    private
-   public :: film_lines, linear_json, linear_lines
+   public :: film_lines, linear_lines
 
    integer, parameter :: n_digit = 5                                      !! digits that are printed
    character(*), parameter :: place(4) = ["xx", "xy", "yx", "yy"]         !! of the entries of a matrix, row by row
@@ -101,80 +100,5 @@ contains
       if (abs(film%journal_speed) > 0.0_wp) words = ", "//real_text(film%whirl_frequency/abs(film%journal_speed), n_digit)// &
                                                     " times the journal speed"
    end function ratio_words
-
-   !> The same for scripts; nothing if no film was linearised.
-   subroutine linear_json(json, linear)
-      type(json_object_t), intent(inout) :: json  !! the object
-      type(linearised_t), intent(in) :: linear    !! what is known
-
-      type(json_object_t) :: part
-      type(text_t), allocatable :: films(:), values(:)
-      integer :: k
-
-      if (.not. allocated(linear%films)) return
-      allocate (films(0), values(0))
-      do k = 1, size(linear%films)
-         call append_text(films, film_object(linear%films(k)))
-      end do
-      call json%put_objects("films", films)
-      call part%start(1)
-      call part%put_logical("judged", linear%is_judged)
-      if (linear%is_judged) then
-         do k = 1, size(linear%eigenvalues, 2)
-            call append_text(values, eigenvalue_object(linear%eigenvalues(:, k)))
-         end do
-         call part%put_objects("eigenvalues", values)
-      end if
-      if (linear%is_searched) then
-         call part%put_text("onset_text", linear%onset_words)
-         call part%put_real("onset", linear%onset)
-         call part%put_real("onset_frequency", linear%onset_frequency)
-         call part%put_real("searched_to", linear%searched_to)
-      end if
-      call json%put_object("small_motions", part%get())
-   end subroutine linear_json
-
-   !> An eigenvalue as an object.
-   function eigenvalue_object(value) result(object)
-      real(wp), intent(in) :: value(2)      !! (2) real and imaginary part [1/s]
-      character(:), allocatable :: object   !! as text
-
-      type(json_object_t) :: json
-
-      call json%start(2)
-      call json%put_real("growth", value(1))
-      call json%put_real("frequency", value(2))
-      object = json%get()
-   end function eigenvalue_object
-
-   !> A film as an object.
-   function film_object(film) result(object)
-      type(film_coefficients_t), intent(in) :: film  !! the film
-      character(:), allocatable :: object            !! as text
-
-      type(json_object_t) :: json
-      integer :: k
-
-      call json%start(1)
-      call json%put_text("joint", film%joint)
-      call json%put_real("eccentricity_ratio", film%eccentricity_ratio)
-      call json%put_real("attitude", film%attitude)
-      call json%put_real("load", film%load)
-      call json%put_real("journal_speed", film%journal_speed)
-      call json%put_logical("heated", film%is_heated)
-      call json%put_real("temperature", film%temperature)
-      call json%put_real("viscosity", film%viscosity)
-      do k = 1, size(place)
-         call json%put_real("stiffness_"//place(k), film%stiffness(row(k), column(k)))
-      end do
-      do k = 1, size(place)
-         call json%put_real("damping_"//place(k), film%damping(row(k), column(k)))
-      end do
-      call json%put_real("error", film%error)
-      call json%put_real("equivalent_stiffness", film%equivalent_stiffness)
-      call json%put_real("whirl_frequency", film%whirl_frequency)
-      call json%put_real("critical_mass", film%critical_mass)
-      object = json%get()
-   end function film_object
 
 end module linear_text

@@ -1,7 +1,8 @@
 !> The results of a comparison of settings for scripts.
 module precision_objects
    use bend_text, only: bends_of
-   use horizon_text, only: horizon_json
+   use horizon_table, only: table_of_horizon
+   use json_table, only: put_tables
    use json_text, only: json_object_t
    use kinds, only: i8
    use precision_results, only: error_names, n_statistic, precision_t, tol_run_done, tol_run_failed, tol_run_other, tol_run_unrun, &
@@ -40,7 +41,7 @@ contains
          call json%put_real("growth_rate_interval", study%growth%rate_interval)
          call json%put_real("growth_power", study%growth%power)
       end if
-      call horizon_json(study%horizon, json)
+      if (allocated(study%horizon%t)) call put_tables(json, [table_of_horizon(study%horizon)])
       call json%put_list("bends", bends_of(study))
       if (study%choice%tol_sweep == 0) return
       associate (tol_sweep => study%tol_sweeps(study%choice%tol_sweep), &

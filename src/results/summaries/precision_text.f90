@@ -7,16 +7,16 @@ module precision_text
    use horizon_text, only: add_horizon
    use, intrinsic :: ieee_arithmetic, only: ieee_is_finite
    use kinds, only: wp
+   use precision_table, only: table_of_settings, table_of_tol_runs
    use precision_results, only: error_names, error_onsets, error_units, error_words, tol_sweep_t, n_compared, precision_t, &
         tol_run_done, &
       tol_run_failed, tol_run_other, tol_run_states, tol_run_t, tol_run_unrun
    use text, only: counted, real_text, replace, split_blank, starts_with, text_t, to_text
    use text_buffer, only: buffer_t
+   use text_of_table, only: add_table
    implicit none (type, external)
    private
-   public :: column, figures, growth_words, precision_summary, settings_text, short
-
-   integer, parameter :: width = 11          !! characters of a column
+   public :: growth_words, precision_report, precision_summary, settings_text, short
 
 contains
 
@@ -38,7 +38,8 @@ contains
       call add_reference(lines, study)
       call add_growth(lines, study)
       call add_horizon(lines, study%horizon)
-      call add_tol_sweeps(lines, study)
+      call add_table(lines, table_of_settings(study))
+      call lines%line("")
       call add_statistics(lines, study)
       call add_bends(lines, study)
       call add_failures(lines, study)
@@ -47,6 +48,23 @@ contains
                       study%budget > 0.0_wp))//budget_text(study)//"; "//rounds_text(study))
       text = lines%get()
    end function precision_summary
+
+   !> The summary, and every run in a line below.
+   function precision_report(study, title) result(text)
+      type(precision_t), intent(in) :: study     !! results
+      character(*), intent(in) :: title          !! of the scene
+      character(:), allocatable :: text          !! whole lines
+
+      type(buffer_t) :: lines
+
+      call lines%add(precision_summary(study, title))
+      call lines%line("")
+      call lines%line("CPU time of the integration: median and minimum of the rounds; front: no run is both cheaper and more "// &
+         "accurate;")
+      call lines%line("below: the error is below that of the reference, hence unknown")
+      call add_table(lines, table_of_tol_runs(study))
+      text = lines%get()
+   end function precision_report
 
    !> How often runs were timed.
    function rounds_text(study) result(words)
@@ -202,73 +220,6 @@ contains
       word = real_text(0.1_wp*anint(10.0_wp*x), 3)
    end function rounded
 
-   !> Every setting in a line.
-   subroutine add_tol_sweeps(lines, study)
-      type(buffer_t), intent(inout) :: lines      !! grown
-      type(precision_t), intent(in) :: study      !! results
-
-      integer :: best, k, longest
-
-      longest = 8
-      do k = 1, size(study%tol_sweeps)
-         longest = max(longest, len(study%tol_sweeps(k)%name))
-      end do
-      call lines%line("")
-      call lines%line(padded("setting", longest)//column("runs")//column("order")//column("exponent")//column("error/tol")// &
-                      column("minimum error")//column("CPU/ms")//column("RHS"))
-      do k = 1, size(study%tol_sweeps)
-         associate (tol_sweep => study%tol_sweeps(k))
-            best = min_error(tol_sweep, study%wanted)
-            if (best == 0) then
-               call lines%line(padded(tol_sweep%name, longest)//column("0")//repeat(column("-"), 6))
-               cycle
-            end if
-            call lines%line(padded(tol_sweep%name, longest)//column(to_text(count(tol_sweep%tol_runs%state == tol_run_done)))// &
-                            column(figures(tol_sweep%order))//column(figures(tol_sweep%exponent))// &
-                             column(figures(tol_sweep%ratio))// &
-                            column(known_error(study, tol_sweep%tol_runs(best)))// &
-                            column(real_text(1.0e3_wp*tol_sweep%tol_runs(best)%cpu, 3))// &
-                            column(to_text(tol_sweep%tol_runs(best)%count%evaluations)))
-         end associate
-      end do
-      call lines%line("")
-   end subroutine add_tol_sweeps
-
-   !> An error, or that of the reference if it is within it.
-   function known_error(study, tol_run) result(word)
-      type(precision_t), intent(in) :: study      !! results
-      type(tol_run_t), intent(in) :: tol_run            !! the run
-      character(:), allocatable :: word           !! as `1.0e-9` or `< 1.0e-9`
-
-      word = short(tol_run%error(study%wanted))
-      if (tol_run%is_below) word = "< "//short(study%reference%bar(study%wanted))
-   end function known_error
-
-   !> A number of three figures.
-   function figures(x) result(word)
-      real(wp), intent(in) :: x                   !! the number [any]
-      character(:), allocatable :: word           !! its figures, or `-`
-
-      word = "-"
-      if (ieee_is_finite(x)) word = real_text(x, 3)
-   end function figures
-
-   !> The run of the minimum error, 0 if there is none.
-   pure integer function min_error(tol_sweep, kind) result(best)
-      type(tol_sweep_t), intent(in) :: tol_sweep        !! the tolerance sweep
-      integer, intent(in) :: kind                 !! of error
-
-      integer :: k
-
-      best = 0
-      do k = 1, size(tol_sweep%tol_runs)
-         if (tol_sweep%tol_runs(k)%state /= tol_run_done) cycle
-         if (.not. ieee_is_finite(tol_sweep%tol_runs(k)%error(kind))) cycle
-         if (best == 0) best = k
-         if (tol_sweep%tol_runs(k)%error(kind) < tol_sweep%tol_runs(best)%error(kind)) best = k
-      end do
-   end function min_error
-
    !> Runs that failed, were not made, or had other contacts, with their reasons, each reason of a setting once, however
    !> its numbers differ.
    subroutine add_failures(lines, study)
@@ -367,22 +318,5 @@ contains
          words = words//", tolerance = "//real_text(tol_run%asked, 4)
       end if
    end function settings_text
-
-   !> A word at the right of its column.
-   pure function column(word) result(cell)
-      character(*), intent(in) :: word            !! the word
-      character(:), allocatable :: cell           !! at least one blank before it
-
-      cell = repeat(" ", max(1, width - len_trim(word)))//trim(word)
-   end function column
-
-   !> A word at the left of its column.
-   pure function padded(word, length) result(cell)
-      character(*), intent(in) :: word            !! the word
-      integer, intent(in) :: length               !! of the column
-      character(:), allocatable :: cell           !! with blanks behind it
-
-      cell = word//repeat(" ", max(0, length - len(word)))
-   end function padded
 
 end module precision_text

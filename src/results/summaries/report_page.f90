@@ -2,18 +2,16 @@
 !>
 !> The page has its pictures in it, asks no network and has no script of its own; an animation is its own page in a frame.
 module report_page
-   use catalogue, only: catalogue_t
-   use event_list, only: event_list_t
    use figure_words, only: figure_t
+   use html_table, only: add_section, head
    use html_text, only: base_64, escaped, in_attribute
    use kinds, only: i8
    use output_plan, only: output_plan_t
    use posix, only: utc_time
    use recorder, only: summary_t
    use report_deck, only: deck_tables
-   use report_tables, only: cost_table, extremes_table, head, impact_table, joint_table, number_table, row
    use report_style, only: page_style
-   use summary_writer, only: headline, outcome_t
+   use summary_writer, only: accuracy_lines, cost_lines, headline, outcome_t
    use system_file, only: read_file
    use text, only: segment, text_t, to_text
    use text_buffer, only: buffer_t
@@ -27,12 +25,10 @@ module report_page
 contains
 
    !> The page.
-   function report_text(plan, summary, events, outcome, catalogue, figures, more) result(page)
+   function report_text(plan, summary, outcome, figures, more) result(page)
       type(output_plan_t), intent(in) :: plan      !! what is known of the run
       type(summary_t), intent(in) :: summary       !! cost and errors
-      type(event_list_t), intent(in) :: events     !! all events
       type(outcome_t), intent(in) :: outcome       !! what the run left behind
-      type(catalogue_t), intent(in) :: catalogue   !! what could be recorded
       type(figure_t), intent(in) :: figures(:)     !! (n) the figures
       character(*), intent(in) :: more             !! the summary for people
       character(:), allocatable :: page            !! HTML
@@ -58,10 +54,9 @@ contains
          call lines%line("</ul>")
       end if
       call add_figures(lines, plan%directory, outcome%pictures, figures)
-      if (outcome%extremes%has_course()) call joint_table(lines, outcome%joints, summary%time_end)
-      call impact_table(lines, events, summary%time_end)
-      call extremes_table(lines, outcome%extremes, catalogue, summary%time_end)
-      call number_table(lines, plan%statistics%after, outcome%numbers)
+      do k = 1, size(outcome%tables)
+         call add_section(lines, outcome%tables(k))
+      end do
       call cost_table(lines, summary)
       call head(lines, "summary", "Summary")
       call lines%line("<details><summary>summary.txt</summary><pre>")
@@ -170,6 +165,30 @@ contains
       end do
       call lines%line("</table>")
    end subroutine add_origin
+
+   !> A row of two cells of text.
+   subroutine row(lines, name, words)
+      type(buffer_t), intent(inout) :: lines  !! the page
+      character(*), intent(in) :: name        !! what it is
+      character(*), intent(in) :: words       !! what there is to say
+
+      call lines%line("<tr><td>"//escaped(name, .true.)//"</td><td class=""text"">"//escaped(words, .true.)//"</td></tr>")
+   end subroutine row
+
+   !> Cost and error, as the summary has them.
+   subroutine cost_table(lines, summary)
+      type(buffer_t), intent(inout) :: lines      !! the page
+      type(summary_t), intent(in) :: summary      !! of the run
+
+      type(buffer_t) :: words
+
+      call head(lines, "cost", "Cost and accuracy")
+      call cost_lines(words, summary)
+      call accuracy_lines(words, summary)
+      call lines%line("<pre>")
+      call lines%add(words%get())
+      call lines%line("</pre>")
+   end subroutine cost_table
 
    !> Text of several lines.
    subroutine add_text(lines, text)

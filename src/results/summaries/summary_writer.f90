@@ -1,32 +1,29 @@
 !> How a run went: summary.txt for people, summary.json for scripts.
 module summary_writer
-   use accuracy_text, only: accuracy_json, asked_lines, extreme_lines
-   use catalogue, only: catalogue_t
-   use channel_noise, only: known_text, shown
+   use accuracy_text, only: asked_lines
    use display_units, only: choose_unit, display_unit_t
-   use event_list, only: event_list_t, number_names
-   use extremes, only: extremes_t, joint_extremes_t
-   use extremes_text, only: channel_objects, channel_table, joint_objects, joint_table
-   use horizon_text, only: add_horizon, horizon_json
+   use horizon_text, only: add_horizon
    use, intrinsic :: ieee_arithmetic, only: ieee_is_finite
+   use json_table, only: put_tables
    use json_text, only: json_object_t
-   use kinds, only: i8, not_a_number, wp
-   use linear_text, only: linear_json, linear_lines
+   use kinds, only: i8, wp
+   use linear_text, only: linear_lines
    use output_plan, only: output_plan_t
    use plot_text, only: valid_utf8
    use posix, only: utc_time
-   use recorder, only: row_end, row_jump, row_onset, row_peak, row_stop, status_complete, summary_t
+   use recorder, only: row_end, row_jump, row_onset, row_peak, status_complete, summary_t
+   use result_table, only: result_table_t
    use statistics, only: number_t
-   use text, only: append_text, real_text, text_t, to_text
+   use summary_table, only: relative_residual, seconds_per_rhs
+   use text, only: real_text, text_t, to_text
    use text_buffer, only: buffer_t
+   use text_of_table, only: add_table
    use text_table, only: one_line
    implicit none (type, external)
    private
-   public :: accuracy_lines, complete_summary, cost_lines, first_impacts, headline, outcome_t, summary_json, summary_lines
+   public :: accuracy_lines, complete_summary, cost_lines, headline, outcome_t, summary_json, summary_lines
 
-   integer, parameter :: most_impacts = 5          !! rows of the table of first impacts
    real(wp), parameter :: worth_telling = 1.0e-6_wp  !! way of a body in the assembly [m]
-   character(*), parameter :: kind_contact = "contact"  !! kind of event that is an impact
 
    !> What a run left behind besides its numbers.
    type :: outcome_t
@@ -35,8 +32,7 @@ module summary_writer
       type(text_t), allocatable :: pictures(:)  !! (m) pictures, paths within the directory
       type(number_t), allocatable :: numbers(:) !! (l) the statistics
       type(text_t), allocatable :: warnings(:)  !! (k) what a careful reader should know, and what was not made
-      type(extremes_t) :: extremes              !! what the channels went through
-      type(joint_extremes_t), allocatable :: joints(:)  !! (j) what the clearance joints went through
+      type(result_table_t), allocatable :: tables(:)    !! (any) the results
    end type outcome_t
 
 contains
@@ -56,35 +52,11 @@ contains
       if (.not. allocated(full%equilibrium)) full%equilibrium = ""
    end function complete_summary
 
-   !> Time per evaluation of the right-hand side, output aside; NaN if not known.
-   pure real(wp) function seconds_per_rhs(summary)
-      type(summary_t), intent(in) :: summary  !! of the run
-
-      integer(i8) :: n
-
-      seconds_per_rhs = not_a_number()
-      n = summary%count%rhs_evaluations - summary%count%output_evaluations
-      if (n > 0) seconds_per_rhs = summary%cpu_seconds/real(n, wp)
-   end function seconds_per_rhs
-
-   !> Residual of the ledger over the largest energy, NaN if not known.
-   pure real(wp) function relative_residual(summary)
-      type(summary_t), intent(in) :: summary  !! of the run
-
-      relative_residual = not_a_number()
-      if (.not. (ieee_is_finite(summary%quality%energy_residual_max) .and. ieee_is_finite(summary%quality%energy_max))) return
-      if (summary%quality%has_ledger .and. summary%quality%energy_max > 0.0_wp) then
-         relative_residual = summary%quality%energy_residual_max/summary%quality%energy_max
-      end if
-   end function relative_residual
-
    !> The summary for people.
-   function summary_lines(plan, summary, events, outcome, catalogue) result(text)
+   function summary_lines(plan, summary, outcome) result(text)
       type(output_plan_t), intent(in) :: plan      !! what is known of the run
       type(summary_t), intent(in) :: summary       !! cost and errors
-      type(event_list_t), intent(in) :: events     !! all events
       type(outcome_t), intent(in) :: outcome       !! what the run left behind
-      type(catalogue_t), intent(in) :: catalogue   !! what could be recorded
       character(:), allocatable :: text            !! whole lines
 
       type(buffer_t) :: lines
@@ -111,12 +83,10 @@ contains
       else if (len(plan%contact_rows) > 0 .and. .not. plan%with%contact_rows) then
          call lines%line("rows       "//plan%contact_rows)
       end if
-      if (plan%accuracy%asked > 0.0_wp) call extreme_lines(lines, plan%accuracy)
       call add_horizon(lines, plan%horizon)
-      call impact_lines(lines, events)
-      if (outcome%extremes%has_course()) call joint_table(lines, outcome%joints)
-      call channel_table(lines, outcome%extremes, catalogue)
-      call number_lines(lines, plan, outcome%numbers)
+      do k = 1, size(outcome%tables)
+         call add_table(lines, outcome%tables(k))
+      end do
       call lines%line("")
       call lines%line("output     "//plan%directory//"/")
       if (plan%with%hdf5) call lines%line("           run.h5")
@@ -186,91 +156,10 @@ contains
                       real_text(summary%quality%violation_rate_max, 3)//" m/s")
    end subroutine accuracy_lines
 
-   !> Numbers of the first contacts, in the order of their onsets.
-   function first_impacts(events, most) result(list)
-      type(event_list_t), intent(in) :: events  !! all events
-      integer, intent(in) :: most               !! at most so many
-      integer, allocatable :: list(:)           !! (n) numbers of events
-
-      integer, allocatable :: order(:)
-      integer :: k
-
-      allocate (list(0))
-      order = events%order_by_onset()
-      do k = 1, size(order)
-         if (size(list) == most) exit
-         if (events%word(order(k), 1) == kind_contact) list = [list, order(k)]
-      end do
-   end function first_impacts
-
-   !> The table of first impacts.
-   subroutine impact_lines(lines, events)
-      type(buffer_t), intent(inout) :: lines     !! the summary
-      type(event_list_t), intent(in) :: events   !! all events
-
-      integer, allocatable :: list(:)
-      character(:), allocatable :: item
-      integer :: k
-
-      list = first_impacts(events, most_impacts)
-      if (size(list) == 0) return
-      call lines%line("")
-      call lines%line("first impacts     onset [s]   speed [m/s]   peak force [N]   duration [s]   joint")
-      do k = 1, size(list)
-         item = events%word(list(k), 2)
-         if (len_trim(events%word(list(k), 3)) > 0) item = item//"."//events%word(list(k), 3)
-         associate (numbers => events%numbers(:, list(k)))
-            call lines%line(right(known_text(numbers(1), 9), 27)//right(known_text(numbers(2), 7), 14)// &
-                            right(known_text(numbers(3), 8), 17)//right(ended(numbers(5)), 15)//"   "//item)
-         end associate
-      end do
-   end subroutine impact_lines
-
-   !> The statistics.
-   subroutine number_lines(lines, plan, numbers)
-      type(buffer_t), intent(inout) :: lines     !! the summary
-      type(output_plan_t), intent(in) :: plan    !! what is known of the run
-      type(number_t), intent(in) :: numbers(:)   !! (any) the statistics
-
-      character(:), allocatable :: name
-      integer :: k
-
-      if (size(numbers) == 0) return
-      call lines%line("")
-      call lines%line("statistics from "//real_text(plan%statistics%after, 9)//" s on")
-      do k = 1, size(numbers)
-         name = numbers(k)%name
-         if (numbers(k)%unit /= "1") name = name//" ["//numbers(k)%unit//"]"
-         call lines%line("           "//name//right(known_text(shown(numbers(k)%value, numbers(k)%noise), 9), &
-                                                    max(58 - len(name), 2)))
-      end do
-   end subroutine number_lines
-
-   !> A duration as text.
-   pure function ended(duration) result(s)
-      real(wp), intent(in) :: duration   !! of a contact; NaN: not ended [s]
-      character(:), allocatable :: s     !! the number, or words
-
-      s = "in contact"
-      if (ieee_is_finite(duration)) s = real_text(duration, 6)
-   end function ended
-
-   !> A string moved to the right end of a field.
-   pure function right(string, width) result(s)
-      character(*), intent(in) :: string   !! any string
-      integer, intent(in) :: width         !! of the field
-      character(:), allocatable :: s       !! never shorter than the string
-
-      s = repeat(" ", max(width - len(string), 1))//string
-   end function right
-
    !> The summary for scripts.
-   function summary_json(plan, summary, events, outcome, catalogue) result(text)
+   function summary_json(plan, outcome) result(text)
       type(output_plan_t), intent(in) :: plan      !! what is known of the run
-      type(summary_t), intent(in) :: summary       !! cost and errors
-      type(event_list_t), intent(in) :: events     !! all events
       type(outcome_t), intent(in) :: outcome       !! what the run left behind
-      type(catalogue_t), intent(in) :: catalogue   !! what could be recorded
       character(:), allocatable :: text            !! one object
 
       type(json_object_t) :: json
@@ -285,14 +174,7 @@ contains
       call json%put_text("directory", plan%directory)
       call json%put_integer("degrees_of_freedom", int(plan%n_freedom, i8))
       call json%put_real("assembly_moved", plan%moved)
-      call put_summary(json, summary)
-      call linear_json(json, summary%linear)
-      if (plan%accuracy%asked > 0.0_wp) call json%put_object("accuracy", accuracy_json(plan%accuracy))
-      call horizon_json(plan%horizon, json)
-      if (plan%statistics%is_wanted) call json%put_object("statistics", numbers_object(outcome%numbers))
-      call json%put_objects("loose_joints", joint_objects(outcome%joints))
-      call json%put_objects("extremes", channel_objects(outcome%extremes, catalogue))
-      call json%put_objects("first_impacts", impact_objects(events))
+      call put_tables(json, outcome%tables)
       call json%put_list("files", outcome%files)
       if (plan%with%csv) call json%put_list("csv", outcome%csv)
       call json%put_list("figures", outcome%pictures)
@@ -314,84 +196,5 @@ contains
       end do
       object = json%get()
    end function parameter_object
-
-   !> The members that are the summary itself.
-   subroutine put_summary(json, summary)
-      type(json_object_t), intent(inout) :: json   !! the object
-      type(summary_t), intent(in) :: summary       !! cost and errors
-
-      call json%put_text("status", summary%status)
-      call json%put_text("message", summary%message)
-      call json%put_text("method", summary%method%integrator)
-      call json%put_text("solver", summary%method%solver)
-      call json%put_text("stabilisation", summary%method%stabilisation)
-      call json%put_text("equilibrium", summary%equilibrium)
-      call json%put_real("tolerance", summary%method%tolerance)
-      call json%put_real("time_start", summary%time_start)
-      call json%put_real("time_end", summary%time_end)
-      call json%put_integer("groups", int(summary%groups, i8))
-      call json%put_integer("steps", summary%count%steps)
-      call json%put_integer("rejected_steps", summary%count%rejected_steps)
-      call json%put_integer("rhs_evaluations", summary%count%rhs_evaluations)
-      call json%put_integer("output_evaluations", summary%count%output_evaluations)
-      call json%put_integer("factorisations", summary%count%factorisations)
-      call json%put_integer("events", int(summary%count%events, i8))
-      call json%put_integer("contacts", int(summary%count%contacts, i8))
-      call json%put_integer("samples", int(summary%count%samples, i8))
-      call json%put_integer("onset_rows", int(summary%count%rows(row_onset), i8))
-      call json%put_integer("peak_rows", int(summary%count%rows(row_peak), i8))
-      call json%put_integer("end_rows", int(summary%count%rows(row_end), i8))
-      call json%put_integer("jump_rows", int(summary%count%rows(row_jump), i8))
-      call json%put_integer("stop_rows", int(summary%count%rows(row_stop), i8))
-      call json%put_logical("ledger", summary%quality%has_ledger)
-      call json%put_real("energy_max", summary%quality%energy_max)
-      call json%put_real("energy_residual_max", summary%quality%energy_residual_max)
-      call json%put_real("energy_residual_relative", relative_residual(summary))
-      call json%put_real("violation_max", summary%quality%violation_max)
-      call json%put_real("violation_rate_max", summary%quality%violation_rate_max)
-      call json%put_real("cpu_seconds", summary%cpu_seconds)
-      call json%put_real("wall_seconds", summary%wall_seconds)
-      call json%put_real("seconds_per_rhs", seconds_per_rhs(summary))
-   end subroutine put_summary
-
-   !> The statistics as an object.
-   function numbers_object(numbers) result(object)
-      type(number_t), intent(in) :: numbers(:)      !! (any) the statistics
-      character(:), allocatable :: object           !! as text
-
-      type(json_object_t) :: json
-      integer :: k
-
-      call json%start(1)
-      do k = 1, size(numbers)
-         call json%put_real(numbers(k)%name, numbers(k)%value)
-      end do
-      object = json%get()
-   end function numbers_object
-
-   !> The first impacts as objects.
-   function impact_objects(events) result(objects)
-      type(event_list_t), intent(in) :: events      !! all events
-      type(text_t), allocatable :: objects(:)       !! (n) objects as text
-
-      integer, allocatable :: list(:)
-      integer :: i, k
-
-      allocate (objects(0))
-      list = first_impacts(events, most_impacts)
-      do k = 1, size(list)
-         block
-            type(json_object_t) :: json
-
-            call json%start(1)
-            call json%put_text("item", events%word(list(k), 2))
-            call json%put_text("contact", events%word(list(k), 3))
-            do i = 1, size(number_names)
-               call json%put_real(trim(number_names(i)), events%numbers(i, list(k)))
-            end do
-            call append_text(objects, json%get())
-         end block
-      end do
-   end function impact_objects
 
 end module summary_writer

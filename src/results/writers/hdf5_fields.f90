@@ -1,11 +1,11 @@
 !> Unwrapped films in run.h5: a group /film_fields/NAME for each (docs/output.md).
 module hdf5_fields
    use film_fields, only: film_field_t, moment_end, moment_min
-   use hdf5, only: h5gclose_f, hid_t
-   use hdf5_attributes, only: real_attribute, text_attribute
-   use hdf5_calls, only: new_group
+   use hdf5, only: hid_t
    use hdf5_datasets, only: real_dataset
+   use hdf5_table, only: write_table
    use kinds, only: i8, wp
+   use result_table, only: result_table_t
    implicit none (type, external)
    private
    public :: bytes_of_fields, write_fields
@@ -32,12 +32,8 @@ contains
       type(film_field_t), intent(in) :: fields(:)  !! (any) films
       integer, intent(inout) :: status             !! negative: failed
 
-      integer(hid_t) :: group
-      integer :: closed, k
+      integer :: k
 
-      if (size(fields) == 0) return
-      call new_group(file, "film_fields", group, status)
-      if (status >= 0) call h5gclose_f(group, closed)
       do k = 1, size(fields)
          call write_field(file, "film_fields/"//fields(k)%request%name, fields(k), status)
       end do
@@ -50,28 +46,27 @@ contains
       type(film_field_t), intent(in) :: field    !! the film
       integer, intent(inout) :: status           !! negative: failed
 
-      integer(hid_t) :: group
-      integer :: closed, peak(2)
+      type(result_table_t) :: table
+      integer :: peak(2)
 
-      call new_group(file, path, group, status)
-      if (status < 0) return
       peak = maxloc(field%pressure)
-      call text_attribute(group, "joint", field%request%joint, status)
-      call text_attribute(group, "film", field%film, status)
+      call table%start(field%request%name, path, 0)
+      call table%fact("joint", field%request%joint)
+      call table%fact("film", field%film)
       select case (field%request%moment)
-      case (moment_end); call text_attribute(group, "moment", "end of the run", status)
-      case (moment_min); call text_attribute(group, "moment", "minimum film thickness", status)
-      case default; call text_attribute(group, "moment", "time", status)
+      case (moment_end); call table%fact("moment", "end of the run")
+      case (moment_min); call table%fact("moment", "minimum film thickness")
+      case default; call table%fact("moment", "time")
       end select
-      call real_attribute(group, "time", field%t, status)
-      call real_attribute(group, "clearance", field%clearance, status)
-      call real_attribute(group, "bearing_angle", field%angle, status)
-      call real_attribute(group, "eccentricity_ratio", norm2(field%e)/field%clearance, status)
-      call real_attribute(group, "eccentricity_angle", atan2(field%e(2), field%e(1)), status)
-      call real_attribute(group, "pressure_max", field%pressure(peak(1), peak(2)), status)
-      call real_attribute(group, "pressure_max_angle", field%theta(peak(2)), status)
-      call real_attribute(group, "gap_min", minval(field%gap), status)
-      call h5gclose_f(group, closed)
+      call table%fact("time", field%t)
+      call table%fact("clearance", field%clearance)
+      call table%fact("bearing_angle", field%angle)
+      call table%fact("eccentricity_ratio", norm2(field%e)/field%clearance)
+      call table%fact("eccentricity_angle", atan2(field%e(2), field%e(1)))
+      call table%fact("pressure_max", field%pressure(peak(1), peak(2)))
+      call table%fact("pressure_max_angle", field%theta(peak(2)))
+      call table%fact("gap_min", minval(field%gap))
+      call write_table(file, table, status)
       associate (m => size(field%y), n => size(field%theta))
          call real_dataset(file, path//"/theta", [n], field%theta, "rad", "angle around the bearing, frame of its body", status)
          call real_dataset(file, path//"/y", [m], field%y, "m", "axial position, from the middle", status)

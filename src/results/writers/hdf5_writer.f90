@@ -6,37 +6,31 @@
 !> killed, whenever, leaves a readable file with whole rows. Before a block is written its space on the
 !> disk is reserved: a full disk is noticed before the file is touched, and what it held stays whole.
 module hdf5_writer
-   use accuracy_results, only: accuracy_t
    use catalogue, only: catalogue_t
    use channels, only: selection_t
    use errors, only: error_t, exit_file, set_error
    use checksum, only: seal_file, survives
    use event_list, only: event_list_t
-   use extremes, only: extremes_t, joint_extremes_t
    use film_fields, only: film_field_t
-   use hdf5_accuracy, only: bytes_of_accuracy, write_accuracy
    use hdf5, only: h5dclose_f, h5fclose_f, h5fflush_f, h5gclose_f, h5f_scope_local_f, hid_t, hsize_t
    use hdf5_attributes, only: text_attribute
    use hdf5_calls, only: is_memory_short, new_file, new_group, open_file, open_library
    use hdf5_copy, only: copy_rows
    use hdf5_datasets, only: text_dataset
    use hdf5_events, only: event_table_t
-   use hdf5_extremes, only: bytes_of_extremes, write_extremes
    use hdf5_fields, only: bytes_of_fields, write_fields
    use hdf5_layout, only: dataset_t, make_quantities, make_root, make_row_kind, make_time, rows_of_block, write_status
    use hdf5_probe, only: file_can_be_read, row_sums_t
    use hdf5_rows, only: write_rows, write_states
-   use hdf5_statistics, only: write_statistics
-   use hdf5_summary, only: write_summary
-   use films_group, only: write_films
-   use horizon_group, only: write_horizon
+   use hdf5_table, only: bytes_of_table, write_table
+   use horizon_table, only: table_of_digits, table_of_horizon
    use kinds, only: i8, wp
    use output_marker, only: enter_file, note_files
    use output_plan, only: output_plan_t
    use provenance, only: make_provenance
    use posix, only: path_exists, release_space, remove_file, rename_path, reserve_space, sync_path, system_message
    use recorder, only: status_failed, summary_t
-   use statistics, only: number_t, statistics_t
+   use result_table, only: result_table_t
    use archive, only: archive_t
    use text, only: text_t, to_text
    implicit none (type, external)
@@ -61,7 +55,6 @@ module hdf5_writer
       integer :: written = 0                           !! rows in the file
       real(wp) :: last_time = 0.0_wp                   !! time of the last row in the file [s]
       integer(i8) :: flushed_at = 0                    !! clock at the last flush
-      type(accuracy_t) :: accuracy                     !! what is known of the errors
       logical :: with_histories = .true.               !! whether rows are kept
       logical :: is_broken = .false.                   !! a write failed: nothing more is written
       type(row_sums_t) :: sums                         !! of the rows that a checkpoint reports of
@@ -90,7 +83,6 @@ contains
       self%path = plan%directory//"/run.h5"
       if (plan%life%goes_on) self%path = self%path//".part"  ! that of the run that continues stays until its rows are here
       self%with_histories = plan%with%histories
-      self%accuracy = plan%accuracy
       block = rows_of_block(catalogue, plan%n_instant)
       allocate (self%times(block))
       status = enter_file(self%path)
@@ -115,7 +107,10 @@ contains
       call new_group(self%file, "summary", group, status)
       if (status >= 0) call h5gclose_f(group, closed)
       call make_provenance(self%file, plan, status)
-      call write_horizon(self%file, plan%horizon, status)
+      if (allocated(plan%horizon%t)) then
+         call write_table(self%file, table_of_horizon(plan%horizon), status)
+         call write_table(self%file, table_of_digits(plan%horizon), status)
+      end if
       if (status >= 0) call flush_file(self, status)
       call note_files()
       if (status >= 0) return
@@ -321,15 +316,11 @@ contains
    end subroutine fail
 
    !> Write what waits, the statistics, the warnings and how the run went, and close the file.
-   subroutine finish_file(self, summary, events, statistics, catalogue, numbers, extremes, joints, fields, warnings, error)
+   subroutine finish_file(self, summary, events, tables, fields, warnings, error)
       class(hdf5_writer_t), intent(inout) :: self        !! the file
-      type(summary_t), intent(in) :: summary             !! cost and errors of the run
+      type(summary_t), intent(in) :: summary             !! how the run ended
       type(event_list_t), intent(in) :: events           !! all events
-      type(statistics_t), intent(in) :: statistics       !! what was gathered for the statistics
-      type(catalogue_t), intent(in) :: catalogue         !! what can be recorded
-      type(number_t), intent(in) :: numbers(:)           !! (any) the statistics
-      type(extremes_t), intent(in) :: extremes           !! what the channels went through
-      type(joint_extremes_t), intent(in) :: joints(:)    !! (any) what the clearance joints went through
+      type(result_table_t), intent(in) :: tables(:)      !! (any) results
       type(film_field_t), intent(in) :: fields(:)        !! (any) films
       type(text_t), intent(in) :: warnings(:)            !! (any) what a careful reader should know
       type(error_t), allocatable, intent(out) :: error   !! it cannot be written
@@ -340,23 +331,19 @@ contains
       status = 0
       if (.not. self%is_broken) call write_block(self, events, error)
       if (.not. self%is_broken) then
-         call reserve(self, sum([(len(warnings(k)%s, i8), k=1, size(warnings))]) + bytes_of_accuracy(self%accuracy) &
-                                    + bytes_of_fields(fields) + bytes_of_extremes(extremes, joints), error)
+         call reserve(self, sum([(len(warnings(k)%s, i8), k=1, size(warnings))]) + bytes_of_fields(fields) &
+                      + sum(bytes_of_table(tables)), error)
       end if
       if (self%is_broken) then
          ! only what needs no new space
          call write_status(self%file, status_failed, status)
       else
          call self%events%sort(events, status)
-         if (statistics%plan%is_wanted) then
-            call write_statistics(self%file, statistics, catalogue, events, summary%time_end, numbers, status)
-         end if
-         if (self%accuracy%asked > 0.0_wp) call write_accuracy(self%file, self%accuracy, status)
-         call write_extremes(self%file, extremes, joints, catalogue, status)
+         do k = 1, size(tables)
+            call write_table(self%file, tables(k), status)
+         end do
          call write_fields(self%file, fields, status)
          call text_dataset(self%file, "warnings", warnings, .false., "warnings", status)
-         call write_films(self%file, summary%linear, status)
-         call write_summary(self%file, summary, status)
          call text_attribute(self%file, "status_message", summary%message, status)
          call write_status(self%file, summary%status, status)
       end if

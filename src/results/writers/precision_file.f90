@@ -4,18 +4,20 @@
 module precision_file
    use errors, only: error_t
    use growth, only: n_digit
-   use hdf5, only: h5gclose_f, hid_t
-   use hdf5_attributes, only: real_attribute, text_attribute
-   use hdf5_calls, only: new_group
+   use hdf5, only: hid_t
+   use hdf5_attributes, only: text_attribute
    use hdf5_datasets, only: integer_dataset, real_dataset, text_dataset
    use hdf5_layout, only: write_status
    use provenance, only: make_provenance
-   use horizon_group, only: write_horizon
-   use kinds, only: not_a_number, wp
+   use hdf5_table, only: write_table
+   use horizon_table, only: table_of_digits, table_of_horizon
+   use kinds, only: wp
    use output_plan, only: output_plan_t
-   use precision_results, only: error_names, error_units, error_words, n_compared, n_error, n_statistic, precision_t, tol_run_t, &
+   use precision_results, only: error_names, error_units, error_words, n_compared, n_error, n_statistic, precision_t, &
       statistic_names, statistic_units, statistic_words
+   use precision_table, only: table_of_settings, table_of_tol_runs
    use recorder, only: status_complete
+   use result_table, only: result_table_t
    use text, only: append_text, text_t
    use whole_file, only: begin_whole_file, end_whole_file
    implicit none (type, external)
@@ -40,12 +42,15 @@ contains
       if (status >= 0) then
          call text_attribute(file, "machine", study%machine%processor, status)
          call text_attribute(file, "compile_flags", study%machine%flags, status)
-         call write_tol_sweeps(file, study, status)
+         call write_table(file, table_of_settings(study), status)
          call write_tol_runs(file, study, status)
          call write_reference(file, study, status)
          call write_statistics(file, study, status)
          call write_growth(file, study, status)
-         call write_horizon(file, study%horizon, status)
+         if (allocated(study%horizon%t)) then
+            call write_table(file, table_of_horizon(study%horizon), status)
+            call write_table(file, table_of_digits(study%horizon), status)
+         end if
          call write_choice(file, study, status)
          call make_provenance(file, plan, status)
          call write_status(file, status_complete, status)
@@ -53,54 +58,16 @@ contains
       call end_whole_file(path, file, status, error)
    end subroutine write_precision
 
-   !> The settings and what their runs report together.
-   subroutine write_tol_sweeps(file, study, status)
-      integer(hid_t), intent(in) :: file          !! the file
-      type(precision_t), intent(in) :: study      !! results
-      integer, intent(inout) :: status            !! negative: failed
-
-      type(text_t), allocatable :: names(:)
-      integer :: k, n
-
-      n = size(study%tol_sweeps)
-      allocate (names(0))
-      do k = 1, n
-         call append_text(names, study%tol_sweeps(k)%name)
-      end do
-      call text_dataset(file, "ladders/names", names, .false., "settings compared", status)
-      call integer_dataset(file, "ladders/is_fixed", [n], [(merge(1, 0, study%tol_sweeps(k)%is_fixed), k=1, n)], &
-                           "1: sequence of fixed steps, 0: of tolerances", status)
-      call real_dataset(file, "ladders/order", [n], study%tol_sweeps%order, "1", "observed order: -d ln error/d ln steps", status)
-      call real_dataset(file, "ladders/exponent", [n], study%tol_sweeps%exponent, "1", "d ln error/d ln tolerance", status)
-      call real_dataset(file, "ladders/ratio", [n], study%tol_sweeps%ratio, "1", "median of error over tolerance", status)
-   end subroutine write_tol_sweeps
-
-   !> Every run.
+   !> The types of error, and every run.
    subroutine write_tol_runs(file, study, status)
       integer(hid_t), intent(in) :: file          !! the file
       type(precision_t), intent(in) :: study      !! results
       integer, intent(inout) :: status            !! negative: failed
 
-      type(tol_run_t), allocatable :: tol_runs(:)
-      type(text_t), allocatable :: names(:), reasons(:), units(:), words(:)
-      real(wp), allocatable :: errors(:, :), rounds(:, :)
-      integer, allocatable :: owner(:)
-      integer :: k, most, n
+      type(text_t), allocatable :: names(:), units(:), words(:)
+      integer :: k
 
-      allocate (tol_runs(0), owner(0), names(0), reasons(0), units(0), words(0))
-      do k = 1, size(study%tol_sweeps)
-         tol_runs = [tol_runs, study%tol_sweeps(k)%tol_runs]
-         owner = [owner, spread(k, 1, size(study%tol_sweeps(k)%tol_runs))]
-      end do
-      n = size(tol_runs)
-      most = max(1, maxval([0, [(size(tol_runs(k)%rounds), k=1, n)]]))
-      allocate (errors(n_error, n), source=not_a_number())
-      allocate (rounds(most, n), source=not_a_number())
-      do k = 1, n
-         call append_text(reasons, tol_runs(k)%reason)
-         errors(:, k) = tol_runs(k)%error
-         rounds(:size(tol_runs(k)%rounds), k) = tol_runs(k)%rounds
-      end do
+      allocate (names(0), units(0), words(0))
       do k = 1, n_error
          call append_text(names, trim(error_names(k)))
          call append_text(units, trim(error_units(k)))
@@ -109,40 +76,7 @@ contains
       call text_dataset(file, "errors/names", names, .false., "types of error", status)
       call text_dataset(file, "errors/units", units, .false., "their units", status)
       call text_dataset(file, "errors/long_names", words, .false., "descriptions", status)
-      call integer_dataset(file, "runs/ladder", [n], owner, "number of the setting, from 1", status)
-      call put("asked", tol_runs%asked, "1 or s", "tolerance, or length of fixed steps")
-      call integer_dataset(file, "runs/state", [n], tol_runs%state, &
-                           "0 not run, 1 done, 2 failed, 3 different contact sequence or "// &
-         "end time", &
-                           status)
-      call text_dataset(file, "runs/reason", reasons, .false., "reason of a failed or omitted run", status)
-      call real_dataset(file, "runs/error", [n_error, n], reshape(errors, [n_error*n]), "list", "errors by type", status)
-      call integer_dataset(file, "runs/is_below", [n], merge(1, 0, tol_runs%is_below), &
-                           "1: the error is below that of the reference", status)
-      call integer_dataset(file, "runs/is_front", [n], merge(1, 0, tol_runs%is_front), &
-                           "1: on the Pareto front, no run is both cheaper and more accurate", status)
-      call put("holds_until", tol_runs%holds_until, "s", "last time with an error below the target")
-      call put("cpu", tol_runs%cpu, "s", "CPU time of the integration, median of the rounds")
-      call put("cpu_least", tol_runs%cpu_min, "s", "CPU time of the integration, minimum of the rounds")
-      call real_dataset(file, "runs/rounds", [most, n], reshape(rounds, [most*n]), "s", "CPU time of each round", status)
-      call put("setup", tol_runs%setup, "s", "CPU time of set-up and initial state")
-      call put("wall", tol_runs%wall, "s", "total CPU time of the compared run")
-      call put("steps", real(tol_runs%count%steps, wp), "1", "accepted steps")
-      call put("rejected_steps", real(tol_runs%count%rejected, wp), "1", "rejected steps")
-      call put("rhs_evaluations", real(tol_runs%count%evaluations, wp), "1", "right-hand sides, except those for output")
-
-   contains
-
-      !> One number of every run.
-      subroutine put(name, values, units, long_name)
-         character(*), intent(in) :: name       !! of the dataset
-         real(wp), intent(in) :: values(:)      !! (runs) the numbers [any]
-         character(*), intent(in) :: units      !! SI unit
-         character(*), intent(in) :: long_name  !! what they are
-
-         call real_dataset(file, "runs/"//name, [n], values, units, long_name, status)
-      end subroutine put
-
+      call write_table(file, table_of_tol_runs(study), status)
    end subroutine write_tol_runs
 
    !> The reference.
@@ -151,16 +85,14 @@ contains
       type(precision_t), intent(in) :: study      !! results
       integer, intent(inout) :: status            !! negative: failed
 
-      integer(hid_t) :: group
-      integer :: closed
+      type(result_table_t) :: table
 
-      call new_group(file, "reference", group, status)
-      if (status < 0) return
-      call text_attribute(group, "setting", study%reference%what, status)
-      call text_attribute(group, "confirmed_by", study%reference%confirmation, status)
-      call real_attribute(group, "window", study%reference%window, status)
-      call real_attribute(group, "end", study%end, status)
-      call h5gclose_f(group, closed)
+      call table%start("reference", "reference", 0)
+      call table%fact("setting", study%reference%what)
+      call table%fact("confirmed_by", study%reference%confirmation)
+      call table%fact("window", study%reference%window)
+      call table%fact("end", study%end)
+      call write_table(file, table, status)
       call real_dataset(file, "reference/error", [n_compared], study%reference%bar, "list", &
                         "difference from the confirming run: the first types of error", status)
       call real_dataset(file, "reference/agrees_until", [n_digit], study%reference%agreed, "s", &
@@ -173,17 +105,16 @@ contains
       type(precision_t), intent(in) :: study      !! results
       integer, intent(inout) :: status            !! negative: failed
 
+      type(result_table_t) :: table
       type(text_t), allocatable :: names(:), units(:), words(:)
-      integer(hid_t) :: group
-      integer :: closed, i, k, n, s
+      integer :: i, k, n, s
 
       associate (reference => study%reference%statistics, tol_sweeps => study%tol_sweeps)
          if (.not. reference%is_there) return
-         call new_group(file, "statistics", group, status)
-         if (status < 0) return
-         call real_attribute(group, "from", reference%from, status)
-         call real_attribute(group, "until", study%end, status)
-         call h5gclose_f(group, closed)
+         call table%start("statistics", "statistics", 0)
+         call table%fact("from", reference%from)
+         call table%fact("until", study%end)
+         call write_table(file, table, status)
          allocate (names(0), units(0), words(0))
          do s = 1, n_statistic
             call append_text(names, trim(statistic_names(s)))
@@ -235,23 +166,21 @@ contains
       type(precision_t), intent(in) :: study      !! results
       integer, intent(inout) :: status            !! negative: failed
 
-      integer(hid_t) :: group
-      integer :: closed
+      type(result_table_t) :: table
 
       associate (growth => study%growth)
-         call new_group(file, "twins", group, status)
-         if (status < 0) return
-         call text_attribute(group, "reason", growth%reason, status)
+         call table%start("twins", "twins", 0)
+         call table%fact("reason", growth%reason)
          if (growth%reason == "") then
-            call text_attribute(group, "law", trim(merge("exponential", "power      ", growth%is_exponential)), status)
-            call real_attribute(group, "rate", growth%rate, status)
-            call real_attribute(group, "rate_interval", growth%rate_interval, status)
-            call real_attribute(group, "power", growth%power, status)
-            call real_attribute(group, "power_interval", growth%power_interval, status)
-            call real_attribute(group, "fit_begin", growth%fit_begin, status)
-            call real_attribute(group, "fit_end", growth%fit_end, status)
+            call table%fact("law", trim(merge("exponential", "power      ", growth%is_exponential)))
+            call table%fact("rate", growth%rate)
+            call table%fact("rate_interval", growth%rate_interval)
+            call table%fact("power", growth%power)
+            call table%fact("power_interval", growth%power_interval)
+            call table%fact("fit_begin", growth%fit_begin)
+            call table%fact("fit_end", growth%fit_end)
          end if
-         call h5gclose_f(group, closed)
+         call write_table(file, table, status)
          call real_dataset(file, "twins/horizon", [n_digit], growth%horizon, "s", &
                            "time up to which a trajectory has 1, 2, ... digits; NaN: beyond the run", status)
          if (size(growth%t) == 0) return
@@ -268,26 +197,24 @@ contains
       type(precision_t), intent(in) :: study      !! results
       integer, intent(inout) :: status            !! negative: failed
 
-      integer(hid_t) :: group
-      integer :: closed
+      type(result_table_t) :: table
 
-      call new_group(file, "choice", group, status)
-      if (status < 0) return
-      call text_attribute(group, "error", trim(error_names(study%wanted)), status)
-      call real_attribute(group, "accuracy", study%accuracy, status)
-      call real_attribute(group, "budget", study%budget, status)
-      call real_attribute(group, "spent", study%spent, status)
+      call table%start("choice", "choice", 0)
+      call table%fact("error", trim(error_names(study%wanted)))
+      call table%fact("accuracy", study%accuracy)
+      call table%fact("budget", study%budget)
+      call table%fact("spent", study%spent)
       if (study%choice%tol_sweep > 0) then
          associate (tol_sweep => study%tol_sweeps(study%choice%tol_sweep))
-            call text_attribute(group, "setting", tol_sweep%name, status)
-            call real_attribute(group, "asked", tol_sweep%tol_runs(study%choice%tol_run)%asked, status)
-            call real_attribute(group, "confirmed_error", study%choice%error, status)
-            call real_attribute(group, "confirmed_cpu", study%choice%cpu, status)
+            call table%fact("setting", tol_sweep%name)
+            call table%fact("asked", tol_sweep%tol_runs(study%choice%tol_run)%asked)
+            call table%fact("confirmed_error", study%choice%error)
+            call table%fact("confirmed_cpu", study%choice%cpu)
          end associate
       else
-         call text_attribute(group, "setting", "", status)
+         call table%fact("setting", "")
       end if
-      call h5gclose_f(group, closed)
+      call write_table(file, table, status)
    end subroutine write_choice
 
 end module precision_file

@@ -10,19 +10,18 @@ module sweep_file
    use hdf5_calls, only: new_group
    use hdf5_datasets, only: integer_dataset, real_dataset, text_dataset
    use hdf5_layout, only: write_status
+   use hdf5_table, only: write_table
    use provenance, only: make_provenance
-   use kinds, only: not_a_number, wp
+   use kinds, only: wp
    use output_plan, only: output_plan_t
    use posix, only: path_exists
-   use sweep_results, only: case_numbers, n_spread, spread_names, sweep_results_t
-   use text, only: append_text, text_t, to_text
+   use sweep_results, only: sweep_results_t
+   use sweep_tables, only: table_of_cases, table_of_runs
+   use text, only: join, text_t, to_text
    use whole_file, only: begin_whole_file, end_whole_file
    implicit none (type, external)
    private
    public :: write_sweep
-
-   character(*), parameter :: spread_help(n_spread) = [character(40) :: "mean over the runs of a case", &
-      "standard deviation over these runs", "minimum of these runs", "maximum of these runs"]
 
 contains
 
@@ -45,7 +44,7 @@ contains
       if (status >= 0) then
          call write_parameters(file, results, status)
          call write_runs(file, results, status)
-         call write_cases(file, results, status)
+         call write_table(file, table_of_cases(results), status)
          call make_provenance(file, plan, status)
          call write_cost(file, results, status)
          if (size(run_directories) > 0) call copy_channels(file, results, run_directories, status)
@@ -61,59 +60,34 @@ contains
       type(sweep_results_t), intent(in) :: results      !! the cases
       integer, intent(inout) :: status                  !! negative: failed
 
-      type(text_t), allocatable :: names(:), texts(:), units(:)
-      real(wp), allocatable :: values(:)
-      character(:), allocatable :: all_units
-      integer :: k, m, n, p
+      type(text_t), allocatable :: names(:), rows(:), units(:)
+      real(wp), allocatable :: values(:, :)
+      integer :: at, k, m, n, p
 
       p = size(results%sweep%parameters)
       n = results%sweep%n_cases()
-      allocate (names(0), units(0), texts(p*n), values(p*n))
-      all_units = ""
+      if (p == 0) return
+      allocate (names(p), units(p), rows(n), values(p, n))
       do k = 1, p
-         associate (parameter => results%sweep%parameters(k))
-            call append_text(names, parameter%name)
-            call append_text(units, parameter%unit)
-            if (parameter%unit == "") units(k)%s = "1"
-            all_units = trim(all_units//" "//units(k)%s)
-         end associate
+         names(k)%s = results%sweep%parameters(k)%name
+         units(k)%s = results%sweep%parameters(k)%unit
+         if (units(k)%s == "") units(k)%s = "1"
       end do
       do m = 1, n
+         rows(m)%s = ""
          do k = 1, p
-            associate (parameter => results%sweep%parameters(k), at => results%sweep%value_number(k, m))
-               texts((m - 1)*p + k)%s = parameter%texts(at)%s
-               values((m - 1)*p + k) = parameter%numbers(at)
-            end associate
+            at = results%sweep%value_number(k, m)
+            rows(m)%s = rows(m)%s//" "//results%sweep%parameters(k)%texts(at)%s
+            values(k, m) = results%sweep%parameters(k)%numbers(at)
          end do
+         rows(m)%s = rows(m)%s(2:)
       end do
-      if (p == 0) return
       call text_dataset(file, "parameters/names", names, .false., "parameters of the sweep", status)
       call text_dataset(file, "parameters/units", units, .false., "units of the values", status)
-      call text_table(file, "parameters/texts", texts, p, status)
-      call real_dataset(file, "parameters/values", [p, n], values, trim(adjustl(all_units)), &
+      call text_dataset(file, "parameters/texts", rows, .false., "values of the parameters in each case, as in the deck", status)
+      call real_dataset(file, "parameters/values", [p, n], reshape(values, [p*n]), join(units, " "), &
                         "values of the parameters in each case; NaN of words", status)
    end subroutine write_parameters
-
-   !> Values as a deck has them, one text per case and parameter.
-   subroutine text_table(file, path, texts, p, status)
-      integer(hid_t), intent(in) :: file       !! the file
-      character(*), intent(in) :: path         !! of the dataset
-      type(text_t), intent(in) :: texts(:)     !! (p*cases) texts, the parameter fastest
-      integer, intent(in) :: p                 !! parameters
-      integer, intent(inout) :: status         !! negative: failed
-
-      type(text_t), allocatable :: rows(:)
-      integer :: k, m
-
-      allocate (rows(size(texts)/p))
-      do k = 1, size(rows)
-         rows(k)%s = texts((k - 1)*p + 1)%s
-         do m = 2, p
-            rows(k)%s = rows(k)%s//" "//texts((k - 1)*p + m)%s
-         end do
-      end do
-      call text_dataset(file, path, rows, .false., "values of the parameters in each case, as in the deck", status)
-   end subroutine text_table
 
    !> What came of every run.
    subroutine write_runs(file, results, status)
@@ -121,40 +95,25 @@ contains
       type(sweep_results_t), intent(in) :: results      !! the runs
       integer, intent(inout) :: status                  !! negative: failed
 
-      type(text_t), allocatable :: messages(:), warnings(:)
-      real(wp), allocatable :: times(:), values(:, :), samples(:)
+      real(wp), allocatable :: times(:), samples(:)
       integer, allocatable :: owners(:)
-      integer :: k, m, n
+      integer :: k, m
 
-      n = size(results%runs)
-      allocate (messages(n), warnings(n))
-      allocate (values(size(results%names), n), source=not_a_number())
-      m = sum([(size(results%runs(k)%poincare_times), k=1, n)])
+      call write_table(file, table_of_runs(results), status)
+      call text_dataset(file, "runs/names", results%names, .false., "names of the statistics", status)
+      call text_dataset(file, "runs/units", results%units, .false., "their units", status)
+      m = sum([(size(results%runs(k)%poincare_times), k=1, size(results%runs))])
+      if (m == 0) return
       allocate (owners(m), times(m), samples(m*size(results%poincare_names)))
       m = 0
-      do k = 1, n
+      do k = 1, size(results%runs)
          associate (run => results%runs(k), q => size(results%poincare_names), more => size(results%runs(k)%poincare_times))
-            messages(k)%s = run%message
-            warnings(k)%s = run%warnings
-            values(1:size(run%numbers), k) = run%numbers
             owners(m + 1:m + more) = k
             times(m + 1:m + more) = run%poincare_times
             samples(q*m + 1:q*(m + more)) = reshape(results%poincare_of(k), [q*more])
             m = m + more
          end associate
       end do
-      call integer_dataset(file, "runs/case", [n], [((k - 1)/results%n_member + 1, k=1, n)], "case of the run", status)
-      call integer_dataset(file, "runs/member", [n], [(merge(mod(k - 1, results%n_member) + 1, 0, results%is_ensemble), &
-                                                       k=1, n)], "number of the run in the ensemble; 0: no ensemble", status)
-      call integer_dataset(file, "runs/exit_code", [n], [(results%runs(k)%exit_code, k=1, n)], &
-                           "0: done; -1: not run; otherwise the exit code", status)
-      call text_dataset(file, "runs/message", messages, .false., "reason of a failure; blank if none", status)
-      call text_dataset(file, "runs/warnings", warnings, .false., "warnings of a run; blank if none", status)
-      call text_dataset(file, "runs/names", results%names, .false., "names of the statistics", status)
-      call text_dataset(file, "runs/units", results%units, .false., "their units", status)
-      call real_dataset(file, "runs/values", [size(results%names), n], reshape(values, [size(values)]), &
-                        all_units(results), "statistics of every run", status)
-      if (size(times) == 0) return
       call text_dataset(file, "strobe/names", results%poincare_names, .false., "channels sampled once per period", status)
       call integer_dataset(file, "strobe/run", [size(owners)], owners, "number of the run, from 1", status)
       call real_dataset(file, "strobe/time", [size(times)], times, "s", "multiples of the drive period", status)
@@ -176,44 +135,6 @@ contains
       call real_dataset(file, "provenance/cpu_run", [n], [(results%runs(k)%cpu(2), k=1, n)], "s", &
                         "CPU time of the motion and output of a run", status)
    end subroutine write_cost
-
-   !> Statistics over the runs of each case.
-   subroutine write_cases(file, results, status)
-      integer(hid_t), intent(in) :: file                !! the file
-      type(sweep_results_t), intent(in) :: results      !! the runs
-      integer, intent(inout) :: status                  !! negative: failed
-
-      real(wp) :: spreads(n_spread, size(results%names), results%sweep%n_cases())
-      integer :: done(results%sweep%n_cases()), i, k, n, n_number
-
-      n = size(done)
-      n_number = size(results%names)
-      do k = 1, n
-         do i = 1, n_number
-            call case_numbers(results, k, i, done(k), spreads(:, i, k))
-         end do
-         done(k) = count(results%runs((k - 1)*results%n_member + 1:k*results%n_member)%exit_code == 0)
-      end do
-      call integer_dataset(file, "cases/runs", [n], done, "completed runs of the case", status)
-      do i = 1, n_spread
-         call real_dataset(file, "cases/"//trim(spread_names(i)), [n_number, n], &
-                           reshape(spreads(i, :, :), [n_number*n]), all_units(results), trim(spread_help(i)), status)
-      end do
-   end subroutine write_cases
-
-   !> Units of the numbers with blanks between them.
-   function all_units(results) result(units)
-      type(sweep_results_t), intent(in) :: results      !! the runs
-      character(:), allocatable :: units                !! one for each number
-
-      integer :: k
-
-      units = ""
-      do k = 1, size(results%units)
-         units = trim(units//" "//results%units(k)%s)
-      end do
-      units = trim(adjustl(units))
-   end function all_units
 
    !> Copy the datasets of every run into /channels/N, N the number of the run.
    subroutine copy_channels(file, results, run_directories, status)

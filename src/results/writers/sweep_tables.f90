@@ -1,141 +1,101 @@
-!> The results of a sweep as tables of comma-separated values: sweep.csv, a row for each run, and cases.csv, one for each case.
+!> The results of a sweep as tables: a row for each run, and a row for each case.
 module sweep_tables
-   use, intrinsic :: ieee_arithmetic, only: ieee_is_nan
-   use kinds, only: wp
+   use kinds, only: not_a_number, wp
+   use result_table, only: in_hdf5, in_text_files, result_table_t
    use swept, only: sweep_t
    use sweep_results, only: case_numbers, n_spread, spread_names, sweep_results_t
-   use text, only: exact_text, replace, to_text
-   use text_buffer, only: buffer_t
+   use text, only: join, text_t
    implicit none (type, external)
    private
-   public :: cases_csv, runs_csv
+   public :: table_of_cases, table_of_runs
+
+   character(*), parameter :: spread_help(n_spread) = [character(40) :: "mean over the runs of a case", &
+      "standard deviation over these runs", "minimum of these runs", "maximum of these runs"]
 
 contains
 
-   !> One row per run.
-   function runs_csv(self) result(text)
-      type(sweep_results_t), intent(in) :: self   !! the results
-      character(:), allocatable :: text           !! whole lines
+   !> The runs.
+   function table_of_runs(results) result(table)
+      type(sweep_results_t), intent(in) :: results      !! the runs
+      type(result_table_t) :: table                     !! a row for each run
 
-      type(buffer_t) :: lines
-      integer :: i, k
+      type(text_t) :: messages(size(results%runs)), warnings(size(results%runs))
+      real(wp) :: values(size(results%names), size(results%runs))
+      integer :: members(size(results%runs)), owners(size(results%runs)), k
 
-      call lines%add("case,run"//parameter_heads(self%sweep)//",exit_code")
-      do i = 1, size(self%names)
-         call lines%add(","//head(self%names(i)%s, self%units(i)%s))
+      values = not_a_number()
+      do k = 1, size(results%runs)
+         owners(k) = (k - 1)/results%n_member + 1
+         members(k) = mod(k - 1, results%n_member) + 1
+         values(1:size(results%runs(k)%numbers), k) = results%runs(k)%numbers
+         messages(k)%s = results%runs(k)%message
+         warnings(k)%s = results%runs(k)%warnings
       end do
-      call lines%line(",message,warnings")
-      do k = 1, size(self%runs)
-         associate (case_number => (k - 1)/self%n_member + 1)
-            call lines%add(to_text(case_number)//","//to_text(mod(k - 1, self%n_member) + 1)// &
-                           parameter_cells(self%sweep, case_number)//","//to_text(self%runs(k)%exit_code))
+      call table%start("runs", "runs", size(owners))
+      call table%put("case", "1", "case of the run", integers=owners)
+      call table%put("run", "1", "number of the run in its case", integers=members, formats=in_text_files)
+      call table%put("member", "1", "number of the run in the ensemble; 0: no ensemble", &
+                     integers=merge(members, 0, results%is_ensemble), formats=in_hdf5)
+      call put_parameters(table, results%sweep, owners)
+      call table%put("exit_code", "1", "0: done; -1: not run; otherwise the exit code", integers=results%runs%exit_code)
+      call table%put("values", join(results%units, " "), "statistics of every run", reshape(values, [size(values)]), &
+                     shape=[size(results%names)], parts=results%names)
+      call table%put("message", "1", "reason of a failure; blank if none", texts=messages)
+      call table%put("warnings", "1", "warnings of a run; blank if none", texts=warnings)
+   end function table_of_runs
+
+   !> The cases, with numbers over the runs of each.
+   function table_of_cases(results) result(table)
+      type(sweep_results_t), intent(in) :: results      !! the runs
+      type(result_table_t) :: table                     !! a row for each case
+
+      type(text_t) :: names(n_spread, size(results%names)), units(n_spread, size(results%names))
+      real(wp) :: spreads(n_spread, size(results%names), results%sweep%n_cases())
+      integer :: cases(results%sweep%n_cases()), done(results%sweep%n_cases()), i, k, n_with_number
+
+      do k = 1, size(cases)
+         cases(k) = k
+         done(k) = count(results%runs((k - 1)*results%n_member + 1:k*results%n_member)%exit_code == 0)
+         do i = 1, size(results%names)
+            call case_numbers(results, k, i, n_with_number, spreads(:, i, k))
+         end do
+      end do
+      do i = 1, size(results%names)
+         do k = 1, n_spread
+            names(k, i)%s = results%names(i)%s//" "//trim(spread_names(k))
+            units(k, i)%s = results%units(i)%s
+         end do
+      end do
+      call table%start("cases", "cases", size(cases))
+      call table%put("case", "1", "number of the case", integers=cases, formats=in_text_files)
+      call put_parameters(table, results%sweep, cases)
+      call table%put("runs", "1", "completed runs of the case", integers=done)
+      do i = 1, n_spread
+         call table%put(trim(spread_names(i)), join(results%units, " "), trim(spread_help(i)), &
+                        [spreads(i, :, :)], shape=[size(results%names)], formats=in_hdf5)
+      end do
+      call table%put("numbers", join([units], " "), "numbers over the runs of the case", [spreads], &
+                     shape=shape(names), parts=[names], formats=in_text_files)
+   end function table_of_cases
+
+   !> Add the parameters, numbers in SI.
+   subroutine put_parameters(table, sweep, cases)
+      type(result_table_t), intent(inout) :: table      !! grown
+      type(sweep_t), intent(in) :: sweep                !! the parameters
+      integer, intent(in) :: cases(:)                   !! (n) the case of each row
+
+      integer :: at(size(cases)), i, k
+
+      do k = 1, size(sweep%parameters)
+         at = [(sweep%value_number(k, cases(i)), i=1, size(cases))]
+         associate (parameter => sweep%parameters(k))
+            if (parameter%unit == "") then
+               call table%put(parameter%name, "1", "", texts=parameter%texts(at), formats=in_text_files)
+            else
+               call table%put(parameter%name, parameter%unit, "", parameter%numbers(at), formats=in_text_files)
+            end if
          end associate
-         do i = 1, size(self%names)
-            call lines%add(",")
-            if (i <= size(self%runs(k)%numbers)) call lines%add(cell(self%runs(k)%numbers(i)))
-         end do
-         call lines%line(","//quoted(self%runs(k)%message)//","//quoted(self%runs(k)%warnings))
       end do
-      text = lines%get()
-   end function runs_csv
-
-   !> One row per case.
-   function cases_csv(self) result(text)
-      type(sweep_results_t), intent(in) :: self   !! the results
-      character(:), allocatable :: text           !! whole lines
-
-      type(buffer_t) :: lines
-      character(:), allocatable :: first   ! the mean
-      real(wp) :: spread(n_spread)
-      integer :: i, k, m, n
-
-      call lines%add("case"//parameter_heads(self%sweep)//",runs")
-      do i = 1, size(self%names)
-         do m = 1, n_spread
-            call lines%add(","//head(self%names(i)%s//" "//trim(spread_names(m)), self%units(i)%s))
-         end do
-      end do
-      call lines%line("")
-      do k = 1, self%sweep%n_cases()
-         n = count(self%runs((k - 1)*self%n_member + 1:k*self%n_member)%exit_code == 0)
-         call lines%add(to_text(k)//parameter_cells(self%sweep, k)//","//to_text(n))
-         do i = 1, size(self%names)
-            call case_numbers(self, k, i, n, spread)
-            first = cell(spread(1))
-            call lines%add(","//first)
-            do m = 2, n_spread
-               if (ieee_is_nan(spread(m)) .or. ieee_is_nan(spread(1))) then
-                  call lines%add(","//cell(spread(m)))
-               else if (abs(spread(m) - spread(1)) > 0.0_wp) then
-                  call lines%add(","//cell(spread(m)))
-               else
-                  call lines%add(","//first)   ! as of a single run
-               end if
-            end do
-         end do
-         call lines%line("")
-      end do
-      text = lines%get()
-   end function cases_csv
-
-   !> Heads of the columns of the parameters.
-   function parameter_heads(sweep) result(text)
-      type(sweep_t), intent(in) :: sweep     !! the cases
-      character(:), allocatable :: text      !! each with a comma before it
-
-      integer :: k
-
-      text = ""
-      do k = 1, size(sweep%parameters)
-         text = text//","//head(sweep%parameters(k)%name, sweep%parameters(k)%unit)
-      end do
-   end function parameter_heads
-
-   !> The parameters of a case, numbers in SI.
-   function parameter_cells(sweep, case_number) result(text)
-      type(sweep_t), intent(in) :: sweep     !! the cases
-      integer, intent(in) :: case_number     !! of the case
-      character(:), allocatable :: text      !! each with a comma before it
-
-      integer :: at, k
-
-      text = ""
-      do k = 1, size(sweep%parameters)
-         at = sweep%value_number(k, case_number)
-         if (sweep%parameters(k)%unit == "") then
-            text = text//","//quoted(sweep%parameters(k)%texts(at)%s)
-         else
-            text = text//","//cell(sweep%parameters(k)%numbers(at))
-         end if
-      end do
-   end function parameter_cells
-
-   !> The head of a column.
-   pure function head(name, unit) result(text)
-      character(*), intent(in) :: name       !! what it is
-      character(*), intent(in) :: unit       !! `1` or blank: none
-      character(:), allocatable :: text      !! as `motor.moment.rms [N.m]`
-
-      text = name
-      if (unit /= "1" .and. unit /= "") text = name//" ["//unit//"]"
-   end function head
-
-   !> A number; what is not known is an empty cell.
-   pure function cell(x) result(text)
-      real(wp), intent(in) :: x              !! the number [any]
-      character(:), allocatable :: text      !! its digits
-
-      text = ""
-      if (.not. ieee_is_nan(x)) text = exact_text(x)
-   end function cell
-
-   !> Text in quotes if it needs them.
-   pure function quoted(text) result(s)
-      character(*), intent(in) :: text       !! any text
-      character(:), allocatable :: s         !! on one line
-
-      s = replace(text, new_line("a"), " ")
-      if (scan(s, ",""") > 0) s = """"//replace(s, """", """""")//""""
-   end function quoted
+   end subroutine put_parameters
 
 end module sweep_tables
