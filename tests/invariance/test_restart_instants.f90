@@ -7,7 +7,7 @@
 module test_restart_instants
    use check, only: check_close, check_equal, check_true, suite_t
    use catalogue, only: catalogue_t
-   use checkpoint, only: checkpoint_t
+   use archive, only: archive_t
    use deck_scene, only: keeper_t, load_text, loaded_t
    use errors, only: error_t
    use guards, only: guards_t
@@ -58,8 +58,8 @@ contains
 
       type(run_t), allocatable, target :: second
       type(run_t), target :: first
-      type(checkpoint_t), allocatable :: saved(:)
-      type(checkpoint_t) :: at_end, other
+      type(archive_t), allocatable :: saved(:)
+      type(archive_t) :: at_end, other
       integer :: k, n_save
 
       call begin(method, first, error)
@@ -87,7 +87,7 @@ contains
          if (allocated(error)) return
          call check_close(error, second%part%method%step%y1, first%part%method%step%y1, 0.0_wp, "state at the end")
          call save_part_memory(second%part, other)
-         call check_close(error, other%row, at_end%row, 0.0_wp, "all that is saved")
+         call check_close(error, other%row(:other%n), at_end%row(:at_end%n), 0.0_wp, "all that is saved")
          if (allocated(error)) return
          deallocate (second)
       end do
@@ -98,10 +98,10 @@ contains
       type(run_t), intent(inout) :: run                   !! the run
       logical, intent(in) :: has_history                  !! whether it is saved at instants only
       type(error_t), allocatable, intent(inout) :: error  !! it cannot continue
-      type(checkpoint_t), intent(inout), optional :: saved(:) !! (most) where it is kept
+      type(archive_t), intent(inout), optional :: saved(:) !! (most) where it is kept
       integer, intent(inout), optional :: n_save              !! kept so far
 
-      type(checkpoint_t) :: checkpoint
+      type(archive_t) :: checkpoint
       logical :: ends
 
       ends = run%part%output_times%is_at(run%part%method%t)

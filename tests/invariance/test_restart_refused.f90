@@ -1,7 +1,7 @@
 !> Memory of another run, or of another form, is refused by the name of what differs, and nothing is changed.
 module test_restart_refused
    use check, only: check_close, check_equal, check_true, suite_t
-   use checkpoint, only: add_segment, checkpoint_t
+   use archive, only: archive_t
    use catalogue, only: catalogue_t
    use deck_scene, only: dry_deck, keeper_t, load_file, loaded_t
    use errors, only: error_t, exit_usage
@@ -75,12 +75,12 @@ contains
    !> A checkpoint is refused with a sentence that holds some words, and the run that would read it stays as it is.
    subroutine check_refused(run, checkpoint, words, what, error)
       type(begun_t), intent(inout) :: run                     !! that would read it
-      type(checkpoint_t), intent(in) :: checkpoint            !! memory
+      type(archive_t), intent(inout) :: checkpoint         !! memory
       character(*), intent(in) :: words                       !! that the message must hold
       character(*), intent(in) :: what                        !! for messages
       type(error_t), allocatable, intent(inout) :: error      !! first failure
 
-      type(checkpoint_t) :: after, before
+      type(archive_t) :: after, before
       type(error_t), allocatable :: refusal
 
       if (allocated(error)) return
@@ -91,14 +91,14 @@ contains
       call check_equal(error, refusal%code, exit_usage, what//": exit code")
       call check_true(error, index(refusal%message, words) > 0, what//": '"//words//"' in '"//refusal%message//"'")
       call save_part_memory(run%part, after)
-      call check_close(error, after%row, before%row, 0.0_wp, what//": nothing was changed")
+      call check_close(error, after%row(:after%n), before%row(:before%n), 0.0_wp, what//": nothing was changed")
    end subroutine check_refused
 
    !> A run, and its memory after so many steps.
    subroutine save_after(n_step, run, checkpoint, error)
       integer, intent(in) :: n_step                         !! steps
       type(begun_t), intent(inout) :: run                   !! started, continued with
-      type(checkpoint_t), intent(inout) :: checkpoint       !! its memory
+      type(archive_t), intent(inout) :: checkpoint       !! its memory
       type(error_t), allocatable, intent(inout) :: error    !! first failure
 
       integer :: k
@@ -115,7 +115,7 @@ contains
    subroutine begin_again(n_step, run, saved, fresh, error, change)
       integer, intent(in) :: n_step                             !! steps of the first
       type(begun_t), intent(inout), target :: run               !! the first
-      type(checkpoint_t), intent(inout) :: saved                !! its memory
+      type(archive_t), intent(inout) :: saved                !! its memory
       type(begun_t), intent(inout), target :: fresh             !! the other one
       type(error_t), allocatable, intent(inout) :: error        !! first failure
       character(*), intent(in), optional :: change              !! of the other one's deck
@@ -132,7 +132,7 @@ contains
       character(*), parameter :: wanted(4) = [character(30) :: "method = auto", "stabilise = baumgarte", &
                                               "clearance.revolute 'gudgeon'", "the contacts from step to step"]
       type(begun_t), target :: run
-      type(checkpoint_t) :: saved
+      type(archive_t) :: saved
       integer :: i, k
 
       call begin(run, error)
@@ -149,17 +149,17 @@ contains
       type(error_t), allocatable, intent(out) :: error  !! what failed
 
       type(begun_t), target :: fresh, run
-      type(checkpoint_t) :: again, saved
+      type(archive_t) :: again, saved
 
       call begin_again(7, run, saved, fresh, error)
       if (allocated(error)) return
-      call check_equal(error, sum(saved%segments%size), size(saved%row), "numbers of all pieces")
-      call check_true(error, all(abs(saved%row) <= huge(1.0_wp)), "all are numbers")
+      call check_equal(error, sum(saved%segments%size), saved%n, "numbers of all pieces")
+      call check_true(error, all(abs(saved%row(:saved%n)) <= huge(1.0_wp)), "all are numbers")
       if (allocated(error)) return
       call load_part_memory(saved, fresh%part, error)
       if (allocated(error)) return
       call save_part_memory(fresh%part, again)
-      call check_close(error, again%row, saved%row, 0.0_wp, "saved again")
+      call check_close(error, again%row(:again%n), saved%row(:saved%n), 0.0_wp, "saved again")
       call check_close(error, fresh%loaded%method%t, run%loaded%method%t, 0.0_wp, "time")
       call check_true(error, run%loaded%method%t > 0.0_wp, "time has passed")
    end subroutine test_sizes
@@ -169,7 +169,7 @@ contains
       type(error_t), allocatable, intent(out) :: error  !! what failed
 
       type(begun_t), target :: fresh, run
-      type(checkpoint_t) :: other, saved
+      type(archive_t) :: other, saved
       integer :: k
 
       call begin_again(5, run, saved, fresh, error)
@@ -187,7 +187,7 @@ contains
       type(error_t), allocatable, intent(out) :: error  !! what failed
 
       type(begun_t), target :: fresh, run
-      type(checkpoint_t) :: other, saved
+      type(archive_t) :: other, saved
       integer :: k
 
       call begin_again(5, run, saved, fresh, error)
@@ -195,8 +195,9 @@ contains
       do k = 1, size(saved%segments)
          if (.not. saved%segments(k)%is_fixed) cycle
          other = saved
+         call other%put(0.0_wp)
+         other%segments(size(other%segments))%size = saved%segments(size(saved%segments))%size
          other%segments(k)%size = saved%segments(k)%size + 1
-         other%row = [saved%row, 0.0_wp]
          call check_refused(fresh, other, "the state of "//other%segments(k)%name//" has "//to_text(other%segments(k)%size)// &
                             " number", "another size", error)
       end do
@@ -208,7 +209,7 @@ contains
       type(error_t), allocatable, intent(out) :: error  !! what failed
 
       type(begun_t), target :: fresh, run
-      type(checkpoint_t) :: saved
+      type(archive_t) :: saved
       integer :: k
 
       call begin(run, error, method="auto")
@@ -223,7 +224,7 @@ contains
       call check_equal(error, saved%segments(k + 1)%name, "implicit part of method = auto", "the next piece")
       call check_equal(error, saved%segments(k + 1)%size, 0, "there is no such part yet")
       saved%segments(k)%size = saved%segments(k)%size + 1
-      saved%row = [saved%row, 0.0_wp]
+      saved%n = saved%n + 1
       call check_refused(fresh, saved, "the state of method = auto has ", "another size", error)
    end subroutine test_size_of_auto
 
@@ -232,19 +233,19 @@ contains
       type(error_t), allocatable, intent(out) :: error  !! what failed
 
       type(begun_t), target :: fresh, run
-      type(checkpoint_t) :: other, saved
+      type(archive_t) :: other, saved
 
       call begin_again(5, run, saved, fresh, error)
       if (allocated(error)) return
       associate (n => size(saved%segments))
          other = saved
          other%segments = saved%segments(:n - 1)
-         other%row = saved%row(:size(saved%row) - saved%segments(n)%size)
+         other%n = saved%n - saved%segments(n)%size
          call check_refused(fresh, other, "the state of "//saved%segments(n)%name//" is missing", "a piece less", error)
          other%segments = saved%segments(:3)
          call check_refused(fresh, other, "the state of "//saved%segments(4)%name//" is missing", "three pieces", error)
          other = saved
-         call add_segment(other%segments, "clearance.revolute 'third'", 1, 0)
+         call other%begin("clearance.revolute 'third'", 1)
          call check_refused(fresh, other, "the state of clearance.revolute 'third', which is not part of this run", &
                          "a piece more", error)
          other = saved
@@ -259,7 +260,7 @@ contains
       type(error_t), allocatable, intent(out) :: error  !! what failed
 
       type(begun_t), target :: fresh, run
-      type(checkpoint_t) :: saved
+      type(archive_t) :: saved
 
       call begin_again(5, run, saved, fresh, error, "c=0.4mm")
       if (allocated(error)) return
@@ -276,7 +277,7 @@ contains
       type(error_t), allocatable, intent(out) :: error  !! what failed
 
       type(begun_t), target :: fresh, run
-      type(checkpoint_t) :: saved
+      type(archive_t) :: saved
 
       call begin(run, error)
       call save_after(5, run, saved, error)
@@ -290,13 +291,13 @@ contains
       type(error_t), allocatable, intent(out) :: error  !! what failed
 
       type(begun_t), target :: fresh, run
-      type(checkpoint_t) :: other, saved
+      type(archive_t) :: other, saved
 
       call begin_again(5, run, saved, fresh, error)
       if (allocated(error)) return
       other = saved
-      other%row = saved%row(:size(saved%row) - 1)
-      call check_refused(fresh, other, "its segments describe "//to_text(size(saved%row)), "a row cut off", error)
+      other%n = saved%n - 1
+      call check_refused(fresh, other, "its segments describe "//to_text(saved%n), "a row cut off", error)
    end subroutine test_cut_row
 
 end module test_restart_refused

@@ -1,5 +1,6 @@
 !> The method that chooses: events while it is implicit, and what it remembers.
 module test_auto_memory
+   use archive, only: archive_t
    use auto, only: auto_t
    use check, only: check_close, check_equal, check_true, suite_t
    use errors, only: error_t
@@ -51,9 +52,9 @@ contains
 
       type(crossing_t) :: other_system, system
       type(auto_t), allocatable :: method, other
-      real(wp), allocatable :: row(:)
+      type(archive_t) :: again, archive
       real(wp), parameter :: t_end = 40.0_wp
-      integer :: i, k, n, place, status
+      integer :: i, k, n, status
 
       n = 0
       do i = 0, 40
@@ -76,27 +77,20 @@ contains
          do k = 1, 17*i
             call one_more(other, system)
          end do
-         allocate (row(other%memory_size()), source=0.0_wp)
-         place = 0
-         call other%save(row, place)
-         call check_equal(error, place, size(row), "size")
+         archive = archive_t()
+         call other%save(archive)
          deallocate (other)
          allocate (other)
          call new_crossing(other_system)
          other_system%to = 5.0_wp
          call begin(other, other_system)
          other_system%side = system%side
-         place = 0
-         call other%load(row, place)
-         call check_equal(error, place, size(row), "size read")
-         call check_equal(error, other%memory_size(), size(row), "size kept")
-         deallocate (row)
-         allocate (row(other%memory_size()), source=0.0_wp)
-         place = 0
-         call other%save(row, place)
-         place = 0
-         call other%load(row, place)
-         deallocate (row)
+         call other%load(archive)
+         call check_true(error, archive%is_at_end(), "as many numbers loaded as saved")
+         again = archive_t()
+         call other%save(again)
+         call check_equal(error, again%n, archive%n, "size kept")
+         call other%load(again)
          do while (other%t < t_end)
             call one_more(other, other_system)
          end do

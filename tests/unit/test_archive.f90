@@ -17,6 +17,7 @@ contains
       call suite%test("growth", test_growth)
       call suite%test("too_short", test_too_short)
       call suite%test("lists_that_lie", test_lists_that_lie)
+      call suite%test("segments", test_segments)
    end subroutine run_test_archive
 
    !> All types, with their extreme values.
@@ -29,8 +30,8 @@ contains
       real(wp), allocatable :: list(:), none(:)
       real(wp) :: three(3), x
       integer :: i, pair(2)
-      integer(i8) :: k
-      logical :: flag
+      integer(i8) :: k, negative
+      logical :: flag, is_false
 
       call archive%put(0.1_wp)
       call archive%put([tiny(1.0_wp), -huge(1.0_wp), 1.0_wp/3.0_wp])
@@ -38,6 +39,8 @@ contains
       call archive%put([huge(1), 0])
       call archive%put(long)
       call archive%put(.true.)
+      call archive%put(.false.)
+      call archive%put(-long)
       call archive%put("pin 'a'"//achar(0)//achar(127))
       call archive%put("")
       call archive%put_list([1.5_wp, -2.5_wp])
@@ -50,6 +53,8 @@ contains
       call archive%get(pair)
       call archive%get(k)
       call archive%get(flag)
+      call archive%get(is_false)
+      call archive%get(negative)
       call archive%get_text(text)
       call archive%get_text(empty)
       call archive%get_list(list)
@@ -59,6 +64,7 @@ contains
       if (.not. allocated(error)) call check_equal(error, i, -huge(1), "an integer")
       if (.not. allocated(error)) call check_true(error, all(pair == [huge(1), 0]), "integers")
       if (.not. allocated(error)) call check_true(error, k == long .and. flag, "a long integer and a flag")
+      if (.not. allocated(error)) call check_true(error, negative == -long .and. .not. is_false, "their opposites")
       if (.not. allocated(error)) call check_true(error, text == "pin 'a'"//achar(0)//achar(127) .and. len(text) == 9, "a text")
       if (.not. allocated(error)) call check_true(error, len(empty) == 0 .and. size(none) == 0, "an empty text, an empty list")
       if (.not. allocated(error)) call check_close(error, list, [1.5_wp, -2.5_wp], 0.0_wp, "a list")
@@ -100,6 +106,37 @@ contains
       call check_close(error, x, 0.0_wp, 0.0_wp, "after that")
       if (.not. allocated(error)) call check_true(error, .not. (archive%is_good .or. archive%is_at_end()), "the tape says so")
    end subroutine test_too_short
+
+   !> Segments count what is put into them; an empty one may be dropped; another archive is refused by the first that differs.
+   subroutine test_segments(error)
+      type(error_t), allocatable, intent(out) :: error  !! what failed
+
+      type(archive_t) :: archive, other
+      type(error_t), allocatable :: refusal
+
+      call archive%begin("the state", 1)
+      call archive%put([1.0_wp, 2.0_wp])
+      call archive%put(.true.)
+      call archive%begin("nothing", 1)
+      call archive%drop_empty()
+      call archive%drop_empty()
+      call archive%begin("the rest", 2, is_fixed=.false.)
+      call archive%put_list([3.0_wp])
+      call check_equal(error, size(archive%segments), 2, "segments")
+      if (allocated(error)) return
+      call check_true(error, all(archive%segments%size == [3, 2]), "their numbers")
+      call archive%compare(archive, refusal)
+      if (.not. allocated(error)) call check_true(error, .not. allocated(refusal), "it can be read")
+      other = archive
+      call other%put(4.0_wp)
+      call other%compare(archive, refusal)
+      if (.not. allocated(error)) call check_true(error, .not. allocated(refusal), "a segment of another size, which may change")
+      other%segments(1)%version = 3
+      call other%compare(archive, refusal)
+      if (.not. allocated(error)) call check_true(error, allocated(refusal), "another version")
+      if (allocated(error)) return
+      call check_true(error, index(refusal%message, "the state of the state has version 3, supported is version 1") > 0, "by name")
+   end subroutine test_segments
 
    !> A list whose length is not one.
    subroutine test_lists_that_lie(error)

@@ -1,5 +1,6 @@
 !> Ways of meeting an onset: a ball that falls 0.9 m onto its bearing, against what parabolas say.
 module test_contact_onset
+   use archive, only: archive_t
    use check, only: check_close, check_equal, check_true, suite_t
    use deck_scene, only: keeper_t, load_text, loaded_t, run_to_end
    use errors, only: error_t
@@ -225,8 +226,8 @@ contains
       type(error_t), allocatable, intent(out) :: error  !! what failed
 
       type(loaded_t) :: fresh, run
-      real(wp), allocatable :: row(:)
-      integer :: i, place, status
+      type(archive_t) :: archive
+      integer :: i, status
 
       call begin(run)
       if (allocated(error)) return
@@ -234,14 +235,11 @@ contains
          call run%method%advance(run%system, run%plan%end, status)
       end do
       call check_equal(error, status, 0, "still free")
-      allocate (row(run%method%memory_size()), source=0.0_wp)
-      place = 0
-      call run%method%save(row, place)
-      call check_equal(error, place, size(row), "memory")
+      call run%method%save(archive)
       call begin(fresh)
       if (allocated(error)) return
-      place = 0
-      call fresh%method%load(row, place)
+      call fresh%method%load(archive)
+      call check_true(error, archive%is_at_end(), "as many numbers loaded as saved")
       do while (status == 0)
          call run%method%advance(run%system, run%plan%end, status)
          call fresh%method%advance(fresh%system, fresh%plan%end, status)

@@ -1,6 +1,7 @@
 !> The registered stabilisation methods on a free four-bar, whose motion is known from its energy; dependent coordinates
 !> that are chosen anew, and runs that are continued with.
 module test_hold_kinds
+   use archive, only: archive_t
    use check, only: check_close, check_equal, check_true, suite_t
    use deck_scene, only: keeper_t, load_text, loaded_t, run_to_end
    use errors, only: error_t
@@ -168,8 +169,8 @@ contains
          character(*), intent(in) :: setting  !! after `stabilise =`
 
          type(loaded_t), allocatable :: runs(:)
-         real(wp), allocatable :: row(:)
-         integer :: k, place, status
+         type(archive_t) :: archive
+         integer :: k, status
 
          allocate (runs(2))
          if (allocated(error)) return
@@ -181,15 +182,11 @@ contains
          call go_to(runs(1), 0.4_wp)
          if (allocated(error)) return
          associate (first => runs(1), second => runs(2))
-            allocate (row(first%method%memory_size() + first%system%memory_size()), source=0.0_wp)
-            place = 0
-            call first%method%save(row, place)
-            call first%system%save(row, place)
-            call check_equal(error, place, size(row), "numbers saved with "//setting)
-            place = 0
-            call second%method%load(row, place)
-            call second%system%load(row, place)
-            call check_equal(error, place, size(row), "numbers loaded with "//setting)
+            call first%method%save(archive)
+            call first%system%save(archive)
+            call second%method%load(archive)
+            call second%system%load(archive)
+            call check_true(error, archive%is_at_end(), "as many numbers loaded as saved with "//setting)
             call go_to(first, 1.0_wp)
             call go_to(second, 1.0_wp)
             if (allocated(error)) return

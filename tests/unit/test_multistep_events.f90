@@ -1,5 +1,6 @@
 !> Events by the multistep methods: none missed, each once, on the wall to round-off, as accurate as the motion.
 module test_multistep_events
+   use archive, only: archive_t
    use check, only: check_close, check_equal, check_true, suite_t
    use errors, only: error_t
    use event_description, only: check_description, run_through, description_t
@@ -197,26 +198,25 @@ contains
 
       class(integrator_t), allocatable :: method, other
       type(kepler_t) :: system
-      real(wp), allocatable :: row(:)
+      type(archive_t) :: archive, saved
       real(wp) :: resumed(4, 2), y(4)
-      integer :: i, k, place, status
+      integer :: i, k, status
 
       call new_kepler(0.5_wp, system, y)
       do i = 1, size(methods)
          call find_integrator(trim(methods(i)), method)
          call method%start(system, 0.0_wp, y, 5.0_wp, status)
          call run_to(method, system, 2.5_wp, status)
-         row = spread(0.0_wp, 1, method%memory_size())
-         place = 0
-         call method%save(row, place)
-         call check_equal(error, place, size(row), methods(i)//": numbers saved")
+         saved = archive_t()
+         call method%save(saved)
          do k = 1, 2
             call find_integrator(trim(methods(i)), other)
             call other%start(system, 0.0_wp, y, 5.0_wp, status)
             ! the second is loaded in the middle of a run of its own
             if (k == 2) call run_to(other, system, 1.0_wp, status)
-            place = 0
-            call other%load(row, place)
+            archive = saved
+            call other%load(archive)
+            call check_true(error, archive%is_at_end(), methods(i)//": as many numbers loaded as saved")
             call check_equal(error, int(other%count%n_steps), int(method%count%n_steps), methods(i)//": steps so far")
             call check_close(error, other%t, 2.5_wp, 0.0_wp, methods(i)//": time")
             call run_to(other, system, 5.0_wp, status)

@@ -1,5 +1,6 @@
 !> Newton's matrix in the directions that move with the system, and what it is made of.
 module test_radau_matrix
+   use archive, only: archive_t
    use anderson, only: anderson_t
    use check, only: check_close, check_equal, check_true, suite_t
    use errors, only: error_t
@@ -106,20 +107,15 @@ contains
 
       real(wp), parameter :: b(n) = [1.0_wp, -2.0_wp, 0.5_wp, 3.0_wp, -1.0_wp]
       real(wp) :: x(n, 2)
-      real(wp), allocatable :: row(:)
+      type(archive_t) :: archive
       type(linear_t) :: system
       type(radau_matrix_t) :: loaded, matrix
-      integer :: place
 
       call make_matrix(system, matrix)
-      allocate (row(matrix%memory_size()), source=0.0_wp)
-      place = 0
-      call matrix%save(row, place)
-      call check_equal(error, place, size(row), "numbers saved")
+      call matrix%save(archive)
       call loaded%open(system)
-      place = 0
-      call loaded%load(row, place)
-      call check_equal(error, place, size(row), "numbers loaded")
+      call loaded%load(archive)
+      call check_true(error, archive%is_at_end(), "as many numbers loaded as saved")
       call loaded%factorise(0.1_wp)
       call matrix%solve_filter(system, b, b, x(:, 1))
       call loaded%solve_filter(system, b, b, x(:, 2))

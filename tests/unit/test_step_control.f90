@@ -1,11 +1,12 @@
 !> Control of the step, and the events that it looks ahead to.
 module test_step_control
+   use archive, only: archive_t
    use check, only: check_close, check_true, suite_t
    use errors, only: error_t
    use event_prediction, only: predict_event
    use integrator, only: event_values_t
    use kinds, only: eps, wp
-   use step_control, only: n_control_number, step_control_t
+   use step_control, only: step_control_t
    use step_course, only: course_even, course_from_root, course_to_root
    implicit none (type, external)
    private
@@ -244,8 +245,7 @@ contains
       type(error_t), allocatable, intent(out) :: error  !! what failed
 
       type(step_control_t) :: other, pace
-      real(wp) :: row(n_control_number)
-      integer :: place
+      type(archive_t) :: archive
 
       pace = step_control_t(order=6.0_wp, h_next=1.0_wp, h_event=0.5_wp)
       call pace%disturb(0.25_wp, .true.)
@@ -255,12 +255,9 @@ contains
       call check_close(error, pace%length(), 0.204_wp, eps, "across")
       call pace%reject(0.204_wp, 50.0_wp)
       other = step_control_t(order=6.0_wp)
-      place = 0
-      call pace%save(row, place)
-      call check_true(error, place == n_control_number, "numbers written")
-      place = 0
-      call other%load(row, place)
-      call check_true(error, place == n_control_number, "numbers read")
+      call pace%save(archive)
+      call other%load(archive)
+      call check_true(error, archive%is_at_end(), "as many numbers read as written")
       call check_close(error, other%length(), pace%length(), 0.0_wp, "length")
       call other%disturb(0.0_wp, .false.)
       call pace%disturb(0.0_wp, .false.)

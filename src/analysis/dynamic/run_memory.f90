@@ -5,11 +5,9 @@
 !> another method, another mechanism or another form is refused by name, and nothing is changed.
 !> Limits: several parts must have come to the same time, since nothing is kept of the way within their last steps.
 module run_memory
-   use checkpoint, only: add_segment, checkpoint_t, segment_t
+   use archive, only: archive_t
    use errors, only: error_t, exit_usage, set_error
    use kinds, only: wp
-   use mechanism, only: mechanism_t
-   use memory, only: get, put
    use moving_part, only: moving_part_t
    use run_failure, only: describe_failure
    use run_tally, only: run_tally_t
@@ -25,7 +23,6 @@ module run_memory
 
    integer, parameter :: monitor_version = 1   !! of the form of what is kept of contacts from step to step
    integer, parameter :: part_version = 1    !! of the form of where ledger and events stand
-   integer, parameter :: n_part = 10         !! numbers of the latter
 
 contains
 
@@ -38,7 +35,7 @@ contains
       real(wp), intent(in) :: cpu                   !! processor time used so far [s]
       type(saved_run_t), intent(out) :: saved       !! what is remembered
 
-      integer :: p, place
+      integer :: p
 
       associate (n => size(whole%parts), archive => saved%motion)
          saved%t = whole%t
@@ -48,11 +45,7 @@ contains
             call whole%parts(p)%guards%save(archive)
             call whole%parts(p)%jumps%save(archive)
          end do
-         if (n > 1) then
-            call saved%parts(n + 1)%begin(list_of_system(whole%system))
-            place = 0
-            call whole%system%save(saved%parts(n + 1)%row, place)
-         end if
+         if (n > 1) call whole%system%save(saved%parts(n + 1))
          call archive%put([whole%t, cpu])
          call sampler%save(archive)
          call tally%save(archive)
@@ -70,8 +63,9 @@ contains
       real(wp), intent(out) :: cpu                         !! processor time used by then [s]
       type(error_t), allocatable, intent(out) :: error     !! it is another run's
 
+      type(archive_t) :: written
       type(smooth_segment_t) :: passed
-      integer :: p, place
+      integer :: p
 
       cpu = 0.0_wp
       associate (n => size(whole%parts), archive => saved%motion)
@@ -87,10 +81,10 @@ contains
             call whole%parts(p)%jumps%load(archive)
          end do
          if (n > 1) then
-            call saved%parts(n + 1)%compare(list_of_system(whole%system), error)
+            call whole%system%save(written)
+            call saved%parts(n + 1)%compare(written, error)
             if (allocated(error)) return
-            place = 0
-            call whole%system%load(saved%parts(n + 1)%row, place)
+            call whole%system%load(saved%parts(n + 1))
             do while (whole%output_times%next%at < whole%system%linkage%segment%end)
                call whole%output_times%pass(passed)
             end do
@@ -106,64 +100,54 @@ contains
                      "another length")
    end subroutine load_run
 
-   !> The pieces of a system.
-   function list_of_system(system) result(segments)
-      type(mechanism_t), intent(in) :: system        !! the system
-      type(segment_t), allocatable :: segments(:)        !! (any) the list
-
-      call system%list_memory(segments)
-   end function list_of_system
-
    !> Save it.
-   subroutine save_part_memory(part, checkpoint)
-      type(moving_part_t), intent(in) :: part         !! the part, between two steps
-      type(checkpoint_t), intent(inout) :: checkpoint !! what is remembered
+   subroutine save_part_memory(part, archive)
+      type(moving_part_t), intent(in) :: part      !! the part, between two steps
+      type(archive_t), intent(out) :: archive      !! what is remembered
 
-      integer :: place
-
-      call checkpoint%begin(list_of_part(part))
-      place = 0
-      associate (row => checkpoint%row)
-         call part%method%save(row, place)
-         call part%system%save(row, place)
-         call part%monitor%save(row, place)
-         call put(row, place, part%n_idle)
-         associate (ledger => part%ledger)
-            call put(row, place, [part%t_event, ledger%balance_0, ledger%potential_0, ledger%residual, ledger%level, &
-                                  ledger%magnitude, ledger%lost, part%violation%worst])
-         end associate
-         call put(row, place, part%violation%row)
+      call part%method%save(archive)
+      call part%system%save(archive)
+      call archive%begin("the contacts from step to step", monitor_version)
+      call part%monitor%save(archive)
+      call archive%begin("where ledger and events stand", part_version)
+      call archive%put(part%n_idle)
+      associate (ledger => part%ledger)
+         call archive%put([part%t_event, ledger%balance_0, ledger%potential_0, ledger%residual, ledger%level, ledger%magnitude, &
+                           ledger%lost, part%violation%worst])
       end associate
+      call archive%put(part%violation%row)
    end subroutine save_part_memory
 
    !> Take it back into a part of a run of the same deck that has started; the search for instants is brought to where the motion
    !> is.
-   subroutine load_part_memory(checkpoint, part, error)
-      type(checkpoint_t), intent(in) :: checkpoint         !! what was remembered
+   subroutine load_part_memory(archive, part, error)
+      type(archive_t), intent(inout) :: archive            !! what was remembered
       type(moving_part_t), intent(inout) :: part           !! the part, started
       type(error_t), allocatable, intent(out) :: error     !! it is another run's; nothing is changed
 
+      type(archive_t) :: written
       type(smooth_segment_t) :: segment
-      integer :: place, status
+      integer :: status
 
-      call checkpoint%compare(list_of_part(part), error)
+      call save_part_memory(part, written)
+      call archive%compare(written, error)
       if (allocated(error)) return
-      place = 0
-      associate (row => checkpoint%row)
-         call part%method%load(row, place)
-         call part%system%load(row, place)
-         call part%monitor%load(row, place)
-         call get(row, place, part%n_idle)
-         call get(row, place, part%t_event)
-         call get(row, place, part%ledger%balance_0)
-         call get(row, place, part%ledger%potential_0)
-         call get(row, place, part%ledger%residual)
-         call get(row, place, part%ledger%level)
-         call get(row, place, part%ledger%magnitude)
-         call get(row, place, part%ledger%lost)
-         call get(row, place, part%violation%worst)
-         call get(row, place, part%violation%row)
+      archive%place = 0
+      call part%method%load(archive)
+      call part%system%load(archive)
+      call part%monitor%load(archive)
+      call archive%get(part%n_idle)
+      call archive%get(part%t_event)
+      associate (ledger => part%ledger)
+         call archive%get(ledger%balance_0)
+         call archive%get(ledger%potential_0)
+         call archive%get(ledger%residual)
+         call archive%get(ledger%level)
+         call archive%get(ledger%magnitude)
+         call archive%get(ledger%lost)
       end associate
+      call archive%get(part%violation%worst)
+      call archive%get(part%violation%row)
       do while (part%output_times%next%at < part%system%linkage%segment%end)
          call part%output_times%pass(segment)
       end do
@@ -173,16 +157,5 @@ contains
       call part%method%restart(part%system, 0.0_wp, status)  ! what the last evaluation leaves behind is that of this state
       if (status /= 0) call describe_failure(part%system, part%method, status, error)
    end subroutine load_part_memory
-
-   !> The pieces of a part, in the order in which they are saved.
-   function list_of_part(part) result(segments)
-      type(moving_part_t), intent(in) :: part        !! the part
-      type(segment_t), allocatable :: segments(:)        !! (any) the list
-
-      call part%method%list_memory(segments)
-      call part%system%list_memory(segments)
-      call add_segment(segments, "the contacts from step to step", monitor_version, part%monitor%memory_size())
-      call add_segment(segments, "where ledger and events stand", part_version, n_part)
-   end function list_of_part
 
 end module run_memory

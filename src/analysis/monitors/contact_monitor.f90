@@ -6,6 +6,7 @@
 !> contacts are requested (`tells_all`), every maximum of force and penetration is reported that rises by more than `ripple` above
 !> the minimum before.
 module contact_monitor
+   use archive, only: archive_t
    use clearance_set, only: clearance_set_t, loss_contact, loss_friction
    use contact_peaks, only: drop_peaks, look, peak_t, trend_t
    use contact_places, only: place_of_loss, slip_function, touch_function, transition_function, turn_function
@@ -26,7 +27,6 @@ module contact_monitor
    real(wp), parameter :: first_step = 0.01_wp   !! first step of a contact, of the duration of an elastic impact [1]
    real(wp), parameter :: noise = 1.0e-7_wp      !! of a force that a row has reported: more than that is worth another row [1]
    real(wp), parameter :: ripple = 1.0e-4_wp     !! rise to a maximum that is none, of the maximum value of the contact [1]
-   integer, parameter :: n_remembered = 8        !! numbers of a contact in a checkpoint
 
    !> What is known of each contact at the end of the last step.
    type :: contact_monitor_t
@@ -50,7 +50,6 @@ module contact_monitor
       procedure :: extrapolate
       procedure :: after_restart
       procedure :: handle_event
-      procedure :: memory_size => monitor_memory_size
       procedure :: save => monitor_save
       procedure :: load => monitor_load
    end type contact_monitor_t
@@ -65,26 +64,18 @@ module contact_monitor
          class(integrator_t), intent(inout) :: method    !! the integrator, after a step; the system is at its end
       end subroutine after_step
 
-      !> Numbers that a checkpoint needs.
-      module integer function monitor_memory_size(self) result(n)
-         implicit none (type, external)
-         class(contact_monitor_t), intent(in) :: self  !! the monitor
-      end function monitor_memory_size
-
       !> Write what the monitor remembers.
-      module subroutine monitor_save(self, row, place)
+      module subroutine monitor_save(self, archive)
          implicit none (type, external)
          class(contact_monitor_t), intent(in) :: self  !! the monitor
-         real(wp), intent(inout) :: row(:)           !! (any) checkpoint [any]
-         integer, intent(inout) :: place             !! last place used
+         type(archive_t), intent(inout) :: archive     !! the checkpoint
       end subroutine monitor_save
 
       !> Read what the monitor remembers.
-      module subroutine monitor_load(self, row, place)
+      module subroutine monitor_load(self, archive)
          implicit none (type, external)
          class(contact_monitor_t), intent(inout) :: self  !! the monitor
-         real(wp), intent(in) :: row(:)                 !! (any) checkpoint [any]
-         integer, intent(inout) :: place                !! last place used
+         type(archive_t), intent(inout) :: archive        !! the checkpoint
       end subroutine monitor_load
 
    end interface

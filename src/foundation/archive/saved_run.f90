@@ -1,8 +1,7 @@
 !> All that a run must remember to continue: of each part of the mechanism, of the whole, of the output.
 module saved_run
-   use checkpoint, only: checkpoint_t
-   use kinds, only: wp
    use archive, only: archive_t
+   use kinds, only: wp
    implicit none (type, external)
    private
    public :: saved_run_t
@@ -15,7 +14,7 @@ module saved_run
    !> What is remembered.
    type :: saved_run_t
       real(wp) :: t = 0.0_wp                        !! time of the motion [s]
-      type(checkpoint_t), allocatable :: parts(:)   !! (parts) of each part; of several, one more: of the whole
+      type(archive_t), allocatable :: parts(:)      !! (parts) of each part; of several, one more: of the whole
       type(archive_t) :: motion                        !! of the whole motion, its samples and sums
       type(archive_t) :: output                        !! of what keeps the results
    end type saved_run_t

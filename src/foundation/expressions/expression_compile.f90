@@ -1,20 +1,36 @@
-!> From text to an `expression_t`; grammar in expression_parser, dimensions in expression_dimension.
+!> From text of a deck to an `expression_t`: the grammar of expression_parser, dimensions of expression_dimension.
+!>
+!> A unit follows its number with or without a blank; inside, it has none: `5 rad/s * t`, `3kg.m^2`. `10 mm^2` is ten square
+!> millimetres. After a number a slash belongs to the unit if a known unit follows at once. `t` is always the time.
 module expression_compile
    use, intrinsic :: ieee_exceptions, only: ieee_get_status, ieee_set_flag, ieee_set_halting_mode, ieee_set_status, &
                                           & ieee_status_type, ieee_usual
-   use expression, only: expression_t, n_variable, op_add, op_atan2, op_number, op_time, stack_size
-   use expression_dimension, only: dimension_agrees, term_t
+   use dimension_text, only: dimension_name
+   use expression, only: evaluate_code, expression_t, n_variable, op_add, op_atan2, op_divide, op_integer_power, op_multiply, &
+      op_negate, op_number, op_power, op_real_power, op_subtract, op_time, stack_size
+   use expression_dimension, only: combine_power, combine_product, combine_sum, dimension_agrees, term_t
    use expression_functions, only: function_names, function_operation
+   use expression_leaves, only: parse_number
    use expression_parser, only: parse_whole
-   use expression_state, only: channel_finder_t, fail, fault_t, name_length, new_parser, parser_t
+   use expression_reader, only: fail, fault_t, name_length
+   use expression_state, only: channel_finder_t, emit, new_parser, parser_t
    use expression_symbols, only: symbol_broken, symbol_function, symbol_number, symbol_t, symbol_word, symbols_t
-   use kind_info, only: dim_t, dim_time
+   use expression_words, only: parse_word
+   use kind_info, only: dim_none, dim_t, dim_time, same_dimension
    use kinds, only: wp
    implicit none (type, external)
    private
    public :: channel_finder_t, compile_expression, dimension_agrees, evaluate_safely, fault_t, function_names, is_reserved
    public :: name_length
    public :: symbol_broken, symbol_function, symbol_number, symbol_t, symbol_word, symbols_t
+
+   !> The dialect of decks: a postfix program.
+   type, extends(parser_t) :: compiler_t
+   contains
+      procedure :: combine
+      procedure :: read_number
+      procedure :: read_word
+   end type compiler_t
 
 contains
 
@@ -31,7 +47,7 @@ contains
 
       character(:), allocatable :: names
       type(ieee_status_type) :: status
-      type(parser_t) :: parser
+      type(compiler_t) :: parser
       type(term_t) :: whole
       type(dim_t) :: dimensions(n_variable)
       integer :: k
@@ -68,6 +84,89 @@ contains
          compiled%observables(k) = parser%observables(k)
       end do
    end subroutine compile_expression
+
+   !> A number, with its unit if it has one.
+   recursive subroutine read_number(self, term)
+      class(compiler_t), intent(inout) :: self !! the reader, at the number
+      type(term_t), intent(inout) :: term      !! what was read
+
+      term%start = self%n_code + 1
+      call parse_number(self, term)
+   end subroutine read_number
+
+   !> A name, or a function with its arguments.
+   recursive subroutine read_word(self, term)
+      class(compiler_t), intent(inout) :: self !! the reader, at the name
+      type(term_t), intent(inout) :: term      !! in: where it starts; out: what was read
+
+      term%start = self%n_code + 1
+      call parse_word(self, term)
+   end subroutine read_word
+
+   !> The operation of a sign, with the dimension of its value.
+   subroutine combine(self, sign, left, right)
+      class(compiler_t), intent(inout) :: self !! the reader
+      character, intent(in) :: sign            !! one of `+ - * / ^ ~`
+      type(term_t), intent(inout) :: left      !! first operand; the result on return
+      type(term_t), intent(in) :: right        !! second operand
+
+      character(:), allocatable :: message
+
+      select case (sign)
+      case ("+", "-")
+         call combine_sum(left, right, message)
+         if (len(message) > 0) call fail(self, right%first, right%last, message)
+         call emit(self, merge(op_add, op_subtract, sign == "+"))
+      case ("*", "/")
+         call combine_product(left, right, merge(1, -1, sign == "*"))
+         call emit(self, merge(op_multiply, op_divide, sign == "*"))
+      case ("^")
+         call raise(self, left, right)
+      case default
+         call emit(self, op_negate)
+      end select
+   end subroutine combine
+
+   !> A power.
+   subroutine raise(parser, base, exponent)
+      type(compiler_t), intent(inout) :: parser !! the reader
+      type(term_t), intent(inout) :: base       !! the base; the power on return
+      type(term_t), intent(in) :: exponent      !! the exponent
+
+      if (.not. same_dimension(exponent%dimension, dim_none)) then
+         call fail(parser, exponent%first, exponent%last, "an exponent must be dimensionless, got " &
+                 & //dimension_name(exponent%dimension))
+      else if (exponent%is_constant) then
+         call raise_to_constant(parser, base, exponent)
+      else if (same_dimension(base%dimension, dim_none)) then
+         base%is_constant = .false.
+         call emit(parser, op_power)
+      else
+         call fail(parser, base%first, base%last, "a variable exponent needs a dimensionless base")
+      end if
+   end subroutine raise
+
+   !> A power with a constant exponent, which is evaluated and taken from the program.
+   subroutine raise_to_constant(parser, base, exponent)
+      type(compiler_t), intent(inout) :: parser !! the reader
+      type(term_t), intent(inout) :: base       !! the base; the power on return
+      type(term_t), intent(in) :: exponent      !! the exponent
+
+      real(wp), parameter :: largest = 1000.0_wp  !! larger exponents are refused [1]
+      real(wp) :: jet(3)
+      integer :: n
+
+      n = parser%n_code - exponent%start + 1
+      call evaluate_code(n, parser%code(exponent%start:parser%n_code), parser%operand(exponent%start:parser%n_code), &
+                       & parser%curves, spread(0.0_wp, 1, n_variable), 1, jet)
+      parser%n_code = exponent%start - 1
+      if (.not. abs(jet(1)) <= largest) then
+         call fail(parser, exponent%first, exponent%last, "this exponent must be a number up to 1000")
+         return
+      end if
+      call combine_power(base, jet(1))
+      call emit(parser, merge(op_real_power, op_integer_power, abs(jet(1) - anint(jet(1))) > 0.0_wp), jet(1))
+   end subroutine raise_to_constant
 
    !> Evaluate where an overflow must not stop the program: the result is then not finite.
    subroutine evaluate_safely(compiled, t, value, d1, d2)

@@ -3,8 +3,8 @@ module expression_leaves
    use expression, only: op_number, op_time
    use expression_dimension, only: term_t
    use expression_functions, only: function_names, function_operation
-   use expression_state, only: advance, digits, emit, fail, find_variable, letters, name_length, parser_t, peek, resolve, &
-                             & suggestion
+   use expression_reader, only: advance, digits, fail, letters, name_length, peek
+   use expression_state, only: emit, find_variable, parser_t, resolve, suggestion
    use expression_symbols, only: symbol_function, symbol_number, symbol_word
    use kinds, only: pi, wp
    use numbers, only: number_length
@@ -18,7 +18,7 @@ contains
 
    !> A parameter, a constant or the time.
    subroutine parse_name(parser, name, term)
-      type(parser_t), intent(inout) :: parser  !! the reader, after the name
+      class(parser_t), intent(inout) :: parser !! the reader, after the name
       character(*), intent(in) :: name         !! the name
       type(term_t), intent(inout) :: term      !! in: where it starts; out: what was read
 
@@ -53,7 +53,7 @@ contains
 
    !> The value of a parameter.
    subroutine use_symbol(parser, i, term, last)
-      type(parser_t), intent(inout) :: parser  !! the reader
+      class(parser_t), intent(inout) :: parser !! the reader
       integer, intent(in) :: i                 !! number of the parameter
       type(term_t), intent(inout) :: term      !! in: where it starts; out: what was read
       integer, intent(in) :: last              !! last character of its name
@@ -79,7 +79,7 @@ contains
 
    !> A number, with its unit if it has one.
    subroutine parse_number(parser, term)
-      type(parser_t), intent(inout) :: parser  !! the reader, at the number
+      class(parser_t), intent(inout) :: parser !! the reader, at the number
       type(term_t), intent(inout) :: term      !! what was read
 
       type(unit_t) :: unit
@@ -101,7 +101,7 @@ contains
 
    !> The unit after a number.
    subroutine parse_glued_unit(parser, unit)
-      type(parser_t), intent(inout) :: parser  !! the reader, at the unit
+      class(parser_t), intent(inout) :: parser !! the reader, at the unit
       type(unit_t), intent(out) :: unit        !! the unit
 
       character(:), allocatable :: message, name
@@ -124,7 +124,7 @@ contains
 
    !> Whether a word is the time, a constant, a function or a parameter.
    pure logical function is_name(parser, word)
-      type(parser_t), intent(in) :: parser  !! the reader
+      class(parser_t), intent(in) :: parser !! the reader
       character(*), intent(in) :: word      !! any word
 
       is_name = word == "t" .or. find_variable(parser, word) > 0 .or. word == "pi" .or. function_operation(word) > 0 &
@@ -133,7 +133,7 @@ contains
 
    !> Number of characters of a unit: names joined by dots and slashes, with exponents.
    integer function unit_length(parser, start)
-      type(parser_t), intent(inout) :: parser  !! the reader
+      class(parser_t), intent(inout) :: parser !! the reader
       integer, intent(in) :: start             !! first character of the unit
 
       character(:), allocatable :: message, word

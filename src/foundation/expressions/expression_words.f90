@@ -1,19 +1,33 @@
-!> Words in an expression: names, channels and calls.
-submodule(expression_parser) expression_words
-   use expression, only: most_seen
-   use expression_dimension, only: dimension_agrees
+!> Words in an expression of a deck: names, channels and calls.
+!>
+!>     channel = name "." name {"." name}
+!>
+!> Functions are those of expression_functions, and the deck's own by their names. Names are parameters, `pi`, and the time `t`
+!> where it is allowed.
+module expression_words
+   use dimension_text, only: dimension_name
+   use expression, only: evaluate_code, most_seen, n_variable, op_add, op_divide, op_multiply, op_rise, op_subtract, op_time
+   use expression_dimension, only: dimension_agrees, term_t
    use expression_functions, only: apply_function, function_names, function_operation, most_arguments, n_argument
    use expression_leaves, only: parse_name
-   use expression_state, only: call_function, digits, find_function, function_list
+   use expression_parser, only: close_parenthesis, parse_sum
+   use expression_reader, only: advance, descend, digits, fail, letters, name_length, peek
+   use expression_state, only: call_function, emit, find_function, function_list, parser_t, suggestion
    use expression_symbols, only: symbol_broken
+   use kinds, only: wp
    use rise_laws, only: number_of_rise
    use text, only: split_blank, to_text
    implicit none (type, external)
+   private
+   public :: parse_word
 
 contains
 
    !> A name, or a function with its arguments.
-   module procedure parse_word
+   recursive subroutine parse_word(parser, term)
+      class(parser_t), intent(inout) :: parser !! the reader, at the name
+      type(term_t), intent(inout) :: term      !! in: where it starts; out: what was read
+
       type(term_t) :: arguments(most_arguments)
       character(:), allocatable :: message, name
       integer :: k, n, operation
@@ -66,11 +80,11 @@ contains
       else
          call emit(parser, operation)
       end if
-   end procedure parse_word
+   end subroutine parse_word
 
    !> A law that rises takes its way between two places: constant ones must differ.
    subroutine check_places(parser, name, arguments)
-      type(parser_t), intent(inout) :: parser   !! the reader, its program ends with the arguments
+      class(parser_t), intent(inout) :: parser  !! the reader, its program ends with the arguments
       character(*), intent(in) :: name          !! of the law
       type(term_t), intent(in) :: arguments(:)  !! (5) x, x0, h0, x1, h1
 
@@ -92,7 +106,7 @@ contains
 
    !> A law that rises: h0 + (h1 - h0) s((x - x0)/(x1 - x0)), in the place of its arguments x, x0, h0, x1, h1.
    subroutine emit_rise(parser, law, start)
-      type(parser_t), intent(inout) :: parser  !! the reader, its program ends with the arguments
+      class(parser_t), intent(inout) :: parser !! the reader, its program ends with the arguments
       integer, intent(in) :: law               !! number of the law
       integer, intent(in) :: start(:)          !! (5) first operation of each argument
 
@@ -156,7 +170,7 @@ contains
 
    !> A channel, which is a variable behind those that have names.
    subroutine parse_channel(parser, word, term)
-      type(parser_t), intent(inout) :: parser  !! the reader, at the channel
+      class(parser_t), intent(inout) :: parser !! the reader, at the channel
       character(*), intent(in) :: word         !! the channel
       type(term_t), intent(inout) :: term      !! in: where it starts; out: what was read
 
@@ -195,7 +209,7 @@ contains
 
    !> A named function of the deck with its argument.
    recursive subroutine parse_call(parser, name, term)
-      type(parser_t), intent(inout) :: parser  !! the reader, at the parenthesis
+      class(parser_t), intent(inout) :: parser !! the reader, at the parenthesis
       character(*), intent(in) :: name         !! of the function
       type(term_t), intent(inout) :: term      !! in: where it starts; out: what was read
 
@@ -236,11 +250,11 @@ contains
 
    !> Whether a name is that of a function or parameter whose error was reported already.
    pure logical function is_broken(parser, name)
-      type(parser_t), intent(in) :: parser  !! the reader
+      class(parser_t), intent(in) :: parser !! the reader
       character(*), intent(in) :: name      !! the name
 
       is_broken = .false.
       if (parser%symbols%find(name) > 0) is_broken = parser%symbols%list(parser%symbols%find(name))%kind == symbol_broken
    end function is_broken
 
-end submodule expression_words
+end module expression_words

@@ -1,15 +1,13 @@
-!> Function expressions of Adams as trees: reading them, and what they depend on.
-!>
-!>     sum     = term { ("+" | "-") term }
-!>     term    = signed { ("*" | "/") signed }
-!>     signed  = { "+" | "-" } power
-!>     power   = primary [ "**" signed ]
-!>     primary = number ["D"] | TIME | PI | DTOR | RTOD | NAME "(" sum {("," | ":") sum} ")" | "(" sum ")"
+!> Function expressions of Adams as trees, and what they depend on. The grammar is that of expression_parser, with `**` for a power
+!> and colons between the arguments of a function.
 !>
 !> A number with a D is an angle in degrees, one with a D before digits has an exponent: 30D+5 is a sum. Case does not matter.
 !> Limits: `most_nodes` numbers and operations; which functions there are is for `adams_translation` to say.
 module adams_expression
    use dataset, only: upper_case
+   use expression_dimension, only: term_t
+   use expression_parser, only: close_parenthesis, parse_sum, parse_whole
+   use expression_reader, only: advance, descend, fail, name_length, peek, reader_t
    use kinds, only: wp
    use numbers, only: number_length, read_number
    use text, only: to_text
@@ -50,15 +48,16 @@ module adams_expression
       character(:), allocatable :: words        !! of a measure: how a deck calls it; unallocated: not yet known
    end type node_t
 
-   !> An expression.
-   type :: tree_t
+   !> An expression, and its reader. The `start` of a term is the number of its node.
+   type, extends(reader_t) :: tree_t
       type(node_t), allocatable :: nodes(:)     !! (at least n)
       integer :: n = 0                          !! nodes in use
       integer :: root = 0                       !! the whole
       character(:), allocatable :: message      !! what is wrong; blank: nothing
-      character(:), allocatable, private :: text   !! in capitals
-      integer, private :: at = 1                !! next character
-      integer, private :: depth = 0             !! what is open
+   contains
+      procedure :: combine
+      procedure :: read_number => read_digits
+      procedure :: read_word
    end type tree_t
 
 contains
@@ -68,41 +67,22 @@ contains
       character(*), intent(in) :: text      !! as in the dataset
       type(tree_t), intent(out) :: tree     !! the tree; `message` says what is wrong
 
-      integer :: i
+      type(term_t) :: whole
 
+      tree%source = text
+      tree%has_double_star = .true.
       tree%message = ""
-      tree%text = ""
-      do i = 1, len(text)
-         if (text(i:i) == "*" .and. len(tree%text) > 0) then      ! a power, with a blank within it
-            if (tree%text(verify(tree%text, " ", back=.true.):) == "* ") tree%text = trim(tree%text)
-         end if
-         tree%text = tree%text//upper_case(text(i:i))
-      end do
-      tree%text = trim(tree%text)
       allocate (tree%nodes(64))
-      if (len(tree%text) == 0) then
-         tree%message = "the expression is empty"
-         return
-      end if
-      call read_sum(tree, tree%root)
-      if (tree%message == "" .and. next(tree) /= " ") tree%message = "'"//tree%text(tree%at:)//"' is not supported"
+      call parse_whole(tree, whole)
+      tree%root = whole%start
+      if (.not. allocated(tree%fault)) return
+      tree%message = tree%fault%message
+      if (tree%fault%first > 1) tree%message = tree%message//" at '"//text(tree%fault%first:)//"'"
    end subroutine parse_tree
-
-   !> The next character that is no blank; blank at the end.
-   character function next(tree)
-      type(tree_t), intent(inout) :: tree  !! the reader, moved there
-
-      next = " "
-      do while (tree%at <= len(tree%text))
-         if (tree%text(tree%at:tree%at) /= " ") exit
-         tree%at = tree%at + 1
-      end do
-      if (tree%at <= len(tree%text)) next = tree%text(tree%at:tree%at)
-   end function next
 
    !> Put a node into the tree.
    subroutine add_node(tree, kind, arguments, number)
-      type(tree_t), intent(inout) :: tree     !! the tree
+      class(tree_t), intent(inout) :: tree    !! the tree
       integer, intent(in) :: kind             !! of the node
       integer, intent(in) :: arguments(:)     !! (n) what it works on
       integer, intent(out) :: number          !! of the node
@@ -115,7 +95,7 @@ contains
          call move_alloc(more, tree%nodes)
       end if
       if (tree%n >= most_nodes) then
-         tree%message = "it has more than "//to_text(most_nodes)//" numbers and operations"
+         call fail(tree, 1, 1, "it has more than "//to_text(most_nodes)//" numbers and operations")
       else
          tree%n = tree%n + 1
       end if
@@ -126,169 +106,73 @@ contains
       tree%nodes(number)%digits = ""
    end subroutine add_node
 
-   !> Sums and differences.
-   recursive subroutine read_sum(tree, node)
-      type(tree_t), intent(inout) :: tree  !! the reader
-      integer, intent(out) :: node         !! what was read
+   !> The node of a sign.
+   subroutine combine(self, sign, left, right)
+      class(tree_t), intent(inout) :: self     !! the reader
+      character, intent(in) :: sign            !! one of `+ - * / ^ ~`
+      type(term_t), intent(inout) :: left      !! first operand; the result on return
+      type(term_t), intent(in) :: right        !! second operand
 
-      character :: sign
-      integer :: right
+      integer, parameter :: operations(6) = [node_add, node_subtract, node_multiply, node_divide, node_power, node_negate]
+      integer :: operands(2)
 
-      node = 0
-      tree%depth = tree%depth + 1
-      if (tree%depth > deepest) tree%message = "it is nested too deeply"
-      if (tree%message == "") call read_term(tree, node)
-      do while (tree%message == "")
-         sign = next(tree)
-         if (sign /= "+" .and. sign /= "-") exit
-         tree%at = tree%at + 1
-         call read_term(tree, right)
-         if (tree%message /= "") exit
-         call add_node(tree, merge(node_add, node_subtract, sign == "+"), [node, right], node)
-      end do
-      tree%depth = tree%depth - 1
-   end subroutine read_sum
-
-   !> Products and quotients.
-   recursive subroutine read_term(tree, node)
-      type(tree_t), intent(inout) :: tree  !! the reader
-      integer, intent(out) :: node         !! what was read
-
-      character :: sign
-      integer :: right
-
-      call read_signed(tree, node)
-      do while (tree%message == "")
-         sign = next(tree)
-         if (sign /= "*" .and. sign /= "/") exit
-         tree%at = tree%at + 1
-         call read_signed(tree, right)
-         if (tree%message /= "") exit
-         call add_node(tree, merge(node_multiply, node_divide, sign == "*"), [node, right], node)
-      end do
-   end subroutine read_term
-
-   !> Signs.
-   recursive subroutine read_signed(tree, node)
-      type(tree_t), intent(inout) :: tree  !! the reader
-      integer, intent(out) :: node         !! what was read
-
-      character :: sign
-      integer :: inner
-
-      node = 0
-      sign = next(tree)
-      if (sign == "+" .or. sign == "-") then
-         tree%at = tree%at + 1
-         tree%depth = tree%depth + 1
-         if (tree%depth > deepest) tree%message = "it is nested too deeply"
-         if (tree%message == "") call read_signed(tree, inner)
-         tree%depth = tree%depth - 1
-         node = inner
-         if (tree%message == "" .and. sign == "-") call add_node(tree, node_negate, [inner], node)
-      else
-         call read_power(tree, node)
-      end if
-   end subroutine read_signed
-
-   !> Powers.
-   recursive subroutine read_power(tree, node)
-      type(tree_t), intent(inout) :: tree  !! the reader
-      integer, intent(out) :: node         !! what was read
-
-      integer :: exponent
-
-      call read_primary(tree, node)
-      if (tree%message /= "" .or. next(tree) == " " .or. tree%at + 1 > len(tree%text)) return
-      if (tree%text(tree%at:tree%at + 1) == "**") then
-         tree%at = tree%at + 2
-      else if (next(tree) == "^") then
-         tree%at = tree%at + 1
-      else
-         return
-      end if
-      call read_signed(tree, exponent)
-      if (tree%message == "") call add_node(tree, node_power, [node, exponent], node)
-   end subroutine read_power
-
-   !> Numbers, names, functions, parentheses.
-   recursive subroutine read_primary(tree, node)
-      type(tree_t), intent(inout) :: tree  !! the reader
-      integer, intent(out) :: node         !! what was read
-
-      character(*), parameter :: letters = "ABCDEFGHIJKLMNOPQRSTUVWXYZ_"
-      integer :: length
-
-      node = 0
-      if (next(tree) == "(") then
-         tree%at = tree%at + 1
-         call read_sum(tree, node)
-         if (tree%message == "" .and. next(tree) /= ")") tree%message = "missing closing parenthesis"
-         tree%at = tree%at + 1
-      else if (scan(next(tree), "0123456789.") > 0) then
-         call read_digits(tree, node)
-      else if (index(letters, next(tree)) > 0) then
-         length = verify(tree%text(tree%at:)//" ", letters//"0123456789") - 1
-         call add_node(tree, node_name, [integer ::], node)
-         tree%nodes(node)%name = tree%text(tree%at:tree%at + length - 1)
-         tree%at = tree%at + length
-         if (next(tree) == "(") call read_arguments(tree, node)
-      else if (next(tree) == " ") then
-         tree%message = "it is incomplete"
-      else
-         tree%message = "'"//tree%text(tree%at:)//"' is not supported"
-      end if
-   end subroutine read_primary
+      operands = [left%start, right%start]
+      call add_node(self, operations(index("+-*/^~", sign)), pack(operands, operands > 0), left%start)
+   end subroutine combine
 
    !> A number, perhaps of degrees.
-   subroutine read_digits(tree, node)
-      type(tree_t), intent(inout) :: tree  !! the reader
-      integer, intent(out) :: node         !! what was read
+   recursive subroutine read_digits(self, term)
+      class(tree_t), intent(inout) :: self     !! the reader, at the number
+      type(term_t), intent(inout) :: term      !! what was read
 
-      real(wp) :: x
+      character(:), allocatable :: number
       integer :: length, letter
       logical :: is_finite
 
-      call add_node(tree, node_number, [integer ::], node)
-      length = number_length(tree%text(tree%at:))
-      letter = max(index(tree%text(tree%at:tree%at + length - 1), "D+"), index(tree%text(tree%at:tree%at + length - 1), "D-"))
+      call add_node(self, node_number, [integer ::], term%start)
+      number = upper_case(self%source(self%at:))
+      length = number_length(number)
+      letter = max(index(number(:length), "D+"), index(number(:length), "D-"))
       if (letter > 0) length = letter - 1
-      is_finite = length > 0
-      if (is_finite) call read_number(tree%text(tree%at:tree%at + length - 1), 0, x, is_finite)
-      if (.not. is_finite) then
-         tree%message = "'"//tree%text(tree%at:)//"' is not a number"
-         return
-      end if
-      tree%nodes(node)%value = x
-      tree%nodes(node)%digits = tree%text(tree%at:tree%at + length - 1)
-      tree%at = tree%at + length
-      if (tree%at > len(tree%text)) return
-      if (tree%text(tree%at:tree%at) /= "D") return
-      tree%nodes(node)%kind = node_degrees
-      tree%at = tree%at + 1
+      associate (node => self%nodes(term%start))
+         node%digits = number(:length)
+         call read_number(node%digits, 0, node%value, is_finite)
+         if (.not. is_finite) call fail(self, self%at, self%at, "'"//node%digits//"' is not a number")
+         if (number(length + 1:min(length + 1, len(number))) == "D") then
+            node%kind = node_degrees
+            length = length + 1
+         end if
+      end associate
+      call advance(self, length)
    end subroutine read_digits
 
-   !> Arguments of a function.
-   recursive subroutine read_arguments(tree, node)
-      type(tree_t), intent(inout) :: tree  !! the reader
-      integer, intent(in) :: node          !! the function, arguments are added
+   !> A name, or a function with its arguments.
+   recursive subroutine read_word(self, term)
+      class(tree_t), intent(inout) :: self     !! the reader, at the name
+      type(term_t), intent(inout) :: term      !! in: where it starts; out: what was read
 
+      type(term_t) :: argument
       integer, allocatable :: arguments(:)
-      integer :: one
+      integer :: length, node
 
-      tree%nodes(node)%kind = node_call
-      allocate (arguments(0))
-      do
-         tree%at = tree%at + 1
-         call read_sum(tree, one)
-         if (tree%message /= "") return
-         arguments = [arguments, one]
-         if (scan(next(tree), ",:") == 0) exit
+      length = name_length(self%source(self%at:))
+      call add_node(self, node_name, [integer ::], node)
+      term%start = node
+      self%nodes(node)%name = upper_case(self%source(self%at:self%at + length - 1))
+      call advance(self, length)
+      if (peek(self) /= "(") return
+      call descend(self)
+      self%nodes(node)%kind = node_call
+      arguments = [integer ::]
+      do while (.not. allocated(self%fault))
+         call advance(self, 1)
+         call parse_sum(self, argument)
+         arguments = [arguments, argument%start]
+         if (scan(peek(self), ",:") == 0) exit
       end do
-      if (next(tree) /= ")") tree%message = "missing closing parenthesis of "//tree%nodes(node)%name//""
-      tree%at = tree%at + 1
-      tree%nodes(node)%arguments = arguments
-   end subroutine read_arguments
+      call close_parenthesis(self, term%first)
+      self%nodes(node)%arguments = arguments
+   end subroutine read_word
 
    !> What a node depends on. The stretch of a force is a measure of its own two markers, in either order.
    recursive integer function depends_on(tree, node, markers, turns) result(bits)

@@ -4,7 +4,7 @@
 !> then `step` holds both ends of it. After a change of the system (an event handled) `restart`
 !> must be called before the next step.
 module integrator
-   use checkpoint, only: segment_t
+   use archive, only: archive_t
    use integrator_controls, only: controls_t, norm_absolute, norm_euclidean, norm_mixed, norm_relative, onset_located
    use interpolation, only: fit_inner, inner_places, interpolate, step_t
    use kind_info, only: kind_info_t
@@ -12,7 +12,7 @@ module integrator
    use ode_system, only: ode_system_t
    implicit none (type, external)
    private
-   public :: event_values_t, integrator_list_memory, integrator_prepare_output, integrator_reach, integrator_t, integrator_within, &
+   public :: event_values_t, integrator_prepare_output, integrator_reach, integrator_t, integrator_within, &
       kept_places
    public :: advance_event, advance_failed_evaluation, advance_no_memory, advance_step, advance_too_many_evaluations, &
       advance_too_many_steps, advance_too_small
@@ -100,13 +100,11 @@ module integrator
       procedure :: within => integrator_within
       procedure, non_overridable :: state_at => integrator_state_at
       procedure :: reach => integrator_reach
-      procedure :: list_memory => integrator_list_memory
       procedure, nopass :: memory_version => integrator_memory_version
-      procedure :: memory_size => integrator_memory_size
       procedure :: save => integrator_save
       procedure :: load => integrator_load
       procedure :: make_storage, begin_step, look_at_events, hide_events, set_scales
-      procedure :: base_memory_size, save_base, load_base
+      procedure :: save_base, load_base
    end type integrator_t
 
    abstract interface
@@ -163,55 +161,32 @@ module integrator
    end interface
 
    interface
-      !> List what the integrator saves: what every one keeps, then what the method adds.
-      module subroutine integrator_list_memory(self, segments)
-         implicit none (type, external)
-         class(integrator_t), intent(in) :: self                 !! the integrator
-         type(segment_t), allocatable, intent(inout) :: segments(:)  !! (any) the list, grown
-      end subroutine integrator_list_memory
-
-      !> Numbers that a checkpoint needs; a method that remembers more adds to it.
-      module integer function integrator_memory_size(self) result(n)
-         implicit none (type, external)
-         class(integrator_t), intent(in) :: self  !! the integrator
-      end function integrator_memory_size
-
       !> Write what the integrator remembers.
-      module subroutine integrator_save(self, row, place)
+      module subroutine integrator_save(self, archive)
          implicit none (type, external)
-         class(integrator_t), intent(in) :: self  !! the integrator
-         real(wp), intent(inout) :: row(:)        !! (any) checkpoint [any]
-         integer, intent(inout) :: place          !! last place used
+         class(integrator_t), intent(in) :: self    !! the integrator
+         type(archive_t), intent(inout) :: archive  !! the checkpoint
       end subroutine integrator_save
 
       !> Read what the integrator remembers.
-      module subroutine integrator_load(self, row, place)
+      module subroutine integrator_load(self, archive)
          implicit none (type, external)
          class(integrator_t), intent(inout) :: self  !! the integrator
-         real(wp), intent(in) :: row(:)              !! (any) checkpoint [any]
-         integer, intent(inout) :: place             !! last place used
+         type(archive_t), intent(inout) :: archive   !! the checkpoint
       end subroutine integrator_load
 
-      !> Numbers that every integrator keeps: time, state, derivative, event functions and counters.
-      module integer function base_memory_size(self) result(n)
+      !> Write what every integrator keeps, in a segment of its own; what follows belongs to that of the method.
+      module subroutine save_base(self, archive)
          implicit none (type, external)
-         class(integrator_t), intent(in) :: self  !! the integrator
-      end function base_memory_size
-
-      !> Write what every integrator keeps.
-      module subroutine save_base(self, row, place)
-         implicit none (type, external)
-         class(integrator_t), intent(in) :: self  !! the integrator
-         real(wp), intent(inout) :: row(:)        !! (any) checkpoint [any]
-         integer, intent(inout) :: place          !! last place used
+         class(integrator_t), intent(in) :: self    !! the integrator
+         type(archive_t), intent(inout) :: archive  !! the checkpoint
       end subroutine save_base
 
       !> Read what every integrator keeps. The last step itself is over: its length is set to zero.
-      module subroutine load_base(self, row, place)
+      module subroutine load_base(self, archive)
          implicit none (type, external)
          class(integrator_t), intent(inout) :: self  !! the integrator
-         real(wp), intent(in) :: row(:)              !! (any) checkpoint [any]
-         integer, intent(inout) :: place             !! last place used
+         type(archive_t), intent(inout) :: archive   !! the checkpoint
       end subroutine load_base
    end interface
 

@@ -1,87 +1,70 @@
 !> What an integrator remembers in a checkpoint: what every one keeps, and what a method adds.
 submodule(integrator) integrator_memory
-   use checkpoint, only: add_segment
-   use memory, only: get, put
    implicit none (type, external)
 
 contains
 
-   !> List what the integrator saves: what every one keeps, then what the method adds.
-   module procedure integrator_list_memory
-      type(kind_info_t) :: info
-
-      info = self%info()
-      call add_segment(segments, "the state", base_version, self%base_memory_size())
-      call add_segment(segments, "method = "//info%name, self%memory_version(), self%memory_size() - self%base_memory_size())
-   end procedure integrator_list_memory
-
-   !> Numbers that a checkpoint needs; a method that remembers more adds to it.
-   module procedure integrator_memory_size
-      n = self%base_memory_size()
-   end procedure integrator_memory_size
-
    !> Write what the integrator remembers.
    module procedure integrator_save
-      call self%save_base(row, place)
+      call self%save_base(archive)
    end procedure integrator_save
 
    !> Read what the integrator remembers.
    module procedure integrator_load
-      call self%load_base(row, place)
+      call self%load_base(archive)
    end procedure integrator_load
 
-   !> Numbers that every integrator keeps: time, state, derivative, event functions, contacts passed over and counters.
-   module procedure base_memory_size
-      n = 5 + 2*size(self%step%y1) + 10*size(self%events%g1)
-   end procedure base_memory_size
-
-   !> Write what every integrator keeps.
+   !> Write what every integrator keeps: time, state, derivative, event functions, contacts passed over and counters.
    module procedure save_base
+      type(kind_info_t) :: info
       integer :: k
 
-      call put(row, place, self%t)
-      call put(row, place, self%count%n_steps)
-      call put(row, place, self%count%n_rejected)
-      call put(row, place, self%count%n_evaluations)
-      call put(row, place, self%count%n_output_evaluations)
-      call put(row, place, self%step%y1)
-      call put(row, place, self%step%f1)
-      call put(row, place, self%events%g1)
-      call put(row, place, self%events%rate1)
-      call put(row, place, self%onset%gap)
-      call put(row, place, self%onset%rate)
-      call put(row, place, self%onset%passed%first)
-      call put(row, place, self%onset%passed%deepest)
-      call put(row, place, self%onset%passed%at)
+      call archive%begin("the state", base_version)
+      call archive%put(self%t)
+      call archive%put(self%count%n_steps)
+      call archive%put(self%count%n_rejected)
+      call archive%put(self%count%n_evaluations)
+      call archive%put(self%count%n_output_evaluations)
+      call archive%put(self%step%y1)
+      call archive%put(self%step%f1)
+      call archive%put(self%events%g1)
+      call archive%put(self%events%rate1)
+      call archive%put(self%onset%gap)
+      call archive%put(self%onset%rate)
+      call archive%put(self%onset%passed%first)
+      call archive%put(self%onset%passed%deepest)
+      call archive%put(self%onset%passed%at)
       do k = 1, size(self%events%g1)
-         call put(row, place, self%onset%passed%n(k))
-         call put(row, place, self%events%is_hidden(k))
-         call put(row, place, self%onset%is_waiting(k))
+         call archive%put(self%onset%passed%n(k))
+         call archive%put(self%events%is_hidden(k))
+         call archive%put(self%onset%is_waiting(k))
       end do
+      info = self%info()
+      call archive%begin("method = "//info%name, self%memory_version())
    end procedure save_base
 
    !> Read what every integrator keeps. The last step itself is over: its length is set to zero.
    module procedure load_base
       integer :: k
 
-      call get(row, place, self%t)
-      call get(row, place, self%count%n_steps)
-      call get(row, place, self%count%n_rejected)
-      call get(row, place, self%count%n_evaluations)
-      call get(row, place, self%count%n_output_evaluations)
-      call get(row, place, self%step%y1)
-      call get(row, place, self%step%f1)
-      call get(row, place, self%events%g1)
-      call get(row, place, self%events%rate1)
-      call get(row, place, self%onset%gap)
-      call get(row, place, self%onset%rate)
-      call get(row, place, self%onset%passed%first)
-      call get(row, place, self%onset%passed%deepest)
-      call get(row, place, self%onset%passed%at)
+      call archive%get(self%t)
+      call archive%get(self%count%n_steps)
+      call archive%get(self%count%n_rejected)
+      call archive%get(self%count%n_evaluations)
+      call archive%get(self%count%n_output_evaluations)
+      call archive%get(self%step%y1)
+      call archive%get(self%step%f1)
+      call archive%get(self%events%g1)
+      call archive%get(self%events%rate1)
+      call archive%get(self%onset%gap)
+      call archive%get(self%onset%rate)
+      call archive%get(self%onset%passed%first)
+      call archive%get(self%onset%passed%deepest)
+      call archive%get(self%onset%passed%at)
       do k = 1, size(self%events%g1)
-         call get(row, place, self%onset%passed%n(k))
-         call get(row, place, self%events%is_hidden(k))
-         call get(row, place, self%onset%is_waiting(k))
+         call archive%get(self%onset%passed%n(k))
+         call archive%get(self%events%is_hidden(k))
+         call archive%get(self%onset%is_waiting(k))
       end do
       self%step%t0 = self%t
       self%step%h = 0.0_wp

@@ -19,6 +19,7 @@
 !> continues: one displacement or turn for each rate, then the rates, then the other states; quadratures have none. `to_local` and
 !> `from_local` lead there and back, and `free_directions` says which of them invariants leave.
 module ode_system
+   use archive, only: archive_t
    use kinds, only: wp
    implicit none (type, external)
    private
@@ -63,7 +64,6 @@ module ode_system
       procedure :: from_local => ode_from_local
       procedure :: free_directions => ode_free_directions
       procedure :: evaluate_unheld => ode_evaluate_unheld
-      procedure :: memory_size => ode_memory_size
       procedure :: save => ode_save
       procedure :: load => ode_load
    end type ode_system_t
@@ -164,25 +164,16 @@ contains
       call self%hold(t, y, status)
    end subroutine ode_project
 
-   !> Numbers that the system remembers beside its state.
-   integer function ode_memory_size(self) result(n)
-      class(ode_system_t), intent(in) :: self  !! the system
-
-      n = 0
-   end function ode_memory_size
-
    !> Write them.
-   subroutine ode_save(self, row, place)
-      class(ode_system_t), intent(in) :: self  !! the system
-      real(wp), intent(inout) :: row(:)        !! (any) memory [any]
-      integer, intent(inout) :: place          !! last place used
+   subroutine ode_save(self, archive)
+      class(ode_system_t), intent(in) :: self    !! the system
+      type(archive_t), intent(inout) :: archive  !! the checkpoint
    end subroutine ode_save
 
    !> Read them.
-   subroutine ode_load(self, row, place)
+   subroutine ode_load(self, archive)
       class(ode_system_t), intent(inout) :: self  !! the system
-      real(wp), intent(in) :: row(:)              !! (any) memory [any]
-      integer, intent(inout) :: place             !! last place used
+      type(archive_t), intent(inout) :: archive   !! the checkpoint
    end subroutine ode_load
 
    !> What event k, as things stand, is to a contact: its onset, its end, or nothing.

@@ -10,7 +10,7 @@
 module step_nodes
    use interpolation, only: step_t
    use kinds, only: wp
-   use memory, only: get, put
+   use archive, only: archive_t
    implicit none (type, external)
    private
    public :: step_nodes_t
@@ -39,7 +39,6 @@ module step_nodes
       procedure :: place_for => nodes_place_for
       procedure :: note_row => nodes_note_row
       procedure :: interpolate => nodes_interpolate
-      procedure :: memory_size => nodes_memory_size
       procedure :: save => nodes_save
       procedure :: load => nodes_load
    end type step_nodes_t
@@ -175,48 +174,39 @@ contains
       found = [b*l*l, h*a*l*l, (2.0_wp*b*l*l_rate - 2.0_wp*d*l*l)/h, l*l + 2.0_wp*a*l*l_rate]
    end function factors
 
-   !> Numbers of a checkpoint.
-   pure integer function nodes_memory_size(self) result(n)
-      class(step_nodes_t), intent(in) :: self  !! the states, opened
-
-      n = 5 + most + 2*size(self%y)
-   end function nodes_memory_size
-
    !> Write them.
-   subroutine nodes_save(self, row, place)
-      class(step_nodes_t), intent(in) :: self  !! the states, opened
-      real(wp), intent(inout) :: row(:)        !! (any) checkpoint [any]
-      integer, intent(inout) :: place          !! last place used
+   subroutine nodes_save(self, archive)
+      class(step_nodes_t), intent(in) :: self    !! the states, opened
+      type(archive_t), intent(inout) :: archive  !! the checkpoint
 
       integer :: k
 
-      call put(row, place, self%are_of_use)
-      call put(row, place, [self%t0, self%h, self%s_row])
-      call put(row, place, self%n)
-      call put(row, place, self%s)
+      call archive%put(self%are_of_use)
+      call archive%put([self%t0, self%h, self%s_row])
+      call archive%put(self%n)
+      call archive%put(self%s)
       do k = 1, most
-         call put(row, place, self%y(:, k))
-         call put(row, place, self%f(:, k))
+         call archive%put(self%y(:, k))
+         call archive%put(self%f(:, k))
       end do
    end subroutine nodes_save
 
    !> Read them.
-   subroutine nodes_load(self, row, place)
+   subroutine nodes_load(self, archive)
       class(step_nodes_t), intent(inout) :: self  !! the states, opened
-      real(wp), intent(in) :: row(:)              !! (any) checkpoint [any]
-      integer, intent(inout) :: place             !! last place used
+      type(archive_t), intent(inout) :: archive   !! the checkpoint
 
       integer :: k
 
-      call get(row, place, self%are_of_use)
-      call get(row, place, self%t0)
-      call get(row, place, self%h)
-      call get(row, place, self%s_row)
-      call get(row, place, self%n)
-      call get(row, place, self%s)
+      call archive%get(self%are_of_use)
+      call archive%get(self%t0)
+      call archive%get(self%h)
+      call archive%get(self%s_row)
+      call archive%get(self%n)
+      call archive%get(self%s)
       do k = 1, most
-         call get(row, place, self%y(:, k))
-         call get(row, place, self%f(:, k))
+         call archive%get(self%y(:, k))
+         call archive%get(self%f(:, k))
       end do
    end subroutine nodes_load
 

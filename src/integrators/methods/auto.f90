@@ -14,7 +14,7 @@
 !> 2nd ed. (1996), section IV.2. Limits: fixed steps, and onsets of contacts that are not located, are those of `verner`
 !> throughout.
 module auto
-   use checkpoint, only: segment_t
+   use archive, only: archive_t
    use dop853, only: dop853_t
    use dop853_stages, only: dop853_bound, dop853_stages_t
    use integrator, only: advance_failed_evaluation, advance_no_memory, advance_step, advance_too_small
@@ -60,9 +60,7 @@ module auto
       procedure :: prepare_output => auto_prepare_output
       procedure :: within => auto_within
       procedure :: reach => auto_reach
-      procedure :: list_memory => auto_list_memory
       procedure, nopass :: memory_version => auto_memory_version
-      procedure :: memory_size => auto_memory_size
       procedure :: save => auto_save
       procedure :: load => auto_load
       procedure :: parts_in_words
@@ -148,38 +146,23 @@ module auto
    end interface
 
    interface
-      !> List what the integrator saves; how much, the choices of the run decide.
-      module subroutine auto_list_memory(self, segments)
-         implicit none (type, external)
-         class(auto_t), intent(in) :: self                       !! the integrator
-         type(segment_t), allocatable, intent(inout) :: segments(:)  !! (any) the list, grown
-      end subroutine auto_list_memory
-
       !> Version of the form of what is saved.
       pure integer module function auto_memory_version() result(version)
          implicit none (type, external)
       end function auto_memory_version
 
-      !> Numbers that a checkpoint needs.
-      integer module function auto_memory_size(self) result(n)
-         implicit none (type, external)
-         class(auto_t), intent(in) :: self  !! the integrator
-      end function auto_memory_size
-
       !> Write what the integrator remembers.
-      module subroutine auto_save(self, row, place)
+      module subroutine auto_save(self, archive)
          implicit none (type, external)
-         class(auto_t), intent(in) :: self  !! the integrator
-         real(wp), intent(inout) :: row(:)  !! (any) checkpoint [any]
-         integer, intent(inout) :: place    !! last place used
+         class(auto_t), intent(in) :: self          !! the integrator
+         type(archive_t), intent(inout) :: archive  !! the checkpoint
       end subroutine auto_save
 
       !> Read what the integrator remembers. The implicit part takes its own back when it is there.
-      module subroutine auto_load(self, row, place)
+      module subroutine auto_load(self, archive)
          implicit none (type, external)
-         class(auto_t), intent(inout) :: self  !! the integrator
-         real(wp), intent(in) :: row(:)        !! (any) checkpoint [any]
-         integer, intent(inout) :: place       !! last place used
+         class(auto_t), intent(inout) :: self       !! the integrator
+         type(archive_t), intent(inout) :: archive  !! the checkpoint
       end subroutine auto_load
 
       !> The implicit part takes back what a checkpoint holds of it.

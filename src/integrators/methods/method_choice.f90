@@ -15,14 +15,13 @@
 !> the same. Evaluations for output do not count.
 module method_choice
    use kinds, only: i8, wp
-   use memory, only: get, put
+   use archive, only: archive_t
    use method_trial, only: trial_t
    implicit none (type, external)
    private
-   public :: method_choice_t, most_changes, n_choice_number
+   public :: method_choice_t, most_changes
 
    integer, parameter :: most_changes = 8        !! changes that are reported with their time
-   integer, parameter :: n_choice_number = 17 + 2*most_changes  !! numbers of a checkpoint
    real(wp), parameter :: advantage(2) = [4.0_wp, 1.0_wp]  !! (to implicit, to explicit) evaluations of the present method over
                                                            !! those of the other one, from which on it is left [1]
    integer(i8), parameter :: first_regular = 6000_i8       !! evaluations after which the implicit method is tried in any case
@@ -163,52 +162,50 @@ contains
    end subroutine give_up
 
    !> Write it.
-   subroutine save_choice(self, row, place)
+   subroutine save_choice(self, archive)
       class(method_choice_t), intent(in) :: self  !! the choice
-      real(wp), intent(inout) :: row(:)           !! (any) checkpoint [any]
-      integer, intent(inout) :: place             !! last place used
+      type(archive_t), intent(inout) :: archive   !! the checkpoint
 
       integer(i8) :: counts(9)
       integer :: k
 
-      call put(row, place, self%is_implicit)
-      call put(row, place, self%is_at_event)
-      call put(row, place, self%is_comparing)
-      call put(row, place, [self%trial%t_begin, self%trial%t_end, self%trial%h, self%time, self%product_now])
+      call archive%put(self%is_implicit)
+      call archive%put(self%is_at_event)
+      call archive%put(self%is_comparing)
+      call archive%put([self%trial%t_begin, self%trial%t_end, self%trial%h, self%time, self%product_now])
       counts = [self%trial%n_evaluation, self%n_begin, self%n_trial, self%n_wait, self%n_regular, self%patience, self%n_tried, &
                 self%n_change, self%n_step]
       do k = 1, size(counts)
-         call put(row, place, counts(k))
+         call archive%put(counts(k))
       end do
-      call put(row, place, self%t_change)
-      call put(row, place, self%product)
+      call archive%put(self%t_change)
+      call archive%put(self%product)
    end subroutine save_choice
 
    !> Read it.
-   subroutine load_choice(self, row, place)
+   subroutine load_choice(self, archive)
       class(method_choice_t), intent(inout) :: self  !! the choice
-      real(wp), intent(in) :: row(:)                 !! (any) checkpoint [any]
-      integer, intent(inout) :: place                !! last place used
+      type(archive_t), intent(inout) :: archive      !! the checkpoint
 
-      call get(row, place, self%is_implicit)
-      call get(row, place, self%is_at_event)
-      call get(row, place, self%is_comparing)
-      call get(row, place, self%trial%t_begin)
-      call get(row, place, self%trial%t_end)
-      call get(row, place, self%trial%h)
-      call get(row, place, self%time)
-      call get(row, place, self%product_now)
-      call get(row, place, self%trial%n_evaluation)
-      call get(row, place, self%n_begin)
-      call get(row, place, self%n_trial)
-      call get(row, place, self%n_wait)
-      call get(row, place, self%n_regular)
-      call get(row, place, self%patience)
-      call get(row, place, self%n_tried)
-      call get(row, place, self%n_change)
-      call get(row, place, self%n_step)
-      call get(row, place, self%t_change)
-      call get(row, place, self%product)
+      call archive%get(self%is_implicit)
+      call archive%get(self%is_at_event)
+      call archive%get(self%is_comparing)
+      call archive%get(self%trial%t_begin)
+      call archive%get(self%trial%t_end)
+      call archive%get(self%trial%h)
+      call archive%get(self%time)
+      call archive%get(self%product_now)
+      call archive%get(self%trial%n_evaluation)
+      call archive%get(self%n_begin)
+      call archive%get(self%n_trial)
+      call archive%get(self%n_wait)
+      call archive%get(self%n_regular)
+      call archive%get(self%patience)
+      call archive%get(self%n_tried)
+      call archive%get(self%n_change)
+      call archive%get(self%n_step)
+      call archive%get(self%t_change)
+      call archive%get(self%product)
    end subroutine load_choice
 
 end module method_choice

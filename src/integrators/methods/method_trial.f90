@@ -2,6 +2,7 @@
 !>
 !> The system gets back what it remembers, and is left at the present state.
 module method_trial
+   use archive, only: archive_t
    use integrator, only: advance_step
    use integrator_controls, only: controls_t
    use kinds, only: i8, wp
@@ -35,12 +36,11 @@ contains
       integer, intent(in) :: n_step                 !! steps, at most
       type(trial_t), intent(out) :: trial           !! its outcome
 
-      integer :: k, place, status
-      real(wp), allocatable :: memory(:), rate(:)
+      integer :: k, status
+      type(archive_t) :: memory
+      real(wp) :: rate(system%n)
 
-      allocate (memory(system%memory_size()), rate(system%n))
-      place = 0
-      call system%save(memory, place)
+      call system%save(memory)
       other%controls = controls
       other%controls%maximum_steps = 0
       other%controls%maximum_evaluations = 0
@@ -51,8 +51,7 @@ contains
          call other%advance(system, t_stop, status)
       end do
       trial = trial_t(t, other%t, other%pace%h_next, other%count%n_evaluations + 1)
-      place = 0
-      call system%load(memory, place)
+      call system%load(memory)
       call system%evaluate(t, y, rate, status)
    end subroutine run_trial
 

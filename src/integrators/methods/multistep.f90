@@ -18,6 +18,7 @@
 !> Checkpoints: the history is not saved. A run that is loaded starts anew at order 1 at the saved
 !> state, so it agrees with the uninterrupted one to the tolerance, not to the last bit.
 module multistep
+   use archive, only: archive_t
    use event_location, only: find_first_event
    use integrator, only: advance_event, advance_failed_evaluation, advance_no_memory, advance_step, advance_too_many_evaluations, &
       advance_too_many_steps, advance_too_small, integrator_t, steps_variable
@@ -349,12 +350,11 @@ contains
    end subroutine multistep_refine
 
    !> Read what the integrator remembers: the library starts anew from there.
-   subroutine multistep_load(self, row, place)
+   subroutine multistep_load(self, archive)
       class(multistep_t), intent(inout) :: self  !! the integrator
-      real(wp), intent(in) :: row(:)             !! (any) checkpoint [any]
-      integer, intent(inout) :: place            !! last place used
+      type(archive_t), intent(inout) :: archive  !! the checkpoint
 
-      call self%load_base(row, place)
+      call self%load_base(archive)
       self%is_fresh = .true.
       self%first_step = 0.0_wp
       self%last%has_polynomial = .false.

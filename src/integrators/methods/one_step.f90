@@ -7,6 +7,7 @@
 !> the step, each time by the method itself or, for what little is left, by few stages, so that the event function is zero to
 !> round-off and the time of the event is as accurate as the step. Onsets of contacts may be met in other ways: `onset_control`.
 module one_step
+   use archive, only: archive_t
    use event_location, only: find_first_event
    use event_prediction, only: predict_event
    use exchange, only: swap
@@ -17,12 +18,12 @@ module one_step
    use kinds, only: eps, wp
    use ode_system, only: contact_end, ode_system_t
    use onset_control, only: begin_control, end_controlled_step, is_too_deep, meet_onsets
-   use step_control, only: n_control_number, step_control_t
-   use stability_limit, only: n_stability_number, stability_limit_t
+   use step_control, only: step_control_t
+   use stability_limit, only: stability_limit_t
    use diverged_stages, only: is_diverged
    implicit none (type, external)
    private
-   public :: one_step_advance, one_step_load, one_step_memory_size, one_step_refine, one_step_restart, one_step_save, one_step_t
+   public :: one_step_advance, one_step_load, one_step_refine, one_step_restart, one_step_save, one_step_t
 
    integer, parameter :: too_deep = 2             !! of a trial step: a contact that starts is beyond the limit
    real(wp), parameter :: near_event = 2.0_wp**(-10)  !! what is left of Newton's way to an event on the interpolant: beyond, its
@@ -44,7 +45,6 @@ module one_step
       procedure :: refine => one_step_refine
       procedure :: fastest_rate => one_step_fastest_rate
       procedure, nopass :: memory_version => one_step_memory_version
-      procedure :: memory_size => one_step_memory_size
       procedure :: save => one_step_save
       procedure :: load => one_step_load
       procedure, private :: make_part
@@ -368,33 +368,24 @@ contains
       version = 3
    end function one_step_memory_version
 
-   !> Numbers that a checkpoint needs.
-   integer function one_step_memory_size(self) result(n)
-      class(one_step_t), intent(in) :: self  !! the integrator
-
-      n = self%base_memory_size() + n_control_number + n_stability_number
-   end function one_step_memory_size
-
    !> Write what the integrator remembers.
-   subroutine one_step_save(self, row, place)
-      class(one_step_t), intent(in) :: self   !! the integrator
-      real(wp), intent(inout) :: row(:)       !! (any) checkpoint [any]
-      integer, intent(inout) :: place         !! last place used
+   subroutine one_step_save(self, archive)
+      class(one_step_t), intent(in) :: self      !! the integrator
+      type(archive_t), intent(inout) :: archive  !! the checkpoint
 
-      call self%save_base(row, place)
-      call self%pace%save(row, place)
-      call self%stability%save(row, place)
+      call self%save_base(archive)
+      call self%pace%save(archive)
+      call self%stability%save(archive)
    end subroutine one_step_save
 
    !> Read what the integrator remembers.
-   subroutine one_step_load(self, row, place)
+   subroutine one_step_load(self, archive)
       class(one_step_t), intent(inout) :: self  !! the integrator
-      real(wp), intent(in) :: row(:)            !! (any) checkpoint [any]
-      integer, intent(inout) :: place           !! last place used
+      type(archive_t), intent(inout) :: archive !! the checkpoint
 
-      call self%load_base(row, place)
-      call self%pace%load(row, place)
-      call self%stability%load(row, place)
+      call self%load_base(archive)
+      call self%pace%load(archive)
+      call self%stability%load(archive)
    end subroutine one_step_load
 
 end module one_step

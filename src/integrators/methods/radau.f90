@@ -29,6 +29,7 @@
 !> are more freedoms than `radau_matrix` takes, and more than some ten forces are stiff, each in its own way, GMRES needs as many
 !> directions, and `bdf` is cheaper.
 module radau
+   use archive, only: archive_t
    use anderson, only: anderson_t
    use integrator, only: advance_failed_evaluation, advance_no_memory, advance_step
    use interpolation, only: step_t
@@ -36,7 +37,7 @@ module radau
    use kinds, only: eps, wp
    use krylov_solver, only: krylov_solver_t
    use ode_system, only: ode_system_t
-   use one_step, only: one_step_advance, one_step_load, one_step_memory_size, one_step_restart, one_step_save, one_step_t
+   use one_step, only: one_step_advance, one_step_load, one_step_restart, one_step_save, one_step_t
    use radau_matrix, only: radau_matrix_t
    use radau_products, only: a, c, filter_product_t, stage_product_t
    use radau_stages, only: extrapolate, stages_t
@@ -89,13 +90,11 @@ module radau
       procedure :: prepare_output => radau_prepare_output
       procedure :: within => radau_within
       procedure :: reach => radau_reach
-      procedure :: memory_size => radau_memory_size
       procedure :: save => radau_save
       procedure :: load => radau_load
       ! for a method that has this one as a part, and the step in hand itself
       procedure :: open => radau_open
       procedure :: within_step => radau_within_step
-      procedure :: own_memory_size => radau_own_memory_size
       procedure :: save_own => radau_save_own
       procedure :: load_own => radau_load_own
    end type radau_t
@@ -192,48 +191,32 @@ module radau
    end interface
 
    interface
-      !> Numbers that a checkpoint needs.
-      integer module function radau_memory_size(self) result(n)
-         implicit none (type, external)
-         class(radau_t), intent(in) :: self  !! the integrator
-      end function radau_memory_size
-
       !> Write what the integrator remembers.
-      module subroutine radau_save(self, row, place)
+      module subroutine radau_save(self, archive)
          implicit none (type, external)
-         class(radau_t), intent(in) :: self  !! the integrator
-         real(wp), intent(inout) :: row(:)   !! (any) checkpoint [any]
-         integer, intent(inout) :: place     !! last place used
+         class(radau_t), intent(in) :: self         !! the integrator
+         type(archive_t), intent(inout) :: archive  !! the checkpoint
       end subroutine radau_save
 
       !> Read what the integrator remembers.
-      module subroutine radau_load(self, row, place)
+      module subroutine radau_load(self, archive)
          implicit none (type, external)
-         class(radau_t), intent(inout) :: self  !! the integrator
-         real(wp), intent(in) :: row(:)         !! (any) checkpoint [any]
-         integer, intent(inout) :: place        !! last place used
+         class(radau_t), intent(inout) :: self      !! the integrator
+         type(archive_t), intent(inout) :: archive  !! the checkpoint
       end subroutine radau_load
 
-      !> Numbers of the stages, the matrix and their lengths of steps.
-      pure integer module function radau_own_memory_size(self) result(n)
+      !> Write the stages, the matrix and their lengths of steps.
+      module subroutine radau_save_own(self, archive)
          implicit none (type, external)
-         class(radau_t), intent(in) :: self  !! the integrator, opened
-      end function radau_own_memory_size
-
-      !> Write them.
-      module subroutine radau_save_own(self, row, place)
-         implicit none (type, external)
-         class(radau_t), intent(in) :: self  !! the integrator, opened
-         real(wp), intent(inout) :: row(:)   !! (any) checkpoint [any]
-         integer, intent(inout) :: place     !! last place used
+         class(radau_t), intent(in) :: self         !! the integrator, opened
+         type(archive_t), intent(inout) :: archive  !! the checkpoint
       end subroutine radau_save_own
 
       !> Read them.
-      module subroutine radau_load_own(self, row, place)
+      module subroutine radau_load_own(self, archive)
          implicit none (type, external)
-         class(radau_t), intent(inout) :: self  !! the integrator, opened
-         real(wp), intent(in) :: row(:)         !! (any) checkpoint [any]
-         integer, intent(inout) :: place        !! last place used
+         class(radau_t), intent(inout) :: self      !! the integrator, opened
+         type(archive_t), intent(inout) :: archive  !! the checkpoint
       end subroutine radau_load_own
    end interface
 

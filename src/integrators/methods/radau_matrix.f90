@@ -19,7 +19,7 @@
 !> Limits: `most_columns` directions, `most_rates` rates; else `is_known` stays false.
 module radau_matrix
    use kinds, only: eps, wp
-   use memory, only: get, put
+   use archive, only: archive_t
    use ode_system, only: ode_system_t
    use radau_products, only: filter_product_t
    implicit none (type, external)
@@ -28,7 +28,6 @@ module radau_matrix
 
    integer, parameter :: most_columns = 24     !! directions of displacements, rates and other states
    integer, parameter :: most_rates = 60       !! rates, of which each takes two differences of the loads
-   integer, parameter :: n_number = 3          !! numbers of a checkpoint beside the matrices
    real(wp), parameter :: ahead = 1.0e-6_wp    !! of the time in which the state changes by its scales: difference of T [1]
 
    !> The matrix.
@@ -62,7 +61,6 @@ module radau_matrix
       procedure :: factorise
       procedure :: solve_stages
       procedure :: solve_filter
-      procedure :: memory_size
       procedure :: save => save_matrix
       procedure :: load => load_matrix
    end type radau_matrix_t
@@ -238,37 +236,28 @@ contains
       end do
    end subroutine find_across
 
-   !> Numbers that a checkpoint needs.
-   pure integer function memory_size(self) result(n)
-      class(radau_matrix_t), intent(in) :: self   !! the matrix
-
-      n = n_number + size(self%direction) + size(self%reading) + size(self%k) + size(self%across)
-   end function memory_size
-
    !> Write it; factors are made again.
-   subroutine save_matrix(self, row, place)
+   subroutine save_matrix(self, archive)
       class(radau_matrix_t), intent(in) :: self   !! the matrix
-      real(wp), intent(inout) :: row(:)           !! (any) checkpoint [any]
-      integer, intent(inout) :: place             !! last place used
+      type(archive_t), intent(inout) :: archive   !! the checkpoint
 
-      call put(row, place, self%is_known)
-      call put(row, place, self%n_free)
-      call put(row, place, self%n)
-      call put(row, place, reshape(self%direction, [size(self%direction)]))
-      call put(row, place, reshape(self%reading, [size(self%reading)]))
-      call put(row, place, reshape(self%k, [size(self%k)]))
-      call put(row, place, reshape(self%across, [size(self%across)]))
+      call archive%put(self%is_known)
+      call archive%put(self%n_free)
+      call archive%put(self%n)
+      call archive%put(reshape(self%direction, [size(self%direction)]))
+      call archive%put(reshape(self%reading, [size(self%reading)]))
+      call archive%put(reshape(self%k, [size(self%k)]))
+      call archive%put(reshape(self%across, [size(self%across)]))
    end subroutine save_matrix
 
    !> Read it.
-   subroutine load_matrix(self, row, place)
+   subroutine load_matrix(self, archive)
       class(radau_matrix_t), intent(inout) :: self   !! the matrix
-      real(wp), intent(in) :: row(:)                 !! (any) checkpoint [any]
-      integer, intent(inout) :: place                !! last place used
+      type(archive_t), intent(inout) :: archive      !! the checkpoint
 
-      call get(row, place, self%is_known)
-      call get(row, place, self%n_free)
-      call get(row, place, self%n)
+      call archive%get(self%is_known)
+      call archive%get(self%n_free)
+      call archive%get(self%n)
       call get_columns(self%direction)
       call get_columns(self%reading)
       call get_columns(self%k)
@@ -284,7 +273,7 @@ contains
          integer :: k
 
          do k = 1, size(matrix, 2)
-            call get(row, place, matrix(:, k))
+            call archive%get(matrix(:, k))
          end do
       end subroutine get_columns
 

@@ -24,9 +24,9 @@ module rock4
    use integrator_controls, only: norm_euclidean, onset_located
    use kind_info, only: kind_info_t
    use kinds, only: eps, wp
-   use memory, only: get, put
+   use archive, only: archive_t
    use ode_system, only: ode_system_t
-   use one_step, only: one_step_advance, one_step_load, one_step_memory_size, one_step_restart, one_step_save, &
+   use one_step, only: one_step_advance, one_step_load, one_step_restart, one_step_save, &
       one_step_t
    use quadrature_error, only: by_one_step, counts_quadratures, max_error
    use rock4_stages, only: end_coefficients, estimate_coefficients, find_recurrence, min_degree, longest_stretch, most_stages, &
@@ -63,7 +63,6 @@ module rock4
       procedure :: error_norm => rock4_error_norm
       procedure :: prepare_output => rock4_prepare_output
       procedure :: reach => rock4_reach
-      procedure :: memory_size => rock4_memory_size
       procedure :: save => rock4_save
       procedure :: load => rock4_load
    end type rock4_t
@@ -327,38 +326,29 @@ contains
       call self%state_at(system, t, y)
    end subroutine rock4_reach
 
-   !> Numbers that a checkpoint needs.
-   integer function rock4_memory_size(self) result(n)
-      class(rock4_t), intent(in) :: self  !! the integrator
-
-      n = one_step_memory_size(self) + 5 + size(self%direction)
-   end function rock4_memory_size
-
    !> Write what the integrator remembers.
-   subroutine rock4_save(self, row, place)
-      class(rock4_t), intent(in) :: self  !! the integrator
-      real(wp), intent(inout) :: row(:)   !! (any) checkpoint [any]
-      integer, intent(inout) :: place     !! last place used
+   subroutine rock4_save(self, archive)
+      class(rock4_t), intent(in) :: self         !! the integrator
+      type(archive_t), intent(inout) :: archive  !! the checkpoint
 
-      call one_step_save(self, row, place)
-      call put(row, place, [self%radius, self%t_radius, self%t_step, self%pace%h_most])
-      call put(row, place, self%age)
-      call put(row, place, self%direction)
+      call one_step_save(self, archive)
+      call archive%put([self%radius, self%t_radius, self%t_step, self%pace%h_most])
+      call archive%put(self%age)
+      call archive%put(self%direction)
    end subroutine rock4_save
 
    !> Read what the integrator remembers.
-   subroutine rock4_load(self, row, place)
-      class(rock4_t), intent(inout) :: self  !! the integrator
-      real(wp), intent(in) :: row(:)         !! (any) checkpoint [any]
-      integer, intent(inout) :: place        !! last place used
+   subroutine rock4_load(self, archive)
+      class(rock4_t), intent(inout) :: self      !! the integrator
+      type(archive_t), intent(inout) :: archive  !! the checkpoint
 
-      call one_step_load(self, row, place)
-      call get(row, place, self%radius)
-      call get(row, place, self%t_radius)
-      call get(row, place, self%t_step)
-      call get(row, place, self%pace%h_most)
-      call get(row, place, self%age)
-      call get(row, place, self%direction)
+      call one_step_load(self, archive)
+      call archive%get(self%radius)
+      call archive%get(self%t_radius)
+      call archive%get(self%t_step)
+      call archive%get(self%pace%h_most)
+      call archive%get(self%age)
+      call archive%get(self%direction)
    end subroutine rock4_load
 
 end module rock4

@@ -13,16 +13,15 @@
 !> Limits: an estimate from below where something slow makes up the difference.
 module stability_limit
    use kinds, only: i8, wp
-   use memory, only: get, put
+   use archive, only: archive_t
    implicit none (type, external)
    private
-   public :: n_stability_number, rate_between, stability_limit_t
+   public :: rate_between, stability_limit_t
 
    integer, parameter :: look_every = 8          !! steps from one look to the next, where nothing is near the bound
    integer, parameter :: enough = 25             !! looks near the bound that make the equations stiff
    integer, parameter :: calm = 6                !! looks in a row below, after which they are not
    integer, parameter :: most = 1000000          !! looks that are counted
-   integer, parameter :: n_stability_number = 10 !! numbers of a checkpoint
    real(wp), parameter :: near = 0.5_wp          !! of the bound [1]
 
    !> What was seen of an explicit method's steps.
@@ -114,39 +113,37 @@ contains
    end subroutine forget
 
    !> Write what was seen.
-   subroutine save_limit(self, row, place)
+   subroutine save_limit(self, archive)
       class(stability_limit_t), intent(in) :: self  !! what was seen
-      real(wp), intent(inout) :: row(:)       !! (any) checkpoint [any]
-      integer, intent(inout) :: place         !! last place used
+      type(archive_t), intent(inout) :: archive     !! the checkpoint
 
-      call put(row, place, self%is_watched)
-      call put(row, place, self%is_stiff)
-      call put(row, place, self%pause)
-      call put(row, place, self%n_near)
-      call put(row, place, self%n_below)
-      call put(row, place, self%t_from)
-      call put(row, place, self%product)
-      call put(row, place, self%n_step)
-      call put(row, place, self%time)
-      call put(row, place, self%t_first)
+      call archive%put(self%is_watched)
+      call archive%put(self%is_stiff)
+      call archive%put(self%pause)
+      call archive%put(self%n_near)
+      call archive%put(self%n_below)
+      call archive%put(self%t_from)
+      call archive%put(self%product)
+      call archive%put(self%n_step)
+      call archive%put(self%time)
+      call archive%put(self%t_first)
    end subroutine save_limit
 
    !> Read it.
-   subroutine load_limit(self, row, place)
+   subroutine load_limit(self, archive)
       class(stability_limit_t), intent(inout) :: self  !! what was seen
-      real(wp), intent(in) :: row(:)             !! (any) checkpoint [any]
-      integer, intent(inout) :: place            !! last place used
+      type(archive_t), intent(inout) :: archive        !! the checkpoint
 
-      call get(row, place, self%is_watched)
-      call get(row, place, self%is_stiff)
-      call get(row, place, self%pause)
-      call get(row, place, self%n_near)
-      call get(row, place, self%n_below)
-      call get(row, place, self%t_from)
-      call get(row, place, self%product)
-      call get(row, place, self%n_step)
-      call get(row, place, self%time)
-      call get(row, place, self%t_first)
+      call archive%get(self%is_watched)
+      call archive%get(self%is_stiff)
+      call archive%get(self%pause)
+      call archive%get(self%n_near)
+      call archive%get(self%n_below)
+      call archive%get(self%t_from)
+      call archive%get(self%product)
+      call archive%get(self%n_step)
+      call archive%get(self%time)
+      call archive%get(self%t_first)
    end subroutine load_limit
 
 end module stability_limit

@@ -27,11 +27,11 @@
 !> Limits: without an estimate (fixed steps) nothing here is called.
 module step_control
    use kinds, only: wp
-   use memory, only: get, put
+   use archive, only: archive_t
    use step_course, only: course_even, course_from_root, course_to_root
    implicit none (type, external)
    private
-   public :: n_control_number, step_control_t
+   public :: step_control_t
 
    real(wp), parameter :: safety = 0.93_wp     !! of the step that the estimate would allow [1]
    real(wp), parameter :: contact_rate = 0.25_wp      !! how far the step of before counts; of what that takes, three quarters [1]
@@ -46,7 +46,6 @@ module step_control
    real(wp), parameter :: ahead = 0.8_wp       !! last step of a contact that the one before leaves, of the longest that will do [1]
    real(wp), parameter :: longer = 2.0_wp      !! last step of a contact, of an even one there, at most [1]
    real(wp), parameter :: worth = 0.01_wp      !! minimum part of a step that it is shortened to for an event [1]
-   integer, parameter :: n_control_number = 11 !! numbers of a checkpoint
 
    !> The control.
    type :: step_control_t
@@ -208,35 +207,33 @@ contains
    end subroutine disturb
 
    !> Write what the control remembers.
-   subroutine save_control(self, row, place)
+   subroutine save_control(self, archive)
       class(step_control_t), intent(in) :: self  !! the control
-      real(wp), intent(inout) :: row(:)          !! (any) checkpoint [any]
-      integer, intent(inout) :: place            !! last place used
+      type(archive_t), intent(inout) :: archive  !! the checkpoint
 
-      call put(row, place, [self%h_next, self%h_before, self%h_event, self%h_across])
-      call put(row, place, [self%h_contact, self%first, self%last, self%log_before])
-      call put(row, place, self%is_fresh)
-      call put(row, place, self%is_onset)
-      call put(row, place, self%is_parting)
+      call archive%put([self%h_next, self%h_before, self%h_event, self%h_across])
+      call archive%put([self%h_contact, self%first, self%last, self%log_before])
+      call archive%put(self%is_fresh)
+      call archive%put(self%is_onset)
+      call archive%put(self%is_parting)
    end subroutine save_control
 
    !> Read what the control remembers.
-   subroutine load_control(self, row, place)
+   subroutine load_control(self, archive)
       class(step_control_t), intent(inout) :: self  !! the control
-      real(wp), intent(in) :: row(:)                !! (any) checkpoint [any]
-      integer, intent(inout) :: place               !! last place used
+      type(archive_t), intent(inout) :: archive     !! the checkpoint
 
-      call get(row, place, self%h_next)
-      call get(row, place, self%h_before)
-      call get(row, place, self%h_event)
-      call get(row, place, self%h_across)
-      call get(row, place, self%h_contact)
-      call get(row, place, self%first)
-      call get(row, place, self%last)
-      call get(row, place, self%log_before)
-      call get(row, place, self%is_fresh)
-      call get(row, place, self%is_onset)
-      call get(row, place, self%is_parting)
+      call archive%get(self%h_next)
+      call archive%get(self%h_before)
+      call archive%get(self%h_event)
+      call archive%get(self%h_across)
+      call archive%get(self%h_contact)
+      call archive%get(self%first)
+      call archive%get(self%last)
+      call archive%get(self%log_before)
+      call archive%get(self%is_fresh)
+      call archive%get(self%is_onset)
+      call archive%get(self%is_parting)
    end subroutine load_control
 
 end module step_control

@@ -1,15 +1,14 @@
 !> What a contact remembers between its onset and its end.
 module contact_memory
    use kinds, only: wp
-   use memory, only: get, put
+   use archive, only: archive_t
    implicit none (type, external)
    private
-   public :: approaches, contact_memory_t, n_contact_memory, parts, rests
+   public :: approaches, contact_memory_t, parts, rests
 
    integer, parameter :: approaches = 1        !! course: the penetration grows
    integer, parameter :: parts = -1            !! course: it falls
    integer, parameter :: rests = 0             !! course: a load between both forces keeps it from either
-   integer, parameter :: n_contact_memory = 16  !! numbers of a contact in a checkpoint
 
    !> What it went through besides its maximum values.
    type :: course_of_contact_t
@@ -42,43 +41,41 @@ module contact_memory
 contains
 
    !> Write it.
-   subroutine contact_save(self, row, place)
+   subroutine contact_save(self, archive)
       class(contact_memory_t), intent(in) :: self  !! the contact
-      real(wp), intent(inout) :: row(:)            !! (any) checkpoint [any]
-      integer, intent(inout) :: place              !! last place used
+      type(archive_t), intent(inout) :: archive    !! the checkpoint
 
-      call put(row, place, self%is_touching)
-      call put(row, place, [self%onset, self%impact_speed, self%peak_force, self%peak_penetration, self%loss_at_onset, &
+      call archive%put(self%is_touching)
+      call archive%put([self%onset, self%impact_speed, self%peak_force, self%peak_penetration, self%loss_at_onset, &
                             self%rest_speed, self%contact_rate, self%held, self%amends, self%went%force_at, &
                                  self%went%penetration_at, &
                             self%went%impulse])
-      call put(row, place, self%course)
-      call put(row, place, self%is_cut_off)
-      call put(row, place, self%is_dry)
+      call archive%put(self%course)
+      call archive%put(self%is_cut_off)
+      call archive%put(self%is_dry)
    end subroutine contact_save
 
    !> Read it.
-   subroutine contact_load(self, row, place)
+   subroutine contact_load(self, archive)
       class(contact_memory_t), intent(inout) :: self  !! the contact
-      real(wp), intent(in) :: row(:)                  !! (any) checkpoint [any]
-      integer, intent(inout) :: place                 !! last place used
+      type(archive_t), intent(inout) :: archive       !! the checkpoint
 
-      call get(row, place, self%is_touching)
-      call get(row, place, self%onset)
-      call get(row, place, self%impact_speed)
-      call get(row, place, self%peak_force)
-      call get(row, place, self%peak_penetration)
-      call get(row, place, self%loss_at_onset)
-      call get(row, place, self%rest_speed)
-      call get(row, place, self%contact_rate)
-      call get(row, place, self%held)
-      call get(row, place, self%amends)
-      call get(row, place, self%went%force_at)
-      call get(row, place, self%went%penetration_at)
-      call get(row, place, self%went%impulse)
-      call get(row, place, self%course)
-      call get(row, place, self%is_cut_off)
-      call get(row, place, self%is_dry)
+      call archive%get(self%is_touching)
+      call archive%get(self%onset)
+      call archive%get(self%impact_speed)
+      call archive%get(self%peak_force)
+      call archive%get(self%peak_penetration)
+      call archive%get(self%loss_at_onset)
+      call archive%get(self%rest_speed)
+      call archive%get(self%contact_rate)
+      call archive%get(self%held)
+      call archive%get(self%amends)
+      call archive%get(self%went%force_at)
+      call archive%get(self%went%penetration_at)
+      call archive%get(self%went%impulse)
+      call archive%get(self%course)
+      call archive%get(self%is_cut_off)
+      call archive%get(self%is_dry)
    end subroutine contact_load
 
 end module contact_memory

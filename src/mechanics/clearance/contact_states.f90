@@ -4,8 +4,9 @@
 !> A contact is free or touching; it changes only at located events, and only by the procedures below: the impact speed is stored
 !> at the onset, the maximum force and penetration as steps find them, and the end makes a row of the list of events.
 module contact_states
+   use archive, only: archive_t
    use contact_stick_slip, only: gives_way, stick_slip_t
-   use contact_memory, only: contact_memory_t, n_contact_memory
+   use contact_memory, only: contact_memory_t
    use kinds, only: i8, not_a_number, wp
    use recorder, only: event_t
    use states_of_contacts, only: state_contact, state_free, state_name
@@ -56,7 +57,6 @@ module contact_states
       procedure :: stick_with
       procedure :: place_bristles
       procedure :: bend_bristles
-      procedure :: memory_size => states_memory_size
       procedure :: save => states_save
       procedure :: load => states_load
    end type contact_states_t
@@ -360,41 +360,31 @@ contains
       self%stick_slip%z = reshape(state, shape(self%stick_slip%z)) - self%stick_slip%origin
    end subroutine bend_bristles
 
-   !> Numbers that the set must keep in a checkpoint.
-   integer function states_memory_size(self) result(n)
-      class(contact_states_t), intent(in) :: self  !! the set
-
-      n = n_contact_memory*self%n_contact
-      n = n + self%stick_slip%memory_size()
-   end function states_memory_size
-
    !> Write what the set remembers.
-   subroutine states_save(self, row, place)
+   subroutine states_save(self, archive)
       class(contact_states_t), intent(in) :: self  !! the set
-      real(wp), intent(inout) :: row(:)            !! (any) checkpoint [any]
-      integer, intent(inout) :: place              !! last place used
+      type(archive_t), intent(inout) :: archive    !! the checkpoint
 
       integer :: k
 
       do k = 1, self%n_contact
-         call self%contact(k)%save(row, place)
+         call self%contact(k)%save(archive)
       end do
-      call self%stick_slip%save(row, place)
+      call self%stick_slip%save(archive)
    end subroutine states_save
 
    !> Read what the set remembers.
-   subroutine states_load(self, row, place)
+   subroutine states_load(self, archive)
       class(contact_states_t), intent(inout) :: self  !! the set
-      real(wp), intent(in) :: row(:)                  !! (any) checkpoint [any]
-      integer, intent(inout) :: place                 !! last place used
+      type(archive_t), intent(inout) :: archive       !! the checkpoint
 
       integer :: k
 
       do k = 1, self%n_contact
-         call self%contact(k)%load(row, place)
+         call self%contact(k)%load(archive)
       end do
       self%n_touching = count(self%contact%is_touching)
-      call self%stick_slip%load(row, place)
+      call self%stick_slip%load(archive)
    end subroutine states_load
 
 end module contact_states

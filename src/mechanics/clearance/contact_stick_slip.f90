@@ -19,7 +19,7 @@
 module contact_stick_slip
    use friction_law, only: friction_law_t, memory_bristle, memory_none, memory_slip
    use kinds, only: wp
-   use memory, only: get, put
+   use archive, only: archive_t
    use motion, only: cross
    implicit none (type, external)
    private
@@ -60,7 +60,6 @@ module contact_stick_slip
       real(wp), allocatable :: z_rate(:, :)          !! (n_component, contacts) their rates [m/s]
       type(tangent_t), allocatable :: tangent(:)     !! (contacts) of the last evaluation
    contains
-      procedure :: memory_size => stick_slip_memory_size
       procedure :: forget
       procedure :: adopt
       procedure :: save => stick_slip_save
@@ -171,54 +170,41 @@ contains
       end associate
    end subroutine bend
 
-   !> Numbers that the stick-slip state keeps in a checkpoint.
-   pure integer function stick_slip_memory_size(self) result(n)
-      class(stick_slip_t), intent(in) :: self   !! the stick-slip state
-
-      n = 0
-      if (self%memory == memory_none) return
-      n = 4 + self%n_component
-      if (self%n_tangent > 1) n = n + 4
-      n = n*size(self%slip)
-   end function stick_slip_memory_size
-
    !> Write what the stick-slip state remembers.
-   subroutine stick_slip_save(self, row, place)
+   subroutine stick_slip_save(self, archive)
       class(stick_slip_t), intent(in) :: self   !! the stick-slip state
-      real(wp), intent(inout) :: row(:)   !! (any) checkpoint [any]
-      integer, intent(inout) :: place     !! last place used
+      type(archive_t), intent(inout) :: archive !! the checkpoint
 
       integer :: k
 
       if (self%memory == memory_none) return
       do k = 1, size(self%slip)
-         call put(row, place, self%slip(k))
-         call put(row, place, [self%band(k), self%since(k), self%shared_from(k), self%origin(:, k)])
-         if (self%n_tangent > 1) call put(row, place, [self%still(k), self%tangent(k)%way])
+         call archive%put(self%slip(k))
+         call archive%put([self%band(k), self%since(k), self%shared_from(k), self%origin(:, k)])
+         if (self%n_tangent > 1) call archive%put([self%still(k), self%tangent(k)%way])
       end do
    end subroutine stick_slip_save
 
    !> Read what the stick-slip state remembers.
-   subroutine stick_slip_load(self, row, place)
+   subroutine stick_slip_load(self, archive)
       class(stick_slip_t), intent(inout) :: self   !! the stick-slip state
-      real(wp), intent(in) :: row(:)         !! (any) checkpoint [any]
-      integer, intent(inout) :: place        !! last place used
+      type(archive_t), intent(inout) :: archive    !! the checkpoint
 
       integer :: i, k
 
       if (self%memory == memory_none) return
       do k = 1, size(self%slip)
-         call get(row, place, self%slip(k))
-         call get(row, place, self%band(k))
-         call get(row, place, self%since(k))
-         call get(row, place, self%shared_from(k))
+         call archive%get(self%slip(k))
+         call archive%get(self%band(k))
+         call archive%get(self%since(k))
+         call archive%get(self%shared_from(k))
          do i = 1, self%n_component
-            call get(row, place, self%origin(i, k))
+            call archive%get(self%origin(i, k))
          end do
          if (self%n_tangent == 1) cycle
-         call get(row, place, self%still(k))
+         call archive%get(self%still(k))
          do i = 1, 3
-            call get(row, place, self%tangent(k)%way(i))
+            call archive%get(self%tangent(k)%way(i))
          end do
       end do
    end subroutine stick_slip_load

@@ -16,6 +16,7 @@
 !> numbers reports the plane from space here. Source: Flores et al. (2008), eqs. (2.14)-(2.18), (2.34). Limits: rows that contradict
 !> one another have no solution; what is left over of them decides whether that is an error.
 module augmented
+   use archive, only: archive_t
    use body_kernels, only: body_accelerations, row_residuals
    use rows, only: rows_t
    use kind_info, only: kind_info_t
@@ -44,7 +45,6 @@ module augmented
       procedure :: name => augmented_name
       procedure :: set_penalty => augmented_set_penalty
       procedure :: set_min_pivot => augmented_set_min_pivot
-      procedure :: memory_size => augmented_memory_size
       procedure :: save => augmented_save
       procedure :: load => augmented_load
    end type augmented_t
@@ -150,25 +150,16 @@ contains
       real(wp), intent(in) :: minimum               !! the minimum pivot [1]
    end subroutine augmented_set_min_pivot
 
-   !> Numbers that a checkpoint needs: none, unless a solution leaves something behind that the next one uses.
-   integer function augmented_memory_size(self) result(n)
-      class(augmented_t), intent(in) :: self  !! the solver
-
-      n = 0
-   end function augmented_memory_size
-
    !> Write what the solver remembers.
-   subroutine augmented_save(self, row, place)
-      class(augmented_t), intent(in) :: self  !! the solver
-      real(wp), intent(inout) :: row(:)       !! (any) checkpoint [any]
-      integer, intent(inout) :: place         !! last place used
+   subroutine augmented_save(self, archive)
+      class(augmented_t), intent(in) :: self     !! the solver
+      type(archive_t), intent(inout) :: archive  !! the checkpoint
    end subroutine augmented_save
 
    !> Read what the solver remembers.
-   subroutine augmented_load(self, row, place)
+   subroutine augmented_load(self, archive)
       class(augmented_t), intent(inout) :: self  !! the solver
-      real(wp), intent(in) :: row(:)             !! (any) checkpoint [any]
-      integer, intent(inout) :: place            !! last place used
+      type(archive_t), intent(inout) :: archive  !! the checkpoint
    end subroutine augmented_load
 
    !> Accelerations and multipliers where rows may depend on one another.

@@ -10,7 +10,7 @@ module augmented_sparse
    use kind_info, only: kind_info_t
    use kinds, only: wp
    use klu, only: sparse_lu_t
-   use memory, only: get, put
+   use archive, only: archive_t
    use matrix_kernels_planar, only: planar_lower => lower_sides, planar_scaled => scaled_loads, planar_unscaled => unscaled, &
                                     planar_upper => upper_sides
    use matrix_kernels_spatial, only: spatial_lower => lower_sides, spatial_scaled => scaled_loads, spatial_unscaled => unscaled, &
@@ -35,7 +35,6 @@ module augmented_sparse
       procedure :: solve => sparse_solve
       procedure :: factorise => sparse_factorise
       procedure :: back_solve => sparse_back_solve
-      procedure :: memory_size => sparse_memory_size
       procedure :: save => sparse_save
       procedure :: load => sparse_load
    end type augmented_sparse_t
@@ -201,37 +200,28 @@ contains
       end do
    end subroutine sparse_back_solve
 
-   !> Numbers that a checkpoint needs: whether there are factors, the matrix that their pivots were chosen for, and the last one.
-   integer function sparse_memory_size(self) result(n)
-      class(augmented_sparse_t), intent(in) :: self  !! the solver
-
-      n = 1 + 2*size(self%matrix%a)
-   end function sparse_memory_size
-
    !> Write what the solver remembers.
-   subroutine sparse_save(self, row, place)
+   subroutine sparse_save(self, archive)
       class(augmented_sparse_t), intent(in) :: self  !! the solver
-      real(wp), intent(inout) :: row(:)              !! (any) checkpoint [any]
-      integer, intent(inout) :: place                !! last place used
+      type(archive_t), intent(inout) :: archive      !! the checkpoint
 
-      call put(row, place, self%matrix%has_factors())
-      call put(row, place, self%matrix%chosen_for)
-      call put(row, place, self%matrix%a)
+      call archive%put(self%matrix%has_factors())
+      call archive%put(self%matrix%chosen_for)
+      call archive%put(self%matrix%a)
    end subroutine sparse_save
 
    !> Read what the solver remembers: the same pivots, the same factors.
-   subroutine sparse_load(self, row, place)
+   subroutine sparse_load(self, archive)
       class(augmented_sparse_t), intent(inout) :: self  !! the solver
-      real(wp), intent(in) :: row(:)                    !! (any) checkpoint [any]
-      integer, intent(inout) :: place                   !! last place used
+      type(archive_t), intent(inout) :: archive         !! the checkpoint
 
       real(wp) :: last(size(self%matrix%a))
       integer :: bad
       logical :: has_factors
 
-      call get(row, place, has_factors)
-      call get(row, place, self%matrix%a)
-      call get(row, place, last)
+      call archive%get(has_factors)
+      call archive%get(self%matrix%a)
+      call archive%get(last)
       call self%matrix%forget()
       if (.not. has_factors) return
       call self%matrix%factorise(bad)

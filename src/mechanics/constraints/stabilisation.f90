@@ -4,6 +4,7 @@
 !> correct the state at the end of a step. What a correction does to the energy is work of the stabilisation in the ledger.
 !> Source: Flores et al. (2008), section 2.5.
 module stabilisation
+   use archive, only: archive_t
    use item, only: option_t
    use kind_info, only: kind_info_t
    use kinds, only: wp
@@ -27,7 +28,6 @@ module stabilisation
       procedure :: correct_step => stabilisation_correct
       procedure, nopass :: memory_version => stabilisation_memory_version
       procedure, nopass :: is_memory_fixed => stabilisation_is_memory_fixed
-      procedure :: memory_size => stabilisation_memory_size
       procedure :: save => stabilisation_save
       procedure :: load => stabilisation_load
    end type stabilisation_t
@@ -112,25 +112,16 @@ contains
       is_fixed = .true.
    end function stabilisation_is_memory_fixed
 
-   !> Numbers that a checkpoint needs: none, unless the way says otherwise.
-   integer function stabilisation_memory_size(self) result(n)
-      class(stabilisation_t), intent(in) :: self  !! the way
-
-      n = merge(0, 0, self%at_steps)
-   end function stabilisation_memory_size
-
    !> Write what the way remembers.
-   subroutine stabilisation_save(self, row, place)
+   subroutine stabilisation_save(self, archive)
       class(stabilisation_t), intent(in) :: self     !! the way
-      real(wp), intent(inout) :: row(:)     !! (any) checkpoint [any]
-      integer, intent(inout) :: place       !! last place used
+      type(archive_t), intent(inout) :: archive      !! the checkpoint
    end subroutine stabilisation_save
 
    !> Read what the way remembers.
-   subroutine stabilisation_load(self, row, place)
+   subroutine stabilisation_load(self, archive)
       class(stabilisation_t), intent(inout) :: self  !! the way
-      real(wp), intent(in) :: row(:)        !! (any) checkpoint [any]
-      integer, intent(inout) :: place       !! last place used
+      type(archive_t), intent(inout) :: archive      !! the checkpoint
    end subroutine stabilisation_load
 
 end module stabilisation

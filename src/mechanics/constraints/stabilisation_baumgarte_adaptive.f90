@@ -18,7 +18,7 @@ module stabilisation_baumgarte_adaptive
    use item, only: option_t
    use kind_info, only: add_number, dim_none, kind_info_t
    use kinds, only: wp
-   use memory, only: get, put
+   use archive, only: archive_t
    use linkage, only: linkage_t
    use text, only: to_text
    implicit none (type, external)
@@ -38,7 +38,6 @@ module stabilisation_baumgarte_adaptive
       procedure :: words => adaptive_words
       procedure :: configure => adaptive_configure
       procedure :: begin_step => adaptive_begin_step
-      procedure :: memory_size => adaptive_memory_size
       procedure :: save => adaptive_save
       procedure :: load => adaptive_load
    end type stabilisation_baumgarte_adaptive_t
@@ -99,29 +98,20 @@ contains
       call linkage%solution%set_gains(self%alpha, self%alpha)
    end subroutine adaptive_begin_step
 
-   !> Numbers that a checkpoint needs: the gain.
-   integer function adaptive_memory_size(self) result(n)
-      class(stabilisation_baumgarte_adaptive_t), intent(in) :: self  !! the way
-
-      n = merge(1, 1, self%alpha > 0.0_wp)
-   end function adaptive_memory_size
-
    !> Write what the way remembers.
-   subroutine adaptive_save(self, row, place)
+   subroutine adaptive_save(self, archive)
       class(stabilisation_baumgarte_adaptive_t), intent(in) :: self  !! the way
-      real(wp), intent(inout) :: row(:)                     !! (any) checkpoint [any]
-      integer, intent(inout) :: place                       !! last place used
+      type(archive_t), intent(inout) :: archive                      !! the checkpoint
 
-      call put(row, place, self%alpha)
+      call archive%put(self%alpha)
    end subroutine adaptive_save
 
    !> Read what the way remembers.
-   subroutine adaptive_load(self, row, place)
+   subroutine adaptive_load(self, archive)
       class(stabilisation_baumgarte_adaptive_t), intent(inout) :: self  !! the way
-      real(wp), intent(in) :: row(:)                           !! (any) checkpoint [any]
-      integer, intent(inout) :: place                          !! last place used
+      type(archive_t), intent(inout) :: archive                         !! the checkpoint
 
-      call get(row, place, self%alpha)
+      call archive%get(self%alpha)
    end subroutine adaptive_load
 
 end module stabilisation_baumgarte_adaptive

@@ -17,7 +17,7 @@ module stabilisation_partitioning
    use kind_info, only: kind_info_t
    use kinds, only: wp
    use lapack, only: dgels, dgeqp3, dgeqrf
-   use memory, only: get, put
+   use archive, only: archive_t
    use rows, only: before_side, body_of_side, row_of_side
    use linkage, only: linkage_t
    implicit none (type, external)
@@ -45,7 +45,6 @@ module stabilisation_partitioning
       procedure :: correct_stage => partitioning_correct
       procedure :: correct_step => partitioning_correct_step
       procedure, nopass :: is_memory_fixed => partitioning_is_memory_fixed
-      procedure :: memory_size => partitioning_memory_size
       procedure :: save => partitioning_save
       procedure :: load => partitioning_load
    end type stabilisation_partitioning_t
@@ -230,46 +229,36 @@ contains
       is_fixed = .false.
    end function partitioning_is_memory_fixed
 
-   !> Numbers that a checkpoint needs: rank, quality and order, once there are any.
-   integer function partitioning_memory_size(self) result(n)
-      class(stabilisation_partitioning_t), intent(in) :: self  !! the way
-
-      n = 3
-      if (allocated(self%order)) n = n + size(self%order)
-   end function partitioning_memory_size
-
    !> Write what the way remembers.
-   subroutine partitioning_save(self, row, place)
+   subroutine partitioning_save(self, archive)
       class(stabilisation_partitioning_t), intent(in) :: self  !! the way
-      real(wp), intent(inout) :: row(:)               !! (any) checkpoint [any]
-      integer, intent(inout) :: place                 !! last place used
+      type(archive_t), intent(inout) :: archive                !! the checkpoint
 
       integer :: n
 
       n = 0
       if (allocated(self%order)) n = size(self%order)   ! nothing is sorted where there are no rows
-      call put(row, place, real(self%rank, wp))
-      call put(row, place, self%quality)
-      call put(row, place, real(n, wp))
-      if (n > 0) call put(row, place, real(self%order, wp))
+      call archive%put(real(self%rank, wp))
+      call archive%put(self%quality)
+      call archive%put(real(n, wp))
+      if (n > 0) call archive%put(real(self%order, wp))
    end subroutine partitioning_save
 
    !> Read what the way remembers.
-   subroutine partitioning_load(self, row, place)
+   subroutine partitioning_load(self, archive)
       class(stabilisation_partitioning_t), intent(inout) :: self  !! the way
-      real(wp), intent(in) :: row(:)                     !! (any) checkpoint [any]
-      integer, intent(inout) :: place                    !! last place used
+      type(archive_t), intent(inout) :: archive                   !! the checkpoint
 
       real(wp), allocatable :: order(:)
       real(wp) :: n, rank
 
-      call get(row, place, rank)
-      call get(row, place, self%quality)
-      call get(row, place, n)
+      call archive%get(rank)
+      call archive%get(self%quality)
+      call archive%get(n)
       self%rank = nint(rank)
       if (nint(n) == 0) return
       allocate (order(nint(n)))
-      call get(row, place, order)
+      call archive%get(order)
       self%order = nint(order)
    end subroutine partitioning_load
 

@@ -3,6 +3,7 @@
 !> Signs: a load is what acts on the body named in the row, world frame. The power that all its loads give to the
 !> bodies is `power` of `evaluate`, less `lost_power`, less the rate of `elastic_energy`.
 module force_set
+   use archive, only: archive_t
    use bodies, only: points_t
    use item, only: item_t
    use kind_info, only: kind_info_t
@@ -30,7 +31,6 @@ module force_set
       procedure :: lost_power => force_lost_power
       procedure :: load_on => force_load_on
       procedure, nopass :: memory_version => force_memory_version
-      procedure :: memory_size => force_memory_size
       procedure :: save => force_save
       procedure :: load => force_load
    end type force_set_t
@@ -150,25 +150,16 @@ contains
       version = 1
    end function force_memory_version
 
-   !> Numbers that the set must keep in a checkpoint: none, unless the kind says otherwise.
-   integer function force_memory_size(self) result(n)
-      class(force_set_t), intent(in) :: self  !! the set
-
-      n = 0*self%n
-   end function force_memory_size
-
    !> Write what the set remembers.
-   subroutine force_save(self, row, place)
-      class(force_set_t), intent(in) :: self  !! the set
-      real(wp), intent(inout) :: row(:)       !! (any) checkpoint [any]
-      integer, intent(inout) :: place         !! last place used
+   subroutine force_save(self, archive)
+      class(force_set_t), intent(in) :: self     !! the set
+      type(archive_t), intent(inout) :: archive  !! the checkpoint
    end subroutine force_save
 
    !> Read what the set remembers.
-   subroutine force_load(self, row, place)
+   subroutine force_load(self, archive)
       class(force_set_t), intent(inout) :: self  !! the set
-      real(wp), intent(in) :: row(:)             !! (any) checkpoint [any]
-      integer, intent(inout) :: place            !! last place used
+      type(archive_t), intent(inout) :: archive  !! the checkpoint
    end subroutine force_load
 
 end module force_set

@@ -16,7 +16,7 @@ module spatial_torsion_spring
    use joint_frames, only: add_zero_columns, find_frames, from_start
    use kind_info, only: add_channel, add_direction, add_reference, in_space, kind_info_t
    use kinds, only: pi, wp
-   use memory, only: get, put
+   use archive, only: archive_t
    use motion, only: loads_t, motion_t
    use spatial_rows, only: angle_between, axis_of, scalar_t, wrapped
    use spring_law, only: add_turning_law, spring_law_t
@@ -56,7 +56,6 @@ module spatial_torsion_spring
       procedure :: report => torsion_report
       procedure :: bodies_of => torsion_bodies
       procedure, nopass :: memory_version => torsion_memory_version
-      procedure :: memory_size => torsion_memory_size
       procedure :: save => torsion_save
       procedure :: load => torsion_load
    end type spatial_torsion_spring_t
@@ -292,38 +291,29 @@ contains
       version = 2
    end function torsion_memory_version
 
-   !> Numbers that the set must keep in a checkpoint: the angles, and how far the axes were apart.
-   integer function torsion_memory_size(self) result(n)
-      class(spatial_torsion_spring_t), intent(in) :: self  !! the set
-
-      n = 2*self%n
-   end function torsion_memory_size
-
    !> Write what the set remembers.
-   subroutine torsion_save(self, row, place)
+   subroutine torsion_save(self, archive)
       class(spatial_torsion_spring_t), intent(in) :: self  !! the set
-      real(wp), intent(inout) :: row(:)                    !! (any) checkpoint [any]
-      integer, intent(inout) :: place                      !! last place used
+      type(archive_t), intent(inout) :: archive            !! the checkpoint
 
       integer :: k
 
       do k = 1, self%n
-         call put(row, place, self%near(k))
-         call put(row, place, self%cosine(k))
+         call archive%put(self%near(k))
+         call archive%put(self%cosine(k))
       end do
    end subroutine torsion_save
 
    !> Read what the set remembers.
-   subroutine torsion_load(self, row, place)
+   subroutine torsion_load(self, archive)
       class(spatial_torsion_spring_t), intent(inout) :: self  !! the set
-      real(wp), intent(in) :: row(:)                          !! (any) checkpoint [any]
-      integer, intent(inout) :: place                         !! last place used
+      type(archive_t), intent(inout) :: archive               !! the checkpoint
 
       integer :: k
 
       do k = 1, self%n
-         call get(row, place, self%near(k))
-         call get(row, place, self%cosine(k))
+         call archive%get(self%near(k))
+         call archive%get(self%cosine(k))
       end do
    end subroutine torsion_load
 

@@ -3,7 +3,7 @@
 !> Signs, frames: `spatial_joint`. Source: from the definition. Limits: less than half a turn in a step.
 module counted_joint
    use kinds, only: wp
-   use memory, only: get, put
+   use archive, only: archive_t
    use motion, only: motion_t
    use spatial_joint, only: spatial_joint_t
    use spatial_rows, only: scalar_t
@@ -19,7 +19,6 @@ module counted_joint
    contains
       procedure(angles_interface), deferred :: find_angles
       procedure :: follow => counted_follow
-      procedure :: memory_size => counted_memory_size
       procedure :: save => counted_save
       procedure :: load => counted_load
    end type counted_joint_t
@@ -52,37 +51,28 @@ contains
       end do
    end subroutine counted_follow
 
-   !> The angles of all items.
-   integer function counted_memory_size(self) result(n)
-      class(counted_joint_t), intent(in) :: self  !! the set
-
-      n = size(self%angle)
-   end function counted_memory_size
-
    !> Write the angles.
-   subroutine counted_save(self, row, place)
+   subroutine counted_save(self, archive)
       class(counted_joint_t), intent(in) :: self  !! the set
-      real(wp), intent(inout) :: row(:)           !! (any) checkpoint [any]
-      integer, intent(inout) :: place             !! last place used
+      type(archive_t), intent(inout) :: archive   !! the checkpoint
 
       integer :: k
 
       do k = 1, self%n
-         call put(row, place, self%angle(:, k))
+         call archive%put(self%angle(:, k))
       end do
    end subroutine counted_save
 
    !> Read the angles.
-   subroutine counted_load(self, row, place)
+   subroutine counted_load(self, archive)
       class(counted_joint_t), intent(inout) :: self  !! the set
-      real(wp), intent(in) :: row(:)                 !! (any) checkpoint [any]
-      integer, intent(inout) :: place                !! last place used
+      type(archive_t), intent(inout) :: archive      !! the checkpoint
 
       integer :: a, k
 
       do k = 1, self%n
          do a = 1, size(self%angle, 1)
-            call get(row, place, self%angle(a, k))
+            call archive%get(self%angle(a, k))
          end do
       end do
    end subroutine counted_load

@@ -8,6 +8,7 @@
 !> A planar row has six columns: x_i, y_i, angle_i, x_j, y_j, angle_j; one in space twelve: the velocity of i and its angular
 !> velocity in the frame of its body, then those of j (`spatial_rows`).
 module joint_set
+   use archive, only: archive_t
    use coordinates, only: coordinates_t
    use item, only: item_t
    use joint_friction, only: joint_friction_t
@@ -69,7 +70,6 @@ module joint_set
       procedure :: prescription => joint_prescription
       procedure :: time_of_turns => joint_time_of_turns
       procedure :: time_before => joint_time_before
-      procedure :: memory_size => joint_memory_size
       procedure :: save => joint_save
       procedure :: load => joint_load
    end type joint_set_t
@@ -332,25 +332,16 @@ contains
       if (turns <= 0.0_wp .and. k <= self%n) t = t_end
    end function joint_time_before
 
-   !> Numbers that the set must keep in a checkpoint: none, unless the kind says otherwise.
-   integer function joint_memory_size(self) result(n)
-      class(joint_set_t), intent(in) :: self  !! the set
-
-      n = 0*self%n
-   end function joint_memory_size
-
    !> Write what the set remembers.
-   subroutine joint_save(self, row, place)
-      class(joint_set_t), intent(in) :: self  !! the set
-      real(wp), intent(inout) :: row(:)       !! (any) checkpoint [any]
-      integer, intent(inout) :: place         !! last place used
+   subroutine joint_save(self, archive)
+      class(joint_set_t), intent(in) :: self     !! the set
+      type(archive_t), intent(inout) :: archive  !! the checkpoint
    end subroutine joint_save
 
    !> Read what the set remembers.
-   subroutine joint_load(self, row, place)
+   subroutine joint_load(self, archive)
       class(joint_set_t), intent(inout) :: self  !! the set
-      real(wp), intent(in) :: row(:)             !! (any) checkpoint [any]
-      integer, intent(inout) :: place            !! last place used
+      type(archive_t), intent(inout) :: archive  !! the checkpoint
    end subroutine joint_load
 
 end module joint_set

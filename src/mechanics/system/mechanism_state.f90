@@ -7,7 +7,7 @@
 !> Here are the places in it, what is small beside it (error scales, the characteristic rate, round-off of event functions), small
 !> changes of it, where its residual has entries, and what of it a checkpoint keeps.
 module mechanism_state
-   use checkpoint, only: segment_t
+   use archive, only: archive_t
    use dae_system, only: dae_system_t
    use stabilisation, only: stabilisation_t
    use kinds, only: i8, wp
@@ -43,8 +43,7 @@ module mechanism_state
       procedure :: bristle_place => mechanism_bristle_place, rubbing_place => mechanism_rubbing_place
       procedure :: bristle_weights => mechanism_bristle_weights
       procedure :: dae_pattern => mechanism_dae_pattern, dae_spread => mechanism_dae_spread
-      procedure :: list_memory => mechanism_list_memory
-      procedure :: memory_size => mechanism_memory_size, save => mechanism_save, load => mechanism_load
+      procedure :: save => mechanism_save, load => mechanism_load
    end type mechanism_state_t
 
    interface
@@ -185,33 +184,18 @@ module mechanism_state
          real(wp), intent(out) :: values(:)            !! (n_v for each side of an unknown body) in the order of the pattern [any]
       end subroutine mechanism_dae_spread
 
-      !> List what the system saves, in the order in which it does.
-      module subroutine mechanism_list_memory(self, segments)
-         implicit none (type, external)
-         class(mechanism_state_t), intent(in) :: self            !! the system
-         type(segment_t), allocatable, intent(inout) :: segments(:)  !! (any) the list, grown
-      end subroutine mechanism_list_memory
-
-      !> Numbers that a checkpoint needs: those of all its pieces.
-      module integer function mechanism_memory_size(self) result(n)
-         implicit none (type, external)
-         class(mechanism_state_t), intent(in) :: self  !! the system
-      end function mechanism_memory_size
-
       !> Write what the system remembers.
-      module subroutine mechanism_save(self, row, place)
+      module subroutine mechanism_save(self, archive)
          implicit none (type, external)
          class(mechanism_state_t), intent(in) :: self  !! the system
-         real(wp), intent(inout) :: row(:)             !! (any) checkpoint [any]
-         integer, intent(inout) :: place               !! last place used
+         type(archive_t), intent(inout) :: archive     !! the checkpoint
       end subroutine mechanism_save
 
       !> Read what the system remembers.
-      module subroutine mechanism_load(self, row, place)
+      module subroutine mechanism_load(self, archive)
          implicit none (type, external)
          class(mechanism_state_t), intent(inout) :: self  !! the system
-         real(wp), intent(in) :: row(:)                   !! (any) checkpoint [any]
-         integer, intent(inout) :: place                  !! last place used
+         type(archive_t), intent(inout) :: archive        !! the checkpoint
       end subroutine mechanism_load
 
    end interface

@@ -55,7 +55,7 @@ contains
          end do
          sizes = [sizes, saved%parts(p)%segments%size]
          versions = [versions, saved%parts(p)%segments%version]
-         row = [row, saved%parts(p)%row]
+         row = [row, saved%parts(p)%row(:saved%parts(p)%n)]
       end do
       call real_dataset(file, "time", [1], [saved%t], "s", "time of the motion", status)
       call text_dataset(file, "belongs_to", whose(plan), .false., "program, options, deck with included files, deck with "// &
@@ -142,7 +142,7 @@ contains
 
       type(text_t), allocatable :: names(:)
       real(wp), allocatable :: many(:), row(:), sizes(:), time(:), versions(:)
-      integer :: at, k, n, p, place
+      integer :: at, k, p, place
 
       call read_texts(file, "parts/names", names, status)
       call read_reals(file, "parts/versions", versions, status)
@@ -169,10 +169,10 @@ contains
                part%segments(k)%version = nint(versions(at + k))
                part%segments(k)%size = nint(sizes(at + k))
             end do
-            n = sum(part%segments%size)
-            part%row = row(place + 1:place + n)
+            part%n = sum(part%segments%size)
+            part%row = row(place + 1:place + part%n)
             at = at + size(part%segments)
-            place = place + n
+            place = place + part%n
          end associate
       end do
    end subroutine read_memory
