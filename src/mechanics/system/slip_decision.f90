@@ -375,22 +375,4 @@ contains
       end associate
    end subroutine go_with_drivers
 
-   !> Time in which a contact swings against its bodies, without the numbers of a whole swing; 0 where that is not known.
-   pure real(wp) function own_time(self, slot, k, delta) result(time)
-      class(mechanism_t), intent(in) :: self   !! the system
-      integer, intent(in) :: slot                  !! set of the contact
-      integer, intent(in) :: k                     !! contact of the set
-      real(wp), intent(in) :: delta                !! its penetration [m]
-
-      real(wp) :: compliance
-      integer :: item
-
-      associate (set => self%clearance_joints%sets(slot)%set)
-         item = set%item_of(k)
-         compliance = sum(self%linkage%inverse_mass(1, set%items%body(:, item)))*set%stick_slip%tangent(k)%f_n
-      end associate
-      time = 0.0_wp
-      if (compliance > 0.0_wp .and. delta > 0.0_wp) time = sqrt(delta/compliance)
-   end function own_time
-
 end submodule slip_decision
