@@ -158,7 +158,7 @@ contains
          if (t - set%stick_slip%since(k) < chatter_time*own_time(self, slot, k, delta(set%before%contacts + k))) then
             band = speed*min(max(2.0_wp*set%stick_slip%band(k)/speed, min_band), widest_band)
          end if
-         call set%note_decision(k, t, band, rest_speed(self, slot, k))
+         call set%note_decision(k, t, band, still_speed(self, slot, k))
       end associate
    end subroutine note
 
@@ -179,7 +179,8 @@ contains
                   along = dot_product(matmul(tangent%t, tangent%v), tangent%way)
                   if (along > still) cycle
                   minimum = end_speed(self, slot, k) - merge(less_of_speed, more_of_speed, along > 0.0_wp)*along
-                  call set%note_decision(k, set%stick_slip%since(k), max(set%stick_slip%band(k), minimum), still)
+                  call set%note_decision(k, set%stick_slip%since(k), max(set%stick_slip%band(k), minimum), &
+                                         still_speed(self, slot, k))
                end associate
             end do
          end associate
