@@ -111,6 +111,7 @@ contains
       real(wp), intent(out) :: nothing             !! sliding acceleration taken as zero [m/s^2]
       integer, intent(out) :: status               !! 0: found
 
+      real(wp) :: decay   ! of a sliding velocity left over [1/s]
       integer :: c, d
 
       status = 0
@@ -120,11 +121,11 @@ contains
             associate (tangent => &
                        self%clearance_joints%sets(stick_slips%at(c)%slot)%set%stick_slip%tangent(stick_slips%at(c)%contact))
                stick_slips%root(c) = sqrt(max(tangent%f_n, tiny(1.0_wp)))
+               if (stick_slips%at(c)%axis == 1) decay = decay_rate(self, stick_slips%at(c)%slot, stick_slips%at(c)%contact)
                stick_slips%force(c) = -(sliding_acceleration(self, c, .true.) + tangent%drift(stick_slips%at(c)%axis) &
-                                  + 2.0_wp*settling*self%linkage%scales%pace*tangent%v(stick_slips%at(c)%axis))
+                                  + decay*tangent%v(stick_slips%at(c)%axis))
                stick_slips%mobility(c) = mobility_of(self, c)
-               nothing = nothing + abs(tangent%drift(stick_slips%at(c)%axis)) &
-                         + 2.0_wp*settling*self%linkage%scales%pace*abs(tangent%v(stick_slips%at(c)%axis))
+               nothing = nothing + abs(tangent%drift(stick_slips%at(c)%axis)) + decay*abs(tangent%v(stick_slips%at(c)%axis))
             end associate
          end do
          nothing = nothing + sqrt(minimum)*maxval(abs(stick_slips%force(:m)))
@@ -143,6 +144,42 @@ contains
          self%linkage%solution%b(:n) = stick_slips%load%b(:n)
       end associate
    end subroutine find_mobilities
+
+   !> Rate at which the sliding velocity of a contact that sticks decays. In space slip ends at a speed of rest, not at round-off:
+   !> what is left of it carries along contacts that slip, so it decays within the time of the contact.
+   real(wp) function decay_rate(self, slot, k) result(decay)
+      class(mechanism_t), intent(in) :: self   !! the system
+      integer, intent(in) :: slot              !! set of the contact
+      integer, intent(in) :: k                 !! contact of the set
+
+      real(wp) :: delta(self%clearance_joints%n_contact), rate(self%clearance_joints%n_contact), time
+
+      decay = 2.0_wp*settling*self%linkage%scales%pace
+      associate (set => self%clearance_joints%sets(slot)%set)
+         if (set%stick_slip%n_tangent == 1) return
+         call set%gaps(self%linkage%motion, delta, rate)
+         time = own_time(self, slot, k, delta(set%before%contacts + k))
+         if (time*decay < 1.0_wp .and. time > 0.0_wp) decay = 1.0_wp/time
+      end associate
+   end function decay_rate
+
+   !> Time in which a contact swings against its bodies, without the numbers of a whole swing; 0 where that is not known.
+   pure real(wp) function own_time(self, slot, k, delta) result(time)
+      class(mechanism_t), intent(in) :: self   !! the system
+      integer, intent(in) :: slot                  !! set of the contact
+      integer, intent(in) :: k                     !! contact of the set
+      real(wp), intent(in) :: delta                !! its penetration [m]
+
+      real(wp) :: compliance
+      integer :: item
+
+      associate (set => self%clearance_joints%sets(slot)%set)
+         item = set%item_of(k)
+         compliance = sum(self%linkage%inverse_mass(1, set%items%body(:, item)))*set%stick_slip%tangent(k)%f_n
+      end associate
+      time = 0.0_wp
+      if (compliance > 0.0_wp .and. delta > 0.0_wp) time = sqrt(delta/compliance)
+   end function own_time
 
    !> Mobility taken as zero, of that of free bodies. A contact in space acts anywhere within its penetration: no friction
    !> force holds a combination of tangents that moves only as the bodies turn about that lever, as corners of one face have.
@@ -178,6 +215,13 @@ contains
       speed = self%linkage%scales%pace*self%linkage%scales%length
    end function own_speed
 
+   !> In space: what the tolerance leaves of a speed.
+   pure real(wp) function resolved_speed(self) result(speed)
+      class(mechanism_t), intent(in) :: self   !! the system
+
+      speed = max(standstill, captured*self%linkage%scales%tolerance)*own_speed(self)
+   end function resolved_speed
+
    !> Speed of rest: a contact may stick below it. In space also what the tolerance leaves of a speed, for nearer to
    !> rest the direction of sliding turns faster than steps can follow; and the speed of the turning bodies within the penetration,
    !> for the contact acts anywhere there.
@@ -195,11 +239,20 @@ contains
          call set%gaps(motion, delta, rate)
          item = set%item_of(k)
          turning = motion%omega(:, set%items%body(2, item)) - motion%omega(:, set%items%body(1, item))
-         speed = max(standstill, captured*self%linkage%scales%tolerance)*own_speed(self)
-         speed = 2.0_wp*min(max(speed, 0.5_wp*contact_lever*delta(set%before%contacts + k)*norm2(turning)), &
+         speed = 2.0_wp*min(max(resolved_speed(self), 0.5_wp*contact_lever*delta(set%before%contacts + k)*norm2(turning)), &
                             widest_band*own_speed(self))
       end associate
    end function rest_speed
+
+   !> Sliding velocity below which a contact in space keeps the way of its decision: nearer to rest its direction would turn faster
+   !> than steps can follow.
+   real(wp) function still_speed(self, slot, k) result(speed)
+      class(mechanism_t), intent(in) :: self   !! the system
+      integer, intent(in) :: slot              !! set of the contact
+      integer, intent(in) :: k                 !! contact of the set
+
+      speed = max(rest_speed(self, slot, k), widest_band*own_speed(self))
+   end function still_speed
 
    !> Sliding velocity at which slip ends, without a chatter.
    real(wp) function end_speed(self, slot, k) result(speed)

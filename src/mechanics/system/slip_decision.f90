@@ -158,7 +158,7 @@ contains
          if (t - set%stick_slip%since(k) < chatter_time*own_time(self, slot, k, delta(set%before%contacts + k))) then
             band = speed*min(max(2.0_wp*set%stick_slip%band(k)/speed, min_band), widest_band)
          end if
-         call set%note_decision(k, t, band, rest_speed(self, slot, k))
+         call set%note_decision(k, t, band, still_speed(self, slot, k))
       end associate
    end subroutine note
 
@@ -179,7 +179,8 @@ contains
                   along = dot_product(matmul(tangent%t, tangent%v), tangent%way)
                   if (along > still) cycle
                   minimum = end_speed(self, slot, k) - merge(less_of_speed, more_of_speed, along > 0.0_wp)*along
-                  call set%note_decision(k, set%stick_slip%since(k), max(set%stick_slip%band(k), minimum), still)
+                  call set%note_decision(k, set%stick_slip%since(k), max(set%stick_slip%band(k), minimum), &
+                                         still_speed(self, slot, k))
                end associate
             end do
          end associate
@@ -374,23 +375,5 @@ contains
          if (size_of(v) >= 0.5_wp*still) call set%slip_toward(k, v)
       end associate
    end subroutine go_with_drivers
-
-   !> Time in which a contact swings against its bodies, without the numbers of a whole swing; 0 where that is not known.
-   pure real(wp) function own_time(self, slot, k, delta) result(time)
-      class(mechanism_t), intent(in) :: self   !! the system
-      integer, intent(in) :: slot                  !! set of the contact
-      integer, intent(in) :: k                     !! contact of the set
-      real(wp), intent(in) :: delta                !! its penetration [m]
-
-      real(wp) :: compliance
-      integer :: item
-
-      associate (set => self%clearance_joints%sets(slot)%set)
-         item = set%item_of(k)
-         compliance = sum(self%linkage%inverse_mass(1, set%items%body(:, item)))*set%stick_slip%tangent(k)%f_n
-      end associate
-      time = 0.0_wp
-      if (compliance > 0.0_wp .and. delta > 0.0_wp) time = sqrt(delta/compliance)
-   end function own_time
 
 end submodule slip_decision

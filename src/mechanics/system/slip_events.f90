@@ -45,13 +45,45 @@ contains
                      rate(number) = (rate(number) - g(number))/moment
                   else
                      g(number) = end_speed(self, slot, k) - slip*tangent%v(1) - set%stick_slip%band(k)
-                     rate(number) = -slip*(tangential(self, slot, k, 1, .true.) + tangent%drift(1))
+                     rate(number) = end_speed_rate(self, slot, k) - slip*(tangential(self, slot, k, 1, .true.) + tangent%drift(1))
                   end if
                end associate
             end do
          end associate
       end do
    end procedure mechanism_friction_events
+
+   !> Rate of the sliding velocity at which slip ends: in space it follows the turning of the bodies within the penetration.
+   real(wp) function end_speed_rate(self, slot, k) result(speed_rate)
+      class(mechanism_t), intent(in) :: self   !! the system, evaluated
+      integer, intent(in) :: slot              !! set of the contact
+      integer, intent(in) :: k                 !! contact of the set
+
+      real(wp) :: delta(self%clearance_joints%n_contact), rate(self%clearance_joints%n_contact)
+      real(wp) :: acceleration(most_rates), rise(3), speed, turning(3)
+      integer :: body, side
+
+      speed_rate = 0.0_wp
+      associate (set => self%clearance_joints%sets(slot)%set, linkage => self%linkage)
+         if (set%stick_slip%n_tangent == 1) return
+         call set%gaps(linkage%motion, delta, rate)
+         turning = 0.0_wp
+         rise = 0.0_wp
+         do side = 1, 2
+            body = set%items%body(side, set%item_of(k))
+            if (body == 0) cycle
+            call linkage%coordinates%find_acceleration(linkage%motion, body, acceleration)
+            if (.not. linkage%reduced%is_known(body)) acceleration(4:6) = linkage%solution%a(4:6, body)
+            rise = rise + real(2*side - 3, wp)*matmul(linkage%motion%rot(:, :, body), acceleration(4:6))
+            turning = turning + real(2*side - 3, wp)*linkage%motion%omega(:, body)
+         end do
+         associate (depth => delta(set%before%contacts + k), depth_rate => rate(set%before%contacts + k))
+            speed = 0.5_wp*contact_lever*depth*norm2(turning)
+            if (speed <= resolved_speed(self) .or. speed >= widest_band*own_speed(self)) return
+            speed_rate = 0.5_wp*contact_lever*(depth_rate*norm2(turning) + depth*dot_product(turning, rise)/norm2(turning))
+         end associate
+      end associate
+   end function end_speed_rate
 
    !> What the contacts that stick are short of giving way, as of the last evaluation.
    subroutine note_holds(self, g)
