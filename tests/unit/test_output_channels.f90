@@ -6,7 +6,9 @@ module test_output_channels
    use channels, only: list_scalars, select_channels, selection_t
    use check, only: check_equal, check_true, suite_t
    use errors, only: error_t
-   use figure_words, only: check_figures, figure_orbit, figure_portrait, figure_t, new_figure
+   use figure_binding, only: bind_figure
+   use figure_phrase, only: mistake_t
+   use figure_words, only: figure_orbit, figure_portrait, figure_t, read_figure
    use output_scene, only: make_scene
    use text, only: join, split_blank, text_t
    implicit none (type, external)
@@ -131,26 +133,41 @@ contains
       call check_equal(error, component_letter(4, 1)//component_letter(4, 4), "e0e3", "Euler parameters")
    end subroutine components_have_letters
 
+   !> Read a figure and look up what it names.
+   subroutine understand(word, figure, mistake)
+      character(*), intent(in) :: word                       !! the figure
+      type(figure_t), intent(out) :: figure                  !! its record
+      type(mistake_t), allocatable, intent(out) :: mistake   !! what is wrong
+
+      type(catalogue_t) :: scene
+
+      call make_scene(scene)
+      call read_figure(word, figure, mistake)
+      if (.not. allocated(mistake)) call bind_figure(figure, scene, mistake)
+   end subroutine understand
+
    subroutine figures_are_understood(error)
       type(error_t), allocatable, intent(out) :: error  !! what failed
 
       type(catalogue_t) :: scene
       type(figure_t) :: figure
-      character(:), allocatable :: hint, message
+      type(mistake_t), allocatable :: mistake
 
-      call make_scene(scene)
-      call new_figure("slider.velocity", scene, figure, message, hint)
-      call check_equal(error, message, "", "a channel")
+      call understand("slider.velocity", figure, mistake)
+      call check_true(error, .not. allocated(mistake), "a channel")
       call check_equal(error, size(figure%scalars), 2, "its components")
       call check_equal(error, figure%name, "slider.velocity", "its name")
-      call new_figure("gudgeon.orbit", scene, figure, message, hint)
-      call check_equal(error, message, "", "an orbit")
+      call understand("gudgeon.orbit", figure, mistake)
+      call check_true(error, .not. allocated(mistake), "an orbit")
       call check_equal(error, figure%kind, figure_orbit, "kind of an orbit")
-      call new_figure("portrait(slider.velocity.x,crank.angle)", scene, figure, message, hint)
-      call check_equal(error, message, "", "a portrait")
+      call make_scene(scene)
+      call bind_figure(figure, scene, mistake)
+      call check_equal(error, size(figure%scalars), 2, "its coordinates, bound once more")
+      call understand("portrait(slider.velocity.x,crank.angle)", figure, mistake)
+      call check_true(error, .not. allocated(mistake), "a portrait")
       call check_equal(error, figure%kind, figure_portrait, "kind of a portrait")
       call check_equal(error, figure%name, "portrait.slider.velocity.x.crank.angle", "name of a portrait")
-      call new_figure("energy.*", scene, figure, message, hint)
+      call understand("energy.*", figure, mistake)
       call check_equal(error, figure%name, "energy.all", "name of many")
    end subroutine figures_are_understood
 
@@ -160,19 +177,14 @@ contains
       character(*), intent(in) :: word                    !! the figure
       character(*), intent(in) :: message                 !! how the message must start
 
-      type(catalogue_t) :: scene
-      type(figure_t), allocatable :: figures(:)
-      type(text_t) :: words(2)
-      character(:), allocatable :: got_message, hint, part
-      integer :: bad
+      type(figure_t) :: figure
+      type(mistake_t), allocatable :: mistake
 
-      call make_scene(scene)
-      words(1)%s = "motor.moment"
-      words(2)%s = word
-      call check_figures(words, scene, bad, got_message, hint, part, figures)
-      call check_equal(error, bad, 2, "number of the wrong figure '"//word//"'")
-      call check_equal(error, got_message(1:min(len(message), len(got_message))), message, "message")
-      call check_true(error, len(hint) > 0, "there is a hint for '"//word//"'")
+      call understand(word, figure, mistake)
+      call check_true(error, allocated(mistake), "'"//word//"' is wrong")
+      if (.not. allocated(mistake)) return
+      call check_equal(error, mistake%message(:min(len(message), len(mistake%message))), message, "message")
+      call check_true(error, len(mistake%hint) > 0, "there is a hint for '"//word//"'")
    end subroutine check_figure
 
    subroutine wrong_figures_are_explained(error)

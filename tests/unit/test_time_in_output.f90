@@ -1,10 +1,8 @@
-!> Processor time spent aside, and rows of numbers read from text.
+!> Processor time spent aside.
 module test_time_in_output
-   use, intrinsic :: ieee_arithmetic, only: ieee_is_nan
    use check, only: check_close, check_true, suite_t
    use errors, only: error_t
    use kinds, only: wp
-   use number_rows, only: number_rows_t
    use time_in_output, only: output_time_t
    implicit none (type, external)
    private
@@ -16,7 +14,6 @@ contains
       type(suite_t), intent(inout) :: suite  !! tests of the program
 
       call suite%test("what_is_spent_aside_is_told", what_is_spent_aside_is_told)
-      call suite%test("rows_are_numbers_alone", rows_are_numbers_alone)
    end subroutine run_test_time_in_output
 
    !> Use the processor for some time.
@@ -58,30 +55,5 @@ contains
       call aside%begin(told)
       call check_close(error, aside%seconds(), told, 1.0e-4_wp, "what was counted before stays [s]")
    end subroutine what_is_spent_aside_is_told
-
-   !> Comments and blank lines are passed over; a row that is too short ends the reading.
-   subroutine rows_are_numbers_alone(error)
-      type(error_t), allocatable, intent(out) :: error  !! what failed
-
-      character(*), parameter :: path = "test_number_rows.dat"
-      type(number_rows_t) :: rows
-      real(wp) :: row(3)
-      integer :: unit
-
-      open (newunit=unit, file=path, status="replace", action="write")
-      write (unit, "(a)") "# a[m] b[m] c[m]", "", "  1 -2.5e-3 0.1", "# between", "4"//achar(9)//"nan 6 7", "8 9", "1 2 3"
-      close (unit)
-      call check_true(error, rows%open(path), "the file is open")
-      call check_true(error, rows%next(row), "a first row")
-      call check_close(error, row, [1.0_wp, -2.5e-3_wp, 0.1_wp], 0.0_wp, "the first row")
-      call check_true(error, rows%next(row), "a second row")
-      call check_close(error, row(3), 6.0_wp, 0.0_wp, "its third number")
-      call check_true(error, ieee_is_nan(row(2)), "its second is none")
-      call check_true(error, .not. rows%next(row), "no third row: it is too short")
-      call rows%close()
-      open (newunit=unit, file=path, status="old")
-      close (unit, status="delete")
-      call check_true(error, .not. rows%open(path), "no file")
-   end subroutine rows_are_numbers_alone
 
 end module test_time_in_output

@@ -4,9 +4,8 @@
 !> the first driver that makes one, else over all that is written; of a turn the first and the last position would be one, so the
 !> last is omitted. `coupler` follows a point over its window, else over all that is written, with the mechanism at the end of it.
 module drawn_figures
-   use catalogue, only: catalogue_t
    use diagnostics, only: diagnostics_t
-   use figure_words, only: draws_mechanism, figure_animation, figure_coupler, figure_mechanism, figure_strip, figure_t, new_figure
+   use figure_words, only: draws_mechanism, figure_animation, figure_coupler, figure_mechanism, figure_strip, figure_t
    use frames, only: frame_plan_t, wanted_frames_t
    use item, only: location_of, location_t, place_of, value_t
    use kinds, only: wp
@@ -14,7 +13,7 @@ module drawn_figures
    use scene, only: analysis_static, scene_t
    use scene_drawing, only: own_point
    use spelling, only: nearest_word
-   use text, only: join, text_t, to_text
+   use text, only: join, to_text
    use time_plan, only: instant, last_instant, seconds, time_plan_t
    implicit none (type, external)
    private
@@ -27,57 +26,44 @@ module drawn_figures
 contains
 
    !> Look for figures of the mechanism that there cannot be.
-   subroutine check_drawn_figures(scene, system, times, catalogue, mistakes)
+   subroutine check_drawn_figures(figures, scene, system, times, mistakes)
+      type(figure_t), intent(in) :: figures(:)        !! (n) figures of the deck
       type(scene_t), intent(in) :: scene              !! the scene
       type(mechanism_t), intent(in) :: system         !! its system, for the drivers
       type(time_plan_t), intent(in) :: times          !! of the run
-      type(catalogue_t), intent(in) :: catalogue      !! what it can report
       type(diagnostics_t), intent(inout) :: mistakes  !! errors found
 
-      type(figure_t) :: figure
       type(wanted_frames_t) :: wanted
-      character(:), allocatable :: hint, message
       integer :: k
 
       if (scene%analysis == analysis_static) return
       associate (value => scene%settings%output%values(place_of(scene%settings%output, "figures")))
-         do k = 1, size(value%words)
-            call new_figure(value%words(k)%s, catalogue, figure, message, hint)
-            if (len(message) > 0 .or. .not. draws_mechanism(figure)) cycle
-            call want(figure, scene, system, times, location_of(value, k), wanted, mistakes)
+         do k = 1, size(figures)
+            if (draws_mechanism(figures(k))) call want(figures(k), scene, system, times, location_of(value, k), wanted, mistakes)
          end do
       end associate
    end subroutine check_drawn_figures
 
    !> What the figures of a run need; there are no errors in them.
-   subroutine plan_drawn_figures(words, scene, system, times, catalogue, plan)
-      type(text_t), intent(in) :: words(:)        !! (n) words of figures
+   subroutine plan_drawn_figures(figures, scene, system, times, plan)
+      type(figure_t), intent(in) :: figures(:)    !! (n) figures of the run
       type(scene_t), intent(in) :: scene          !! the scene
       type(mechanism_t), intent(in) :: system     !! its system, for the drivers
       type(time_plan_t), intent(in) :: times      !! of the run
-      type(catalogue_t), intent(in) :: catalogue  !! what it can report
       type(frame_plan_t), intent(out) :: plan     !! what they need
 
-      type(wanted_frames_t), allocatable :: list(:)
       type(diagnostics_t) :: mistakes
-      type(figure_t) :: figure
-      character(:), allocatable :: hint, message
       integer :: k, n
 
       plan%every = times%every
       plan%first = times%first_output
       plan%end = times%end
-      allocate (list(size(words)))
+      allocate (plan%wanted(count([(draws_mechanism(figures(k)), k=1, size(figures))])))
       n = 0
-      do k = 1, size(words)
-         call new_figure(words(k)%s, catalogue, figure, message, hint)
-         if (len(message) > 0 .or. .not. draws_mechanism(figure)) cycle
+      do k = 1, size(figures)
+         if (.not. draws_mechanism(figures(k))) cycle
          n = n + 1
-         call want(figure, scene, system, times, location_t(), list(n), mistakes)
-      end do
-      allocate (plan%wanted(n))
-      do k = 1, n
-         plan%wanted(k) = list(k)
+         call want(figures(k), scene, system, times, location_t(), plan%wanted(n), mistakes)
       end do
    end subroutine plan_drawn_figures
 

@@ -10,6 +10,7 @@ module load
    use diagnostics, only: diagnostics_t
    use errors, only: error_t, exit_usage, set_error
    use drawn_figures, only: check_drawn_figures
+   use figure_words, only: figure_t
    use formula_words, only: read_formulas
    use function_range, only: check_function_ranges
    use item, only: item_t, location_t, place_of
@@ -32,7 +33,7 @@ module load
    use swept, only: sweep_t
    use text, only: append_text, to_text
    use time_plan, only: new_time_plan, time_plan_t
-   use word_checks, only: check_words
+   use word_checks, only: check_words, read_figures
    implicit none (type, external)
    private
    public :: check_swept_words, find_catalogue, load_case, load_deck, loaded_t
@@ -45,6 +46,7 @@ module load
       type(mechanism_t) :: system             !! its equations
       type(catalogue_t), allocatable :: catalogue !! what they can report; of a case of a sweep none until it is requested
       type(time_plan_t) :: plan                   !! its times
+      type(figure_t), allocatable :: figures(:)   !! (n) its figures, as its words ask for them
       type(sweep_t) :: sweep                      !! its cases
       logical :: is_stream = .false.              !! the deck came through a pipe and cannot be read again
    end type loaded_t
@@ -107,6 +109,7 @@ contains
       logical :: has_all_words
 
       call memory_is_for("the equations of "//to_text(size(loaded%scene%bodies%names))//" bodies and their output")
+      if (.not. allocated(loaded%figures)) call read_figures(loaded%deck, loaded%scene, loaded%figures, mistakes)
       has_all_words = runs_as_written(options, loaded%scene)
       if (.not. has_all_words) call list_words(loaded%deck, loaded%scene, catalogue, mistakes)
       call choose_analysis(options, loaded%scene, error)
@@ -127,15 +130,15 @@ contains
       if (mistakes%count() == 0) call check_function_ranges(loaded%scene, loaded%plan%end, mistakes)
       if (has_all_words) then
          if (.not. options%runs%has_known_words) then
-            call check_words(loaded%deck, loaded%scene, loaded%plan%end, loaded%catalogue, mistakes)
+            call check_words(loaded%deck, loaded%scene, loaded%figures, loaded%plan%end, loaded%catalogue, mistakes)
          end if
          if (has_conditions(loaded%scene)) call check_conditions(loaded%scene, loaded%catalogue, mistakes)
       else
-         call check_words(loaded%deck, loaded%scene, loaded%plan%end, catalogue, mistakes)
+         call check_words(loaded%deck, loaded%scene, loaded%figures, loaded%plan%end, catalogue, mistakes)
          call check_conditions(loaded%scene, catalogue, mistakes)
       end if
       if (mistakes%count() == 0 .and. .not. options%runs%is_member) then  ! which draws none
-         call check_drawn_figures(loaded%scene, loaded%system, loaded%plan, loaded%catalogue, mistakes)
+         call check_drawn_figures(loaded%figures, loaded%scene, loaded%system, loaded%plan, mistakes)
       end if
       call mistakes%to_error(loaded%deck%sources, error)
    end subroutine prepare

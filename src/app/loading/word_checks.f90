@@ -2,37 +2,81 @@
 module word_checks
    use catalogue, only: catalogue_t
    use channels, only: list_scalars, select_channels, selection_t
+   use columns, only: cell_index
    use deck_types, only: deck_t, place_of_part
    use diagnostics, only: diagnostics_t
-   use figure_words, only: check_figures, draws_mechanism, figure_bifurcation, figure_film, figure_portrait, figure_section, &
-      figure_statistics, figure_t
-   use film_figures, only: check_film_figures
+   use figure_binding, only: bind_figure
+   use figure_phrase, only: mistake_t, set_mistake
+   use figure_words, only: draws_mechanism, figure_bifurcation, figure_film, figure_portrait, figure_section, figure_statistics, &
+      figure_t, read_figure
+   use film_fields, only: moment_at
    use item, only: location_of, place_of, value_t
    use kinds, only: wp
    use scene, only: scene_t
    use spelling, only: nearest_word
    use statistics, only: names_of_numbers, number_t
-   use text, only: join, text_t
+   use text, only: join, real_text, text_t
    implicit none (type, external)
    private
-   public :: check_words
+   public :: check_words, read_figures
 
 contains
 
+   !> Read the figures of a deck; one whose words are wrong has no kind.
+   subroutine read_figures(deck, scene, figures, mistakes)
+      type(deck_t), intent(in) :: deck                           !! the deck, for the places of errors
+      type(scene_t), intent(in) :: scene                         !! the scene
+      type(figure_t), allocatable, intent(out) :: figures(:)     !! (n) what its words ask for
+      type(diagnostics_t), intent(inout) :: mistakes             !! errors found
+
+      type(mistake_t), allocatable :: mistake
+      integer :: k
+
+      associate (value => scene%settings%output%values(place_of(scene%settings%output, "figures")))
+         allocate (figures(size(value%words)))
+         do k = 1, size(figures)
+            call read_figure(value%words(k)%s, figures(k), mistake)
+            if (.not. allocated(mistake)) cycle
+            figures(k)%kind = 0
+            call report_mistake(deck, value, k, mistake, mistakes)
+         end do
+      end associate
+   end subroutine read_figures
+
+   !> Show a mistake of a figure where it stands.
+   subroutine report_mistake(deck, value, k, mistake, mistakes)
+      type(deck_t), intent(in) :: deck                !! the deck, for the place of an error
+      type(value_t), intent(in) :: value              !! of the key `figures`
+      integer, intent(in) :: k                        !! which of its words
+      type(mistake_t), intent(inout) :: mistake       !! what is wrong
+      type(diagnostics_t), intent(inout) :: mistakes  !! errors found
+
+      if (mistake%part == value%words(k)%s) mistake%part = ""
+      call mistakes%add(place_of_part(deck, location_of(value, k), mistake%part), mistake%message, &
+                        trim(merge("not a figure of this deck", "invalid in this figure   ", len(mistake%part) == 0)), mistake%hint)
+   end subroutine report_mistake
+
    !> Channels and figures must name what the scene has.
-   subroutine check_words(deck, scene, end, catalogue, mistakes)
+   subroutine check_words(deck, scene, figures, end, catalogue, mistakes)
       type(deck_t), intent(in) :: deck                !! the deck, for the places of errors
       type(scene_t), intent(in) :: scene              !! the scene
+      type(figure_t), intent(in) :: figures(:)        !! (n) its figures
       real(wp), intent(in) :: end                     !! of the run; 0: it has none [s]
       type(catalogue_t), intent(in) :: catalogue      !! what it can report
       type(diagnostics_t), intent(inout) :: mistakes  !! errors found
 
+      type(figure_t) :: figure
+      type(mistake_t), allocatable :: mistake
       integer :: k
 
-      call check_channels(scene%settings%output%values(place_of(scene%settings%output, "channels")), catalogue, mistakes)
-      associate (value => scene%settings%output%values(place_of(scene%settings%output, "figures")))
-         do k = 1, size(value%words)
-            call check_figure(deck, scene, end, catalogue, value, k, mistakes)
+      associate (output => scene%settings%output)
+         call check_channels(output%values(place_of(output, "channels")), catalogue, mistakes)
+         do k = 1, size(figures)
+            figure = figures(k)
+            call bind_figure(figure, catalogue, mistake)
+            if (.not. allocated(mistake)) call check_statistics(figure, scene, catalogue, mistake)
+            if (.not. allocated(mistake)) call check_film(figure, scene, end, mistake)
+            if (allocated(mistake)) call report_mistake(deck, output%values(place_of(output, "figures")), k, mistake, mistakes)
          end do
       end associate
       if (.not. scene%settings%statistics%is_present) return
@@ -60,77 +104,39 @@ contains
       end do
    end subroutine check_channels
 
-   !> A figure of the list.
-   subroutine check_figure(deck, scene, end, catalogue, value, k, mistakes)
-      type(deck_t), intent(in) :: deck                !! the deck, for the place of an error
-      type(scene_t), intent(in) :: scene              !! the scene
-      real(wp), intent(in) :: end                     !! of the run; 0: it has none [s]
-      type(catalogue_t), intent(in) :: catalogue      !! what it can report
-      type(value_t), intent(in) :: value              !! of the key `figures`
-      integer, intent(in) :: k                        !! which of its words
-      type(diagnostics_t), intent(inout) :: mistakes  !! errors found
-
-      type(figure_t), allocatable :: figures(:)
-      character(:), allocatable :: hint, message, part
-      integer :: bad
-
-      associate (words => value%words(k:k))
-         call check_figures(words, catalogue, bad, message, hint, part, figures)
-         if (bad == 0) call check_statistics_figures(words, figures, scene, catalogue, bad, message, hint, part)
-         if (bad == 0) call check_film_figures(words, figures, scene, end, bad, message, hint)
-      end associate
-      if (bad == 0) return
-      if (part == value%words(k)%s) part = ""
-      call mistakes%add(place_of_part(deck, location_of(value, k), part), message, &
-                        trim(merge("not a figure of this deck", "invalid in this figure   ", len(part) == 0)), hint)
-   end subroutine check_figure
-
-   !> Figures of statistics need a section [statistics], some a period, and numbers that there are.
-   subroutine check_statistics_figures(words, figures, scene, catalogue, bad, message, hint, part)
-      type(text_t), intent(in) :: words(:)                 !! (n) words for figures
-      type(figure_t), intent(in) :: figures(:)             !! (n) the figures
-      type(scene_t), intent(in) :: scene                   !! the scene
-      type(catalogue_t), intent(in) :: catalogue           !! what it can report
-      integer, intent(out) :: bad                          !! number of the first wrong word, 0: none
-      character(:), allocatable, intent(out) :: message    !! what is wrong with it
-      character(:), allocatable, intent(out) :: hint       !! what may have been meant, may be blank
-      character(:), allocatable, intent(out) :: part       !! the part of it that is wrong; blank: all of it
+   !> A figure of statistics needs a section [statistics], some a period, and numbers that there are.
+   subroutine check_statistics(figure, scene, catalogue, mistake)
+      type(figure_t), intent(in) :: figure                     !! the figure
+      type(scene_t), intent(in) :: scene                       !! the scene
+      type(catalogue_t), intent(in) :: catalogue               !! what it can report
+      type(mistake_t), allocatable, intent(inout) :: mistake   !! what is wrong
 
       type(text_t), allocatable :: known(:)
+      character(:), allocatable :: hint
       integer :: i, k
 
-      message = ""
-      hint = ""
-      part = ""
-      do bad = 1, size(words)
-         associate (figure => figures(bad))
-            if (figure%kind <= figure_portrait .or. figure%kind == figure_film .or. draws_mechanism(figure)) cycle
-            if (.not. scene%settings%statistics%is_present) then
-               message = "'"//words(bad)%s//"' needs a section [statistics]"
-               hint = "give the end of the transient: [statistics], after = 2 turns of motor"
-               return
-            end if
-            if (.not. scene%settings%statistics%is_given("period") .and. &
-                (figure%kind == figure_section .or. figure%kind == figure_bifurcation)) then
-               message = "'"//words(bad)%s//"' needs the drive period"
-               hint = "add to section [statistics]: period = 1 turns of motor, or a time"
-               return
-            end if
-            if (figure%kind /= figure_statistics) cycle
-            known = known_numbers(scene, catalogue)
-            do k = 1, size(figure%numbers)
-               if (any([(known(i)%s == figure%numbers(k)%s, i=1, size(known))])) cycle
-               part = figure%numbers(k)%s
-               message = "unknown statistic '"//figure%numbers(k)%s//"'"
-               hint = nearest_word(figure%numbers(k)%s, known)
-               if (len(hint) > 0) hint = "did you mean '"//hint//"'? "
-               hint = hint//"statistics of this deck: "//join(known, " ")
-               return
-            end do
+      if (figure%kind <= figure_portrait .or. figure%kind == figure_film .or. draws_mechanism(figure)) return
+      if (.not. scene%settings%statistics%is_present) then
+         call set_mistake(mistake, "'"//figure%word//"' needs a section [statistics]", &
+                          "give the end of the transient: [statistics], after = 2 turns of motor", "")
+      else if (.not. scene%settings%statistics%is_given("period") .and. &
+               (figure%kind == figure_section .or. figure%kind == figure_bifurcation)) then
+         call set_mistake(mistake, "'"//figure%word//"' needs the drive period", &
+                          "add to section [statistics]: period = 1 turns of motor, or a time", "")
+      end if
+      if (allocated(mistake) .or. figure%kind /= figure_statistics) return
+      known = known_numbers(scene, catalogue)
+      do k = 1, size(figure%arguments)
+         associate (number => figure%arguments(k)%s)
+            if (any([(known(i)%s == number, i=1, size(known))])) cycle
+            hint = nearest_word(number, known)
+            if (len(hint) > 0) hint = "did you mean '"//hint//"'? "
+            call set_mistake(mistake, "unknown statistic '"//number//"'", hint//"statistics of this deck: "//join(known, " "), &
+                             number)
+            return
          end associate
       end do
-      bad = 0
-   end subroutine check_statistics_figures
+   end subroutine check_statistics
 
    !> Names of the numbers of a scene's statistics.
    function known_numbers(scene, catalogue) result(names)
@@ -153,5 +159,47 @@ contains
          names(k)%s = list(k)%name
       end do
    end function known_numbers
+
+   !> A figure of a film needs a film that has pressures, and a time within the run.
+   subroutine check_film(figure, scene, end, mistake)
+      type(figure_t), intent(in) :: figure                     !! the figure
+      type(scene_t), intent(in) :: scene                       !! the scene
+      real(wp), intent(in) :: end                              !! of the run; 0: it has none [s]
+      type(mistake_t), allocatable, intent(inout) :: mistake   !! what is wrong
+
+      integer :: film
+
+      if (figure%kind /= figure_film) return
+      film = film_of(scene, figure%film%joint)
+      if (film > 0) then
+         associate (law => scene%lubrication%films(film)%law)
+            if (.not. law%has_field()) call set_mistake(mistake, "film '"//law%name//"' of joint '"//figure%film%joint// &
+               "' gives a force without a pressure field: no '"//figure%word//"'", &
+               "use a film with a pressure field: film.grid, film.squeeze, or a short or long film", "")
+         end associate
+      end if
+      if (.not. allocated(mistake) .and. figure%film%moment == moment_at .and. end > 0.0_wp .and. figure%film%t > end) then
+         call set_mistake(mistake, "'"//figure%word//"' is after the end of the run at "//real_text(end, 6)//" s", &
+                          "film("//figure%film%joint//") shows the film at the end of the run", "")
+      end if
+   end subroutine check_film
+
+   !> Number of the film of a joint; 0: none.
+   pure integer function film_of(scene, joint) result(film)
+      type(scene_t), intent(in) :: scene   !! the scene
+      character(*), intent(in) :: joint    !! name of the joint
+
+      integer :: i, k
+
+      film = 0
+      do k = 1, size(scene%clearances)
+         if (.not. allocated(scene%clearances(k)%items)) cycle
+         do i = 1, size(scene%clearances(k)%items)
+            if (scene%clearances(k)%items(i)%name /= joint) cycle
+            film = cell_index(scene%clearances(k)%info, scene%clearances(k)%items(i), "film")
+            return
+         end do
+      end do
+   end function film_of
 
 end module word_checks

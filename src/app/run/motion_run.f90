@@ -70,7 +70,7 @@ contains
       if (allocated(error)) return
       call open_place(options, loaded, directory, goes_on, is_complete, error)
       if (allocated(error) .or. is_complete) return
-      call make_plan(options, loaded, directory, assembly, plan)
+      call make_plan(options, loaded, directory, assembly, plan, keeper%figures)
       call set_life(options, goes_on, stop_at, plan%life)
       if (options%digits%accuracy > 0.0_wp) then
          call choose_tolerance(options, loaded, plan, error)
@@ -212,11 +212,11 @@ contains
       logical :: has_twin
 
       warning = ""
-      has_twin = size(keeper%plan%figures) > 0 .and. keeper%plan%with%figures .and. loaded%system%clearance_joints%n > 0 .and. &
+      has_twin = size(keeper%figures) > 0 .and. keeper%plan%with%figures .and. loaded%system%clearance_joints%n > 0 .and. &
                  summary%status /= status_stopped
       if (has_twin .and. allocated(error)) has_twin = error%code /= exit_file
       if (has_twin) then
-         call run_twin(loaded, keeper%plan, ideal, twin_error)
+         call run_twin(loaded, keeper, ideal, twin_error)
          if (allocated(twin_error)) warning = "figures have no overlay of ideal joints: "//first_line(twin_error%message)
       end if
       call keeper%conclude(late_error, warning)

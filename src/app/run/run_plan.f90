@@ -8,7 +8,9 @@ module run_plan
    use channels, only: find_scalars, item_finder_t
    use deck_texts, only: deck_text, get_includes
    use drawn_figures, only: plan_drawn_figures
-   use figure_words, only: check_figures, figure_t
+   use figure_binding, only: bind_figure
+   use figure_phrase, only: mistake_t
+   use figure_words, only: append_figure, figure_t, is_of_run
    use item, only: place_of
    use kinds, only: i8, wp
    use libraries, only: library_versions
@@ -35,12 +37,13 @@ module run_plan
 contains
 
    !> What the recorder is reported.
-   subroutine make_plan(options, loaded, directory, assembly, plan)
+   subroutine make_plan(options, loaded, directory, assembly, plan, figures)
       type(options_t), intent(in) :: options       !! the command line
       type(loaded_t), intent(in) :: loaded         !! the deck
       type(output_directory_t), intent(in) :: directory  !! of the run
       type(assembly_t), intent(in) :: assembly     !! how the start was found
       type(output_plan_t), intent(out) :: plan     !! the plan
+      type(figure_t), allocatable, intent(out) :: figures(:)   !! (n) figures of the run, bound to its catalogue; those of a sweep last
 
       logical :: is_drawn
 
@@ -54,7 +57,7 @@ contains
       plan%n_freedom = size(loaded%system%linkage%mass) - loaded%system%linkage%rows%n
       if (allocated(assembly%dependent)) plan%n_freedom = plan%n_freedom + size(assembly%dependent)
       call plan_statistics(loaded, plan%statistics)
-      call known_words(loaded, plan)
+      call find_known_words(loaded, plan, figures)
       if (assembly%rate_changed > negligible*(1.0_wp + maxval(abs(loaded%scene%bodies%v)))) then
          call append_text(plan%warnings, "inconsistent initial velocity: that of body '"// &
                           loaded%scene%bodies%names(assembly%changed_body)%s// &
@@ -73,7 +76,7 @@ contains
       plan%with%csv = options%write == "all" .and. (options%is_csv .or. loaded%scene%settings%output%flag("csv"))
       plan%with%motion = loaded%scene%settings%output%word("motion") /= "off" .and. options%write == "all"
       if (plan%with%figures .and. loaded%scene%analysis /= analysis_static) then
-         call plan_drawn_figures(plan%figures, loaded%scene, loaded%system, loaded%plan, loaded%catalogue, plan%looks%frames)
+         call plan_drawn_figures(figures, loaded%scene, loaded%system, loaded%plan, plan%looks%frames)
       end if
       is_drawn = plan%with%motion
       if (allocated(plan%looks%frames%wanted)) is_drawn = is_drawn .or. size(plan%looks%frames%wanted) > 0
@@ -162,54 +165,46 @@ contains
       end associate
    end subroutine plan_statistics
 
-   !> The deck's words for channels and figures, without those that the joints taken as ideal do not have.
-   subroutine known_words(loaded, plan)
-      type(loaded_t), intent(in) :: loaded           !! the deck
-      type(output_plan_t), intent(inout) :: plan     !! words are set, dropped ones become warnings
+   !> The deck's channels and figures, without those that the joints taken as ideal do not have.
+   subroutine find_known_words(loaded, plan, figures)
+      type(loaded_t), intent(in) :: loaded                      !! the deck
+      type(output_plan_t), intent(inout) :: plan                !! channels are set, what is dropped becomes warnings
+      type(figure_t), allocatable, intent(out) :: figures(:)    !! (n) figures, those of a sweep last
 
+      type(figure_t) :: figure
       type(item_finder_t) :: finder
-      character(:), allocatable :: reason
+      type(mistake_t), allocatable :: mistake
+      type(scalar_t), allocatable :: scalars(:)
+      type(text_list_t) :: list
+      character(:), allocatable :: hint, message, reason
+      integer :: k, pass
 
-      reason = "the joint is ideal"
+      reason = "' omitted: the joint is ideal"
       if (loaded%scene%analysis /= analysis_dynamic) then
-         reason = "not available in a "//trim(analysis_names(loaded%scene%analysis))//" analysis"
+         reason = "' omitted: not available in a "//trim(analysis_names(loaded%scene%analysis))//" analysis"
       end if
       call finder%start(loaded%catalogue)
-      call keep("channel", "channels", plan%channels)
-      call keep("figure", "figures", plan%figures)
-
-   contains
-
-      !> Keep the words of a key that this run knows.
-      subroutine keep(one, key, kept)
-         character(*), intent(in) :: one                        !! what a word names
-         character(*), intent(in) :: key                        !! key of [output]
-         type(text_t), allocatable, intent(out) :: kept(:)      !! (any) words
-
-         type(figure_t), allocatable :: figures(:)
-         type(scalar_t), allocatable :: scalars(:)
-         character(:), allocatable :: hint, message, part
-         type(text_list_t) :: list
-         integer :: bad, k
-
-         associate (words => loaded%scene%settings%output%values(place_of(loaded%scene%settings%output, key))%words)
-            do k = 1, size(words)
-               if (one == "figure") then
-                  call check_figures(words(k:k), loaded%catalogue, bad, message, hint, part, figures)
-               else
-                  call find_scalars(words(k)%s, loaded%catalogue, finder, scalars, message, hint)
-                  bad = merge(1, 0, len(message) > 0)
-               end if
-               if (bad == 0) then
-                  call list%add(words(k)%s)
-               else
-                  call append_text(plan%warnings, one//" '"//words(k)%s//"' omitted: "//reason)
-               end if
-            end do
-         end associate
-         kept = list%get()
-      end subroutine keep
-
-   end subroutine known_words
+      associate (words => loaded%scene%settings%output%values(place_of(loaded%scene%settings%output, "channels"))%words)
+         do k = 1, size(words)
+            call find_scalars(words(k)%s, loaded%catalogue, finder, scalars, message, hint)
+            if (len(message) == 0) call list%add(words(k)%s)
+            if (len(message) > 0) call append_text(plan%warnings, "channel '"//words(k)%s//reason)
+         end do
+      end associate
+      plan%channels = list%get()
+      allocate (figures(0))
+      do pass = 1, 2
+         do k = 1, size(loaded%figures)
+            figure = loaded%figures(k)
+            if (is_of_run(figure) .neqv. pass == 1) cycle
+            call bind_figure(figure, loaded%catalogue, mistake)
+            if (allocated(mistake)) then
+               call append_text(plan%warnings, "figure '"//figure%word//reason)
+            else
+               call append_figure(figures, figure)
+            end if
+         end do
+      end do
+   end subroutine find_known_words
 
 end module run_plan

@@ -8,7 +8,7 @@ module twin_run
    use kinds, only: wp
    use load, only: loaded_t
    use mechanism, only: mechanism_t
-   use output_plan, only: lifetime_t, output_plan_t, show_nothing
+   use output_plan, only: lifetime_t, show_nothing
    use recorder, only: summary_t
    use run_limits, only: twin_limits
    use run_recorder, only: run_recorder_t
@@ -22,9 +22,9 @@ module twin_run
 contains
 
    !> The mechanism with ideal joints, text files only, for the figures.
-   subroutine run_twin(loaded, plan, ideal, error)
+   subroutine run_twin(loaded, proper, ideal, error)
       type(loaded_t), intent(in) :: loaded                 !! the deck
-      type(output_plan_t), intent(in) :: plan              !! plan of the run proper
+      type(run_recorder_t), intent(inout) :: proper        !! recorder of the run proper, gets the curves of this one
       type(ideal_start_t), intent(inout) :: ideal          !! the start with ideal joints, if the run proper has found it
       type(error_t), allocatable, intent(out) :: error     !! there is no reference run
 
@@ -41,7 +41,9 @@ contains
       call find_start(loaded%scene, levels_ideal, system, y, assembly, error, ideal=ideal)
       if (allocated(error)) return
       call new_method(loaded%scene, method)
-      keeper%plan = plan
+      keeper%plan = proper%plan
+      keeper%figures = proper%figures
+      keeper%rows%labels = proper%rows%labels
       keeper%plan%suffix = ".ideal"
       keeper%plan%life = lifetime_t()
       keeper%plan%with%hdf5 = .false.
@@ -54,6 +56,7 @@ contains
       call new_subsystems(loaded%scene, levels_ideal, system, method, loaded%plan%end, subsystems)
       call run_dynamic(system, method, subsystems, y, loaded%plan, twin_limits(loaded%scene, system), keeper, summary, &
                        error)
+      proper%ideal_rows = keeper%rows
    end subroutine run_twin
 
 end module twin_run

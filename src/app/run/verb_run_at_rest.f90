@@ -1,6 +1,7 @@
 !> Runs of analyses that integrate nothing: motions that drivers prescribe, and equilibrium.
 submodule(verb_run) verb_run_at_rest
    use assembly_report, only: assembly_t
+   use figure_words, only: append_figure, figure_film, figure_t
    use kinematic, only: run_kinematic
    use kinematic_start, only: find_kinematic_start
    use mobility, only: mobility_t
@@ -13,7 +14,7 @@ submodule(verb_run) verb_run_at_rest
    use run_plan, only: make_plan
    use run_recorder, only: run_recorder_t
    use static, only: equilibrium_t, find_equilibrium, record_equilibrium
-   use text, only: append_text, starts_with, text_t
+   use text, only: append_text
    implicit none (type, external)
 
 contains
@@ -39,7 +40,7 @@ contains
       if (allocated(error)) return
       call directory%open(directory_of(options, loaded), error)
       if (allocated(error)) return
-      call make_plan(options, loaded, directory, assembly, keeper%plan)
+      call make_plan(options, loaded, directory, assembly, keeper%plan, keeper%figures)
       limit_cpu = loaded%scene%settings%kinematic%number("limit_cpu")
       keeper%plan%life%is_saved = .true.
       call listen(.true.)
@@ -65,28 +66,29 @@ contains
       if (allocated(error)) return
       call directory%open(directory_of(options, loaded), error)
       if (allocated(error)) return
-      call make_plan(options, loaded, directory, assembly, keeper%plan)
-      call keep_films(keeper%plan)
+      call make_plan(options, loaded, directory, assembly, keeper%plan, keeper%figures)
+      call keep_films(keeper%plan, keeper%figures)
       call record_equilibrium(loaded%system, equilibrium, keeper, summary, error)
       call directory%close()
    end procedure run_equilibrium
 
    !> Of an equilibrium there are figures of films only; a warning for the others.
-   subroutine keep_films(plan)
-      type(output_plan_t), intent(inout) :: plan  !! plan of the run
+   subroutine keep_films(plan, figures)
+      type(output_plan_t), intent(inout) :: plan                 !! plan of the run
+      type(figure_t), allocatable, intent(inout) :: figures(:)   !! (n) its figures
 
-      type(text_t), allocatable :: films(:)
+      type(figure_t), allocatable :: films(:)
       integer :: k
 
       allocate (films(0))
-      do k = 1, size(plan%figures)
-         if (starts_with(plan%figures(k)%s, "film(")) call append_text(films, plan%figures(k)%s)
+      do k = 1, size(figures)
+         if (figures(k)%kind == figure_film) call append_figure(films, figures(k))
       end do
-      if (size(films) < size(plan%figures)) then
+      if (size(films) < size(figures)) then
          call append_text(plan%warnings, "figures omitted: an equilibrium has no time history")
       end if
       plan%with%figures = plan%with%figures .and. size(films) > 0
-      call move_alloc(films, plan%figures)
+      call move_alloc(films, figures)
    end subroutine keep_films
 
 end submodule verb_run_at_rest

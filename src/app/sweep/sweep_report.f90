@@ -3,9 +3,10 @@ module sweep_report
    use catalogue, only: catalogue_t
    use console, only: say
    use errors, only: error_t, exit_sweep, set_error
-   use figure_words, only: figure_t, is_of_run, new_figure
+   use figure_binding, only: bind_figure
+   use figure_phrase, only: mistake_t
+   use figure_words, only: figure_t, is_of_run
    use gnuplot_runs, only: draw_figures
-   use item, only: place_of
    use json_text, only: json_object_t
    use kinds, only: i8, wp
    use load, only: loaded_t
@@ -41,35 +42,34 @@ contains
       type(figure_t) :: figure
       type(plot_table_t) :: table
       type(text_t), allocatable :: empty(:), names(:)
-      character(:), allocatable :: folder, hint, message
+      type(mistake_t), allocatable :: mistake
+      character(:), allocatable :: folder
       integer :: code, k
       logical :: is_written
 
       call build_catalogue(loaded%system, catalogue)
       folder = work%plan%directory//"/figures"
       allocate (names(0))
-      associate (words => loaded%scene%settings%output%values(place_of(loaded%scene%settings%output, "figures"))%words)
-         do k = 1, size(words)
-            call new_figure(words(k)%s, catalogue, figure, message, hint)
-            if (len(message) > 0) cycle
-            if (is_of_run(figure)) cycle
-            code = enter_file(folder//"/")
-            if (code == 0) code = make_directory(folder)
-            if (code /= 0) then
-               call fail_file(error, "cannot make the directory", folder, code, "")
-               return
-            end if
-            call sweep_table(figure, work%results, catalogue, file_heading(work%plan), table)
-            call write_plot(folder, loaded%scene%title, table, is_written, error, empty)
-            if (allocated(error)) return
-            call tell_empty(words(k)%s, empty, warnings)
-            if (is_written) then
-               call append_text(names, figure%name)
-            else
-               call append_text(warnings, "figure "//words(k)%s//": no data to draw")
-            end if
-         end do
-      end associate
+      do k = 1, size(loaded%figures)
+         figure = loaded%figures(k)
+         call bind_figure(figure, catalogue, mistake)
+         if (allocated(mistake) .or. is_of_run(figure)) cycle
+         code = enter_file(folder//"/")
+         if (code == 0) code = make_directory(folder)
+         if (code /= 0) then
+            call fail_file(error, "cannot make the directory", folder, code, "")
+            return
+         end if
+         call sweep_table(figure, work%results, catalogue, file_heading(work%plan), table)
+         call write_plot(folder, loaded%scene%title, table, is_written, error, empty)
+         if (allocated(error)) return
+         call tell_empty(figure%word, empty, warnings)
+         if (is_written) then
+            call append_text(names, figure%name)
+         else
+            call append_text(warnings, "figure "//figure%word//": no data to draw")
+         end if
+      end do
       call draw_figures(folder, names, pictures, warnings)
    end subroutine make_sweep_figures
 

@@ -3,10 +3,10 @@
 !> Such a curve drawn as a line is a solid block. A turn counts if the curve has moved by a part of its range since the last one.
 module envelope_data
    use errors, only: error_t
-   use figure_data, only: curve_t, open_columns
+   use drawn_rows, only: drawn_rows_t
+   use figure_data, only: curve_t
    use, intrinsic :: ieee_arithmetic, only: ieee_is_nan
    use kinds, only: not_a_number, wp
-   use number_rows, only: number_rows_t
    use script_parts, only: axes_t, scaled
    use text, only: append_text, text_t, to_text
    use text_buffer, only: buffer_t
@@ -16,7 +16,7 @@ module envelope_data
    public :: count_turns, envelope_t, make_envelope
 
    integer, parameter :: n_column = 290               !! columns of an envelope, three pixels each
-   real(wp), parameter :: min_contact_rate = 0.1_wp        !! between two turns that count, of the range of the curve [1]
+   real(wp), parameter :: min_move = 0.1_wp           !! between two turns that count, of the range of the curve [1]
 
    !> The ranges of some curves of a figure.
    type :: envelope_t
@@ -71,10 +71,11 @@ contains
    end function mean_source
 
    !> Find the curves of a figure that turn too often within what is drawn, and write their ranges.
-   subroutine make_envelope(folder, name, heading, curves, window, envelope, error)
+   subroutine make_envelope(folder, name, heading, rows, curves, window, envelope, error)
       character(*), intent(in) :: folder                 !! of the figures
       character(*), intent(in) :: name                   !! of the figure
       character(*), intent(in) :: heading                !! lines with `#` for the table
+      type(drawn_rows_t), intent(in) :: rows             !! of the run
       type(curve_t), intent(in) :: curves(:)             !! (n) curves of the figure
       real(wp), intent(in) :: window(2)                  !! (2) ends of the abscissa, SI [any]
       type(envelope_t), intent(out) :: envelope          !! what there is
@@ -89,8 +90,8 @@ contains
       allocate (envelope%numbers(0), names(0), tables(4, n_column, count(curves%turns > n_column)))
       n = 0
       do k = 1, size(curves)
-         if (curves(k)%turns <= n_column .or. .not. curves(k)%is_function) cycle
-         call read_ranges(folder//"/"//curves(k)%path, curves(k), window, table, n_turn)
+         if (curves(k)%turns <= n_column .or. curves(k)%falls > 0) cycle
+         call find_ranges(rows, curves(k), window, table, n_turn)
          if (n_turn <= n_column) cycle
          n = n + 1
          tables(:, :, n) = table
@@ -101,30 +102,26 @@ contains
    end subroutine make_envelope
 
    !> How often a curve turns, small wiggles apart.
-   integer function count_turns(path, curve) result(n_turn)
-      character(*), intent(in) :: path                !! its file
+   integer function count_turns(rows, curve) result(n_turn)
+      type(drawn_rows_t), intent(in) :: rows          !! of the run
       type(curve_t), intent(in) :: curve              !! the curve
 
       real(wp) :: table(4, n_column)
 
       n_turn = 0
-      if (curve%x_range(2) > curve%x_range(1)) call read_ranges(path, curve, curve%x_range, table, n_turn)
+      if (curve%x_range(2) > curve%x_range(1)) call find_ranges(rows, curve, curve%x_range, table, n_turn)
    end function count_turns
 
    !> Ranges and means of a curve in columns of equal width, and how often it turns. The mean is over the abscissa.
-   subroutine read_ranges(path, curve, window, table, n_turn)
-      character(*), intent(in) :: path                !! its file
+   subroutine find_ranges(rows, curve, window, table, n_turn)
+      type(drawn_rows_t), intent(in) :: rows          !! of the run
       type(curve_t), intent(in) :: curve              !! the curve
       real(wp), intent(in) :: window(2)               !! (2) ends of the abscissa, SI [any]
       real(wp), intent(out) :: table(:, :)            !! (4, columns) middle, minimum, maximum value, mean; NaN: empty, SI [any]
       integer, intent(out) :: n_turn                  !! turns
 
-      type(number_rows_t) :: rows
-      type(text_t), allocatable :: labels(:)
-      real(wp), allocatable :: row(:)
-      real(wp) :: before(2), extreme, length(size(table, 2)), contact_rate
-      integer :: k, n, way
-      logical :: is_open
+      real(wp) :: before(2), extreme, length(size(table, 2)), least_move
+      integer :: k, n, r, way
 
       n = size(table, 2)
       table(1, :) = [(window(1) + (window(2) - window(1))*(k - 0.5_wp)/n, k=1, n)]
@@ -136,12 +133,9 @@ contains
       way = 0
       before = not_a_number()
       extreme = 0.0_wp
-      contact_rate = min_contact_rate*(curve%y_range(2) - curve%y_range(1))
-      call open_columns(path, rows, labels, is_open)
-      if (.not. is_open) return
-      allocate (row(size(labels)))
-      do while (rows%next(row))
-         associate (x => row(curve%x), y => row(curve%y))
+      least_move = min_move*(curve%y_range(2) - curve%y_range(1))
+      do r = 1, rows%n
+         associate (x => rows%x(r, curve%series(1)), y => rows%x(r, curve%series(2)))
             if (ieee_is_nan(x) .or. ieee_is_nan(y)) cycle
             if (x < window(1) .or. x > window(2)) cycle
             k = min(n, 1 + int(n*(x - window(1))/(window(2) - window(1))))
@@ -157,7 +151,6 @@ contains
             call turn(y)
          end associate
       end do
-      call rows%close()
       call smooth_mean(table(4, :), length)
       where (table(2, :) > table(3, :))
          table(2, :) = not_a_number()
@@ -171,20 +164,20 @@ contains
          real(wp), intent(in) :: y  !! the ordinate, SI [any]
 
          if (way == 0) then
-            if (abs(y - extreme) > contact_rate) then
+            if (abs(y - extreme) > least_move) then
                way = nint(sign(1.0_wp, y - extreme))
                extreme = y
             end if
          else if ((y - extreme)*way > 0.0_wp) then
             extreme = y
-         else if (abs(y - extreme) > contact_rate) then
+         else if (abs(y - extreme) > least_move) then
             n_turn = n_turn + 1
             way = -way
             extreme = y
          end if
       end subroutine turn
 
-   end subroutine read_ranges
+   end subroutine find_ranges
 
    !> Means over several columns each, from sums in columns.
    pure subroutine smooth_mean(sums, length)

@@ -5,11 +5,12 @@ module figure_needs
    use channels, only: selection_t
    use figure_words, only: figure_bifurcation, figure_film, figure_history, figure_portrait, figure_section, figure_spectrum
    use figure_words, only: figure_t
-   use film_fields, only: field_request_t
+   use film_fields, only: field_request_t, film_field_t
+   use text, only: append_text, text_t
    use text_writer, only: extra_table_t
    implicit none (type, external)
    private
-   public :: add_figure_channels, extra_tables, film_requests, spectral_scalars, stroboscopic_scalars
+   public :: add_figure_channels, extra_tables, film_requests, missing_films, spectral_scalars, stroboscopic_scalars
 
 contains
 
@@ -33,6 +34,22 @@ contains
          call move_alloc(grown, list)
       end do
    end function film_requests
+
+   !> Films that were asked for and not found, as text.
+   function missing_films(requests, fields) result(warnings)
+      type(field_request_t), intent(in) :: requests(:)  !! (n) what was asked for
+      type(film_field_t), intent(in) :: fields(:)       !! (any) what was found
+      type(text_t), allocatable :: warnings(:)          !! (any) a line for each that is missing
+
+      integer :: i, k
+
+      allocate (warnings(0))
+      do k = 1, size(requests)
+         if (any([(fields(i)%request%name == requests(k)%name, i=1, size(fields))])) cycle
+         call append_text(warnings, "no film of joint '"//requests(k)%joint//"' for "//requests(k)%name// &
+                          ": it has no active film, or the run ended before that time")
+      end do
+   end function missing_films
 
    !> The channels that figures need once per period.
    function stroboscopic_scalars(figures) result(list)

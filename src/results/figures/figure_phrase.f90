@@ -12,11 +12,18 @@ module figure_phrase
    use units, only: parse_unit, unit_t
    implicit none (type, external)
    private
-   public :: clause_t, limits_words_t, phrase_hint, phrase_t, read_phrase
+   public :: clause_t, mistake_t, phrase_hint, phrase_t, read_phrase, set_mistake
 
    integer, parameter :: most_panels = 6    !! of one figure
    character(*), parameter :: phrase_hint = "figures of curves: A + B in UNIT from X to Y against C, or panels(A, B) against C"
    character(*), parameter :: separators = "+,"  !! cells of their own wherever they stand
+
+   !> What is wrong with the words of a figure; unallocated: nothing.
+   type :: mistake_t
+      character(:), allocatable :: message   !! what is wrong
+      character(:), allocatable :: hint      !! what may have been meant, may be blank
+      character(:), allocatable :: part      !! the wrong part of the words; blank: all of them
+   end type mistake_t
 
    !> Ends of an axis, as written.
    type :: limits_words_t
@@ -41,56 +48,59 @@ module figure_phrase
 
 contains
 
+   !> Make a mistake.
+   pure subroutine set_mistake(mistake, message, hint, part)
+      type(mistake_t), allocatable, intent(out) :: mistake  !! the new mistake
+      character(*), intent(in) :: message                   !! what is wrong
+      character(*), intent(in) :: hint                      !! what may have been meant, may be blank
+      character(*), intent(in) :: part                      !! the wrong part of the words; blank: all of them
+
+      mistake = mistake_t(message, hint, part)
+   end subroutine set_mistake
+
    !> Take a figure apart.
-   subroutine read_phrase(text, phrase, message, bad)
-      character(*), intent(in) :: text                    !! as `figure_list` joins it
-      type(phrase_t), intent(out) :: phrase               !! its parts
-      character(:), allocatable, intent(out) :: message   !! what is wrong, blank if nothing
-      character(:), allocatable, intent(out) :: bad       !! the wrong part of the text, blank: all of it
+   subroutine read_phrase(text, phrase, mistake)
+      character(*), intent(in) :: text                       !! as `figure_list` joins it
+      type(phrase_t), intent(out) :: phrase                  !! its parts
+      type(mistake_t), allocatable, intent(out) :: mistake   !! what is wrong
 
       type(text_t), allocatable :: cells(:)
       type(clause_t) :: clause
       integer :: at
       logical :: has_panels
 
-      message = ""
-      bad = ""
       allocate (phrase%panels(0))
       call empty(phrase%against)
       has_panels = starts_with(text, panels_word)
       cells = cells_of(merge_panels(text))
       at = 1
       do
-         call read_clause(cells, at, clause, message, bad)
-         if (len(message) > 0) return
+         call read_clause(cells, at, clause, mistake)
+         if (allocated(mistake)) return
          phrase%panels = [phrase%panels, clause]
          if (.not. has_panels .or. at > size(cells)) exit
          if (cells(at)%s /= ",") exit
          at = at + 1
       end do
       if (size(phrase%panels) > most_panels) then
-         message = "more panels than the limit of six"
+         call set_mistake(mistake, "more panels than the limit of six", phrase_hint, "")
       else if (has_panels) then
-         if (.not. is(cells, at, ")")) then
-            message = "missing end of panels(...)"
-         else
-            at = at + 1
-         end if
+         if (.not. is(cells, at, ")")) call set_mistake(mistake, "missing end of panels(...)", phrase_hint, "")
+         at = at + 1
       end if
-      if (len(message) > 0) return
+      if (allocated(mistake)) return
       if (is(cells, at, "against")) then
          at = at + 1
-         call read_clause(cells, at, phrase%against, message, bad)
-         if (len(message) > 0) return
-         if (size(phrase%against%words) > 1) then
-            message = "a figure has one abscissa, not "//phrase%against%words(1)%s//" and "//phrase%against%words(2)%s
-            bad = phrase%against%words(2)%s
-            return
-         end if
+         call read_clause(cells, at, phrase%against, mistake)
+         if (allocated(mistake)) return
+         associate (words => phrase%against%words)
+            if (size(words) > 1) call set_mistake(mistake, "a figure has one abscissa, not "//words(1)%s//" and "//words(2)%s, &
+                                                  phrase_hint, words(2)%s)
+            if (size(words) > 1) return
+         end associate
       end if
-      if (at > size(cells)) return
-      message = "'"//cells(at)%s//"' is not allowed here in a figure"
-      bad = cells(at)%s
+      if (at <= size(cells)) call set_mistake(mistake, "'"//cells(at)%s//"' is not allowed here in a figure", phrase_hint, &
+                                              cells(at)%s)
    end subroutine read_phrase
 
    !> A clause without words.
@@ -172,63 +182,56 @@ contains
    end function is
 
    !> Channels joined by plus, each with units and ends behind it, if any.
-   subroutine read_clause(cells, at, clause, message, bad)
+   subroutine read_clause(cells, at, clause, mistake)
       type(text_t), intent(in) :: cells(:)                   !! (n) cells
       integer, intent(inout) :: at                           !! next of them
       type(clause_t), intent(out) :: clause                  !! what they say
-      character(:), allocatable, intent(inout) :: message    !! what is wrong, blank if nothing
-      character(:), allocatable, intent(inout) :: bad        !! the wrong cell
+      type(mistake_t), allocatable, intent(inout) :: mistake !! what is wrong
 
       type(text_list_t) :: words
 
       call empty(clause)
       do
          if (at > size(cells)) then
-            message = "missing channel at the end of the figure"
-            return
+            call set_mistake(mistake, "missing channel at the end of the figure", phrase_hint, "")
+         else if (index(" + , ) in from to against ", " "//cells(at)%s//" ") > 0) then
+            call set_mistake(mistake, "missing channel before '"//cells(at)%s//"' in a figure", phrase_hint, cells(at)%s)
          end if
-         if (index(" + , ) in from to against ", " "//cells(at)%s//" ") > 0) then
-            message = "missing channel before '"//cells(at)%s//"' in a figure"
-            bad = cells(at)%s
-            return
-         end if
+         if (allocated(mistake)) return
          call words%add(cells(at)%s)
          at = at + 1
-         call read_axes(cells, at, clause, message, bad)
-         if (len(message) > 0 .or. .not. is(cells, at, "+")) exit
+         call read_axes(cells, at, clause, mistake)
+         if (allocated(mistake) .or. .not. is(cells, at, "+")) exit
          at = at + 1
       end do
       clause%words = words%get()
    end subroutine read_clause
 
    !> Units and ends of axes.
-   subroutine read_axes(cells, at, clause, message, bad)
+   subroutine read_axes(cells, at, clause, mistake)
       type(text_t), intent(in) :: cells(:)                   !! (n) cells
       integer, intent(inout) :: at                           !! next of them
       type(clause_t), intent(inout) :: clause                !! grown
-      character(:), allocatable, intent(inout) :: message    !! what is wrong, blank if nothing
-      character(:), allocatable, intent(inout) :: bad        !! the wrong cell
+      type(mistake_t), allocatable, intent(inout) :: mistake !! what is wrong
 
       type(limits_words_t) :: limits
 
       do
          if (is(cells, at, "in")) then
             at = at + 1
-            if (at > size(cells)) message = "missing unit at the end of the figure"
-            if (len(message) > 0) return
+            if (at > size(cells)) call set_mistake(mistake, "missing unit at the end of the figure", phrase_hint, "")
+            if (allocated(mistake)) return
             call append_text(clause%units, cells(at)%s)
             at = at + 1
          else if (is(cells, at, "from")) then
             at = at + 1
-            call read_end(cells, at, limits%low, limits%low_unit, message, bad)
-            if (len(message) > 0) return
-            if (.not. is(cells, at, "to")) then
-               message = "missing 'to' after 'from' in a figure"
-               return
-            end if
+            call read_end(cells, at, limits%low, limits%low_unit, mistake)
+            if (allocated(mistake)) return
+            if (.not. is(cells, at, "to")) call set_mistake(mistake, "missing 'to' after 'from' in a figure", phrase_hint, "")
+            if (allocated(mistake)) return
             at = at + 1
-            call read_end(cells, at, limits%high, limits%high_unit, message, bad)
-            if (len(message) > 0) return
+            call read_end(cells, at, limits%high, limits%high_unit, mistake)
+            if (allocated(mistake)) return
             clause%limits = [clause%limits, limits]
          else
             return
@@ -237,13 +240,12 @@ contains
    end subroutine read_axes
 
    !> One end of an axis: a number and its unit, with or without a blank between.
-   subroutine read_end(cells, at, x, unit, message, bad)
+   subroutine read_end(cells, at, x, unit, mistake)
       type(text_t), intent(in) :: cells(:)                   !! (n) cells
       integer, intent(inout) :: at                           !! next of them
       real(wp), intent(out) :: x                             !! the number [any]
       character(:), allocatable, intent(out) :: unit         !! its unit, blank if there is none
-      character(:), allocatable, intent(inout) :: message    !! what is wrong, blank if nothing
-      character(:), allocatable, intent(inout) :: bad        !! the wrong cell
+      type(mistake_t), allocatable, intent(inout) :: mistake !! what is wrong
 
       character(:), allocatable :: trouble
       type(unit_t) :: parsed
@@ -257,8 +259,9 @@ contains
       if (n > 0) call read_number(cells(at)%s(:n), 0, x, is_finite)
       if (n > 0 .and. .not. is_finite) n = 0
       if (n == 0) then
-         message = "missing number for an axis limit"
-         if (at <= size(cells)) bad = cells(at)%s
+         trouble = ""
+         if (at <= size(cells)) trouble = cells(at)%s
+         call set_mistake(mistake, "missing number for an axis limit", phrase_hint, trouble)
          return
       end if
       if (n < len(cells(at)%s)) unit = segment(cells(at)%s, n + 1)

@@ -1,28 +1,25 @@
-!> The deck's words for figures.
+!> The record of a figure: what its words in a deck ask for, read once, and what they name in a catalogue (`figure_binding`).
 !>
 !> `slider.velocity`, `guide.penetration`, `energy.*`: time histories of channels; with `+`, `against`, units, ends of axes, and in
-!> `panels(...)`: `curve_words`.
+!> `panels(...)`: `figure_phrase`.
 !> `gudgeon.orbit`: path of the journal in its clearance. `portrait(slider.velocity.x,slider.acceleration.x)`:
 !> the second over the first. With a section [statistics]: `section(X,Y)`, the same two once per period; `spectrum(X)`;
 !> `histogram(JOINT.impact_speed)` or of `peak_force`. Of a sweep: `bifurcation(X)`, the channel once per period over the
 !> first parameter; `statistics(NUMBER,...)`, up to four numbers with their spread over it. `film(JOINT)`: the unwrapped film at the
-!> end of the run; `film(JOINT,minimum)` where it is thinnest, `film(JOINT,0.3s)` at a time. The mechanism: `motion_words`.
+!> end of the run; `film(JOINT,least)` where it is thinnest, `film(JOINT,0.3s)` at a time. The mechanism: `motion_words`.
 module figure_words
-   use, intrinsic :: ieee_arithmetic, only: ieee_is_finite
-   use catalogue, only: catalogue_t
-   use groups_of_catalogue, only: group_clearances
    use channel_names, only: scalar_t
-   use curve_words, only: bind_curves, curves_t
-   use figure_phrase, only: phrase_hint, phrase_t, read_phrase
+   use curve_words, only: curves_t
+   use figure_phrase, only: mistake_t, phrase_hint, phrase_t, read_phrase, set_mistake
    use film_fields, only: field_request_t
-   use kinds, only: i8, wp
-   use motion_words, only: motion_request_t
-   use spelling, only: nearest_word
-   use text, only: join, segment, starts_with, text_t, to_text
+   use kinds, only: i8
+   use motion_words, only: film_hint, motion_hint, motion_request_t, read_moment, read_motion
+   use text, only: segment, starts_with, text_t, to_text
    use text_buffer, only: buffer_t
+   use text_list, only: text_list_t
    implicit none (type, external)
    private
-   public :: append_figure, check_figures, figure_t, new_figure
+   public :: append_figure, call_words, figure_t, orbit_ending, read_figure
    public :: figure_bifurcation, figure_histogram, figure_history, figure_orbit, figure_portrait, figure_section
    public :: draws_mechanism, figure_animation, figure_coupler, figure_mechanism, figure_strip
    public :: figure_film, figure_spectrum, figure_statistics, is_of_run
@@ -40,129 +37,129 @@ module figure_words
    integer, parameter :: figure_strip = 11       !! the mechanism at several positions over a turn, one over the other
    integer, parameter :: figure_coupler = 12     !! the path of a point
    integer, parameter :: figure_animation = 13   !! the moving mechanism
-   integer, parameter :: most_panels = 4         !! of a figure of statistics
    integer, parameter :: longest_name = 100   !! characters of the name of a file without its ending
    !> How the figures with arguments start, by their kind.
    character(*), parameter :: call_words(figure_portrait:figure_animation) = [character(12) :: "portrait(", "section(", &
       "spectrum(", "histogram(", "bifurcation(", "statistics(", "film(", "mechanism(", "strip(", "coupler(", "animation("]
-   character(*), parameter :: histogram_words = "impact_speed peak_force"  !! what there are histograms of
-   character(*), parameter :: orbit_word = ".orbit"        !! how an orbit ends
-
-   character(*), parameter :: unknown_channel = "unknown channel"  !! how the message about one starts
+   integer, parameter :: fewest(figure_portrait:figure_animation) = [2, 2, 1, 1, 1, 1, 1, 0, 0, 1, 0]  !! arguments of each
+   integer, parameter :: most(figure_portrait:figure_animation) = [2, 2, 1, 1, 1, 4, 2, spread(huge(1), 1, 4)]  !! the same
+   character(*), parameter :: orbit_ending = ".orbit"      !! how an orbit ends
 
    !> One figure.
    type :: figure_t
       integer :: kind = figure_history              !! one of the above
       character(:), allocatable :: word             !! as in the deck
       character(:), allocatable :: name             !! of its files: letters, digits, `_`, `-` and dots
+      type(phrase_t) :: phrase                      !! of curves: channels, units and ends of axes by name
+      type(text_t), allocatable :: arguments(:)     !! (n) of others: channels, joint, or numbers, by name
+      type(field_request_t) :: film                 !! of a film: which, and when
+      type(motion_request_t) :: motion              !! of what draws the mechanism: when, and which point
       type(scalar_t), allocatable :: scalars(:)     !! (n) curves, then their abscissa; of an orbit coordinates; of a portrait x, y
       type(curves_t) :: curves                      !! of curves: panels and axes
       integer :: joint = 0                          !! of an orbit: number of the clearance joint
-      type(field_request_t) :: film                 !! of a film: which, and when
-      type(motion_request_t) :: motion              !! of what draws the mechanism: when, and which point
-      type(text_t), allocatable :: numbers(:)       !! (n) of statistics: their names; of a histogram: joint, quantity
    end type figure_t
-
-   interface
-
-      !> A figure with arguments.
-      module subroutine new_call(word, catalogue, figure, message, hint, bad)
-         implicit none (type, external)
-         character(*), intent(in) :: word                       !! a word of the deck
-         type(catalogue_t), intent(in) :: catalogue             !! what can be recorded
-         type(figure_t), intent(inout) :: figure                !! the figure, its kind is known
-         character(:), allocatable, intent(inout) :: message    !! what is wrong, blank if nothing
-         character(:), allocatable, intent(inout) :: hint       !! what may have been meant, may be blank
-         character(:), allocatable, intent(out) :: bad          !! the wrong argument, blank: all of it
-      end subroutine new_call
-
-   end interface
 
 contains
 
-   !> Look for errors in a list of figures.
-   subroutine check_figures(words, catalogue, bad_word, bad_message, hint, bad_part, figures)
-      type(text_t), intent(in) :: words(:)                    !! (n) words of the deck
-      type(catalogue_t), intent(in) :: catalogue              !! what can be recorded
-      integer, intent(out) :: bad_word                        !! number of the first wrong word, 0: none
-      character(:), allocatable, intent(out) :: bad_message   !! what is wrong with it
-      character(:), allocatable, intent(out) :: hint          !! what may have been meant, may be blank
-      character(:), allocatable, intent(out) :: bad_part      !! the part of it that is wrong; blank: all of it
-      type(figure_t), allocatable, intent(out) :: figures(:)  !! (n) the figures, if none is wrong
+   !> Read the words of a figure.
+   subroutine read_figure(word, figure, mistake)
+      character(*), intent(in) :: word                       !! a figure of the deck
+      type(figure_t), intent(out) :: figure                  !! what it asks for
+      type(mistake_t), allocatable, intent(out) :: mistake   !! what is wrong
 
-      integer :: k
+      integer :: n
 
-      allocate (figures(size(words)))
-      bad_word = 0
-      bad_message = ""
-      hint = ""
-      bad_part = ""
-      do k = 1, size(words)
-         call new_figure(words(k)%s, catalogue, figures(k), bad_message, hint, bad_part)
-         if (len(bad_message) == 0) cycle
-         bad_word = k
-         return
-      end do
-   end subroutine check_figures
-
-   !> Understand one word.
-   recursive subroutine new_figure(word, catalogue, figure, message, hint, bad_part)
-      character(*), intent(in) :: word                     !! a word of the deck
-      type(catalogue_t), intent(in) :: catalogue           !! what can be recorded
-      type(figure_t), intent(out) :: figure                !! the figure
-      character(:), allocatable, intent(out) :: message    !! what is wrong, blank if nothing
-      character(:), allocatable, intent(out) :: hint       !! what may have been meant, may be blank
-      character(:), allocatable, intent(out), optional :: bad_part  !! the part that is wrong; blank: all of it
-
-      character(:), allocatable :: bad
-      integer :: blank
-
-      message = ""
-      hint = ""
-      if (present(bad_part)) bad_part = ""
       figure%word = word
       figure%name = file_name(word)
-      blank = index(word, " ")
-      if (blank > 0) then
-         if (kind_of_call(called(word(:blank - 1))) > 0 .or. ends_with(word(:blank - 1), orbit_word)) then
-            message = "'"//first_word(word(blank + 1:))//"' is valid for figures of curves, not for '"//word(:blank - 1)//"'"
-            hint = phrase_hint
-            if (present(bad_part)) bad_part = first_word(word(blank + 1:))
-            return
-         end if
-      end if
-      figure%kind = kind_of_call(called(word))
-      if (figure%kind > 0) then
-         call new_call(called(word), catalogue, figure, message, hint, bad)
-         if (present(bad_part)) bad_part = bad
-         return
-      end if
-      figure%kind = figure_history
-      if (blank == 0 .and. ends_with(word, orbit_word)) then
-         call new_orbit(word(1:len(word) - len(orbit_word)), catalogue, figure, message, hint)
+      allocate (figure%arguments(0), figure%scalars(0))
+      n = index(word//" ", " ") - 1
+      figure%kind = kind_of(word(:n))
+      if (n < len(word) .and. figure%kind /= figure_history) then
+         associate (next => word(n + 2:n + index(word(n + 2:)//" ", " ")))
+            call set_mistake(mistake, "'"//next//"' is valid for figures of curves, not for '"//word(:n)//"'", phrase_hint, next)
+         end associate
+      else if (figure%kind == figure_history) then
+         call read_phrase(word, figure%phrase, mistake)
+      else if (figure%kind == figure_orbit) then
+         figure%arguments = [text_t(word(:len(word) - len(orbit_ending)))]
       else
-         call new_history(word, catalogue, figure, message, hint, bad)
-         if (present(bad_part)) bad_part = bad
+         call read_call(called(word), figure, mistake)
       end if
-   end subroutine new_figure
+   end subroutine read_figure
 
-   !> Whether a word ends with another.
-   pure logical function ends_with(word, ending)
-      character(*), intent(in) :: word     !! the word
-      character(*), intent(in) :: ending   !! its supposed end, shorter than it
+   !> The kind of a figure by its first word.
+   pure integer function kind_of(word) result(kind)
+      character(*), intent(in) :: word  !! without blanks outside of parentheses
 
-      ends_with = .false.
-      if (len(word) > len(ending)) ends_with = word(len(word) - len(ending) + 1:) == ending
-   end function ends_with
+      do kind = figure_portrait, figure_animation
+         if (starts_with(called(word), trim(call_words(kind)))) return
+      end do
+      kind = figure_history
+      if (len(word) <= len(orbit_ending)) return
+      if (word(len(word) - len(orbit_ending) + 1:) == orbit_ending) kind = figure_orbit
+   end function kind_of
 
-   !> What stands before the first blank.
-   pure function first_word(text) result(word)
-      character(*), intent(in) :: text     !! words
-      character(:), allocatable :: word    !! the first of them
+   !> A word that needs no arguments, with parentheses; any other as it is.
+   pure function called(word) result(call)
+      character(*), intent(in) :: word        !! a word of the deck
+      character(:), allocatable :: call       !! as `mechanism()`
 
-      word = text
-      if (index(text, " ") > 0) word = text(:index(text, " ") - 1)
-   end function first_word
+      integer :: kind
+
+      call = word
+      do kind = figure_mechanism, figure_animation
+         if (word//"(" == trim(call_words(kind)) .and. fewest(kind) == 0) call = word//"()"
+      end do
+   end function called
+
+   !> Read the arguments of a figure.
+   subroutine read_call(word, figure, mistake)
+      character(*), intent(in) :: word                          !! as `spectrum(motor.moment)`
+      type(figure_t), intent(inout) :: figure                   !! the figure, its kind is known
+      type(mistake_t), allocatable, intent(inout) :: mistake    !! what is wrong
+
+      character(:), allocatable :: hint
+      integer :: dot, n
+
+      figure%arguments = arguments_of(word(len_trim(call_words(figure%kind)) + 1:))
+      n = size(figure%arguments)
+      if (n < fewest(figure%kind) .or. n > most(figure%kind) .or. word(len(word):) /= ")") then
+         hint = "write "//trim(call_words(figure%kind))//trim(merge("x_channel,y_channel", "channel            ", &
+                                                                    fewest(figure%kind) == 2))//")"
+         if (figure%kind == figure_statistics) hint = "write statistics(NUMBER,NUMBER) with one to four numbers"
+         if (figure%kind == figure_film) hint = film_hint
+         if (draws_mechanism(figure)) hint = motion_hint
+         call set_mistake(mistake, "cannot read '"//word//"'", hint, "")
+      else if (draws_mechanism(figure)) then
+         call read_motion(figure%arguments, figure%kind == figure_coupler, figure%motion, mistake)
+      else if (figure%kind == figure_film) then
+         figure%film%name = figure%name
+         figure%film%joint = figure%arguments(1)%s
+         if (n == 2) call read_moment(figure%arguments(2)%s, figure%film, mistake)
+      else if (figure%kind == figure_histogram) then
+         hint = figure%arguments(1)%s
+         dot = index(hint, ".")
+         figure%arguments = [text_t(hint(:dot - 1)), text_t(segment(hint, dot + 1))]
+      end if
+   end subroutine read_call
+
+   !> What stands between commas before a closing parenthesis.
+   pure function arguments_of(text) result(list)
+      character(*), intent(in) :: text           !! as `a,b)`
+      type(text_t), allocatable :: list(:)       !! (n) arguments
+
+      type(text_list_t) :: found
+      integer :: first, length
+
+      first = 1
+      do while (first <= len(text))
+         length = scan(text(first:), ",)") - 1
+         if (length < 1) exit
+         call found%add(text(first:first + length - 1))
+         first = first + length + 1
+      end do
+      list = found%get()
+   end function arguments_of
 
    !> A name for the files of a figure: letters, digits, `_`, `-` and dots alone; the end of a long one is a number made of it. What
    !> one panel of several draws is joined by `and`: other panels of the same channels have another name.
@@ -204,132 +201,6 @@ contains
       end do
       name = segment(name, 1, longest_name - 9)//"."//to_text(mark)
    end function file_name
-
-   !> Channels over time, or over another channel.
-   recursive subroutine new_history(word, catalogue, figure, message, hint, bad)
-      character(*), intent(in) :: word                       !! a figure of the deck
-      type(catalogue_t), intent(in) :: catalogue             !! what can be recorded
-      type(figure_t), intent(inout) :: figure                !! the figure
-      character(:), allocatable, intent(inout) :: message    !! what is wrong, blank if nothing
-      character(:), allocatable, intent(inout) :: hint       !! what may have been meant, may be blank
-      character(:), allocatable, intent(out) :: bad          !! the wrong part, blank: all of it
-
-      type(phrase_t) :: phrase
-
-      call read_phrase(word, phrase, message, bad)
-      if (len(message) > 0) then
-         hint = phrase_hint
-         allocate (figure%scalars(0))
-         return
-      end if
-      call bind_curves(phrase, catalogue, figure%scalars, figure%curves, message, hint, bad)
-      if (starts_with(message, unknown_channel) .and. bad == word) then
-         message = "unknown figure"//segment(message, len(unknown_channel) + 1)
-         call take_nearest_call(word, catalogue, hint)
-         hint = hint//"; figures are a channel, JOINT.orbit, portrait(X,Y), section(X,Y), spectrum(X), "// &
-                "histogram(JOINT.impact_speed), bifurcation(X), statistics(NUMBER), film(JOINT), mechanism, strip(n=8), "// &
-                "coupler(POINT) and animation(last=...); "//phrase_hint
-      end if
-   end subroutine new_history
-
-   !> Start a hint with the figure of another kind that was probably meant, if that would be understood.
-   recursive subroutine take_nearest_call(word, catalogue, hint)
-      character(*), intent(in) :: word                       !! a figure of the deck that is none
-      type(catalogue_t), intent(in) :: catalogue             !! what can be recorded
-      character(:), allocatable, intent(inout) :: hint       !! what may have been meant
-
-      character(*), parameter :: question = "did you mean '"
-      character(:), allocatable :: ignored, message, meant, nearest
-      type(figure_t) :: figure
-      type(text_t) :: calls(figure_portrait:figure_animation)
-      integer :: k
-
-      if (starts_with(hint, question)) return
-      meant = ""
-      k = index(word, ".", back=.true.)
-      if (k > 1 .and. nearest_word(word(k + 1:), [text_t(orbit_word(2:))]) == orbit_word(2:)) then
-         meant = word(:k - 1)//orbit_word
-      else
-         do k = figure_portrait, figure_animation
-            calls(k)%s = segment(call_words(k), 1, index(call_words(k), "(") - 1)
-         end do
-         nearest = nearest_word(word(:index(word//"(", "(") - 1), calls)
-         if (len(nearest) > 0) meant = nearest//word(index(word//"(", "("):)
-      end if
-      if (len(meant) == 0 .or. meant == word) return
-      call new_figure(meant, catalogue, figure, message, ignored)
-      if (len(message) == 0) hint = question//meant//"'? "//hint
-   end subroutine take_nearest_call
-
-   !> Path of a journal.
-   recursive subroutine new_orbit(joint, catalogue, figure, message, hint)
-      character(*), intent(in) :: joint                      !! name of the joint
-      type(catalogue_t), intent(in) :: catalogue             !! what can be recorded
-      type(figure_t), intent(inout) :: figure                !! the figure
-      character(:), allocatable, intent(inout) :: message    !! what is wrong, blank if nothing
-      character(:), allocatable, intent(inout) :: hint       !! what may have been meant, may be blank
-
-      character(:), allocatable :: ignored, nearest, refused
-      type(figure_t) :: meant
-      integer :: group, k
-      logical :: is_round
-
-      figure%kind = figure_orbit
-      allocate (figure%scalars(0))
-      group = catalogue%find_group(group_clearances, "eccentricity")
-      associate (names => catalogue%rooms(group_clearances)%names)
-         do k = 1, size(names)
-            if (names(k)%s == joint) figure%joint = k
-         end do
-         if (figure%joint > 0) then
-            associate (clearance => catalogue%rooms(group_clearances)%radius(figure%joint))
-               is_round = ieee_is_finite(clearance)
-               if (is_round) is_round = clearance > 0.0_wp
-            end associate
-            if (.not. is_round) then
-               message = "no orbit of '"//joint//"': the joint is ideal, or its clearance is not round"
-               hint = "an orbit needs a journal in a bearing with level = clearance"
-               return
-            end if
-         end if
-         if (figure%joint > 0 .and. group > 0) then
-            if (catalogue%item_has(group, figure%joint)) then
-               figure%scalars = [(scalar_t(group, k, figure%joint), k=1, catalogue%groups(group)%channel%components)]
-               return
-            end if
-         end if
-         message = "no orbit of '"//joint//"': it is not a joint with clearance"
-         nearest = nearest_word(joint, names)
-         hint = "joints with clearance: "//join(names, " ")
-         if (size(names) == 0) hint = "this deck has no joints with clearance"
-         if (len(nearest) == 0 .or. nearest == joint) return
-         call new_figure(nearest//orbit_word, catalogue, meant, refused, ignored)
-         if (len(refused) == 0) hint = "did you mean '"//nearest//orbit_word//"'? "//hint
-      end associate
-   end subroutine new_orbit
-
-   !> The kind of a figure with arguments, 0 if it has none.
-   pure integer function kind_of_call(word) result(kind)
-      character(*), intent(in) :: word  !! a word of the deck
-
-      do kind = figure_portrait, figure_animation
-         if (starts_with(word, trim(call_words(kind)))) return
-      end do
-      kind = 0
-   end function kind_of_call
-
-   !> A word that needs no arguments, with parentheses; any other as it is.
-   pure function called(word) result(call)
-      character(*), intent(in) :: word        !! a word of the deck
-      character(:), allocatable :: call       !! as `mechanism()`
-
-      integer :: kind
-
-      call = word
-      do kind = figure_mechanism, figure_animation
-         if (word//"(" == trim(call_words(kind)) .and. kind /= figure_coupler) call = word//"()"
-      end do
-   end function called
 
    !> Whether a figure is one of a single run, not of a sweep.
    pure logical function is_of_run(figure)

@@ -14,10 +14,11 @@ module figures
    use errors, only: error_t
    use extremes, only: extremes_t
    use field_plot, only: write_field_plot
-   use figure_data, only: curve_t, data_files_t, find_curves
+   use drawn_rows, only: drawn_rows_t
+   use figure_data, only: curve_t, find_curves
    use figure_script, only: figure_text
    use figure_words, only: draws_mechanism, figure_animation, figure_film, figure_histogram, figure_history, figure_portrait, &
-      figure_section, figure_spectrum, figure_t
+      figure_section, figure_spectrum, figure_t, is_of_run
    use frames, only: frame_keeper_t
    use gnuplot_runs, only: draw_figures, moving
    use film_fields, only: film_field_t
@@ -39,12 +40,15 @@ module figures
 contains
 
    !> Write the scripts of all figures and draw them.
-   subroutine make_figures(directory, title, list, catalogue, extremes, tables, fields, drawing, keeper, pictures, warnings, error)
+   subroutine make_figures(directory, title, list, catalogue, extremes, rows, ideal_rows, tables, fields, drawing, keeper, &
+                           pictures, warnings, error)
       character(*), intent(in) :: directory                        !! of the run
       character(*), intent(in) :: title                            !! of the scene, any text
       type(figure_t), intent(in) :: list(:)                        !! (n) figures
       type(catalogue_t), intent(in) :: catalogue                   !! what was recorded
       type(extremes_t), intent(in) :: extremes                     !! what is round-off
+      type(drawn_rows_t), intent(in) :: rows                       !! numbers of curves
+      type(drawn_rows_t), intent(in) :: ideal_rows                 !! those of the reference run with ideal joints
       type(plot_table_t), intent(in) :: tables(:)                  !! (n) numbers of those that are no histories
       type(film_field_t), intent(in) :: fields(:)                  !! (any) films
       type(drawing_t), intent(in) :: drawing                       !! what the scene looks like
@@ -54,12 +58,11 @@ contains
       type(error_t), allocatable, intent(out) :: error             !! a script cannot be written
 
       type(text_t), allocatable :: empty(:), names(:), pages(:)
-      type(data_files_t) :: files
       integer :: code, k
       logical :: is_written
 
       allocate (pictures(0), warnings(0), names(0), pages(0))
-      if (size(list) == 0) return
+      if (.not. any([(is_of_run(list(k)), k=1, size(list))])) return
       code = enter_file(directory//"/figures/")
       if (code == 0) code = make_directory(directory//"/figures")
       if (code /= 0) then
@@ -67,7 +70,7 @@ contains
          return
       end if
       do k = 1, size(list)
-         if (is_named(file_of(list(k)), names)) cycle
+         if (is_named(file_of(list(k)), names) .or. .not. is_of_run(list(k))) cycle
          if (draws_mechanism(list(k))) then
             call write_scene(directory//"/figures", title, list(k), catalogue, drawing, keeper, is_written, pages, error)
          else if (list(k)%kind == figure_film) then
@@ -76,7 +79,8 @@ contains
             call write_plot(directory//"/figures", title, tables(k), is_written, error, empty)
             call tell_empty(list(k)%word, empty, warnings)
          else
-            call write_curves(directory, title, tables(k)%heading, list(k), catalogue, extremes, files, is_written, warnings, error)
+            call write_curves(directory//"/figures", title, tables(k)%heading, list(k), catalogue, extremes, rows, ideal_rows, &
+                              is_written, warnings, error)
          end if
          if (allocated(error)) return
          if (is_written) then
@@ -118,14 +122,15 @@ contains
    end function file_of
 
    !> Time histories, orbits and portraits.
-   subroutine write_curves(directory, title, heading, figure, catalogue, extremes, files, is_written, warnings, error)
-      character(*), intent(in) :: directory               !! of the run
+   subroutine write_curves(folder, title, heading, figure, catalogue, extremes, rows, ideal_rows, is_written, warnings, error)
+      character(*), intent(in) :: folder                  !! of the figures
       character(*), intent(in) :: title                   !! of the scene, any text
       character(*), intent(in) :: heading                 !! lines with `#` for a table
       type(figure_t), intent(in) :: figure                !! the figure
       type(catalogue_t), intent(in) :: catalogue          !! what was recorded
       type(extremes_t), intent(in) :: extremes            !! what is round-off
-      type(data_files_t), intent(inout) :: files          !! files of numbers looked at so far
+      type(drawn_rows_t), intent(in) :: rows              !! numbers of the run
+      type(drawn_rows_t), intent(in) :: ideal_rows        !! those of the reference run with ideal joints
       logical, intent(out) :: is_written                  !! there are numbers to draw
       type(text_t), allocatable, intent(inout) :: warnings(:)  !! (any) what is not drawn, and why
       type(error_t), allocatable, intent(out) :: error    !! the script cannot be written
@@ -138,11 +143,11 @@ contains
       integer :: n_turn
 
       is_written = .false.
-      call find_curves(figure, catalogue, extremes, directory, "", files, curves)
-      call find_curves(figure, catalogue, extremes, directory, ideal_suffix, files, ideal)
+      call find_curves(figure, catalogue, extremes, rows, "", curves)
+      call find_curves(figure, catalogue, extremes, ideal_rows, ideal_suffix, ideal)
       if (figure%kind == figure_history .and. size(curves) > 0) then
          window = window_of(figure, curves, ideal)
-         call make_envelope(directory//"/figures", figure%name, heading, curves, window, envelope, error)
+         call make_envelope(folder, figure%name, heading, rows, curves, window, envelope, error)
          if (allocated(error)) return
          script = curve_text(figure, catalogue, title, curves, ideal, window, envelope)
          call tell_missing(figure, catalogue, curves, warnings)
@@ -152,18 +157,16 @@ contains
       else
          n_turn = 0
          if (size(curves) > 0 .and. figure%kind == figure_portrait) then
-            call make_path(directory//"/figures", figure%name, heading, curves(1), curves(1)%n_row, thinned, error)
+            n_turn = count_turns(rows, curves(1))
+            call make_path(folder, figure%name, heading, rows, curves(1), thinned, error)
          else if (size(curves) > 1) then
-            call make_path(directory//"/figures", figure%name, heading, path_of(curves), curves(1)%n_row, thinned, error)
+            call make_path(folder, figure%name, heading, rows, path_of(curves), thinned, error)
          end if
          if (allocated(error)) return
-         if (figure%kind == figure_portrait .and. size(curves) > 0) then
-            n_turn = count_turns(directory//"/figures/"//curves(1)%path, curves(1))
-         end if
          script = figure_text(figure, catalogue, title, curves, ideal, n_turn, thinned)
       end if
       is_written = len(script) > 0
-      if (is_written) call write_file(directory//"/figures/"//figure%name//".gp", script, error)
+      if (is_written) call write_file(folder//"/"//figure%name//".gp", script, error)
    end subroutine write_curves
 
    !> Ends of the abscissa of curves: what is asked for, the time of the run, or all values of another channel.

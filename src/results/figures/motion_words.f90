@@ -1,9 +1,11 @@
-!> The words of figures that draw the mechanism.
+!> The arguments of figures that draw the mechanism, and the moment of a film.
 !>
 !> `mechanism` at the end, `mechanism(t=1ms,2ms)` at instants; `strip(n=8)`: n positions over a turn of the first driver, or over
 !> `last=2turnsofmotor` or a time; `coupler(POINT)`: the path of a point of the deck, over all that is written or over `last=...`;
-!> `animation(last=1turnsofmotor)`, with n pictures.
+!> `animation(last=1turnsofmotor)`, with n pictures. `film(JOINT)`, `film(JOINT,end)`, `film(JOINT,least)`, `film(JOINT,0.3s)`.
 module motion_words
+   use figure_phrase, only: mistake_t, set_mistake
+   use film_fields, only: field_request_t, moment_at, moment_end, moment_min
    use kind_info, only: dim_time, same_dimension
    use kinds, only: wp
    use numbers, only: number_length
@@ -11,13 +13,15 @@ module motion_words
    use units, only: parse_unit, read_quantity, unit_t
    implicit none (type, external)
    private
-   public :: motion_request_t, motion_hint, take_motion
+   public :: film_hint, motion_hint, motion_request_t, read_moment, read_motion
 
    integer, parameter :: most_pictures = 200  !! of one figure
    character(*), parameter :: motion_hint = "write mechanism(t=1ms,2ms), strip(n=8), coupler(POINT) or "// &
                               "animation(last = 1 turns of DRIVER); strip, coupler and animation take n=... and last=..."
+   character(*), parameter :: film_hint = "write film(JOINT) for the end of the run, film(JOINT,least) or "// &
+                              "film(JOINT,0.3s)"  !! what would be right
 
-   !> What such a figure asks for.
+   !> What a figure of the mechanism asks for.
    type :: motion_request_t
       real(wp), allocatable :: times(:)        !! (any) instants that are named [s]
       integer :: n = 0                         !! pictures; 0: as many as is usual
@@ -28,40 +32,64 @@ module motion_words
 
 contains
 
-   !> Understand the arguments.
-   subroutine take_motion(arguments, with_point, request, message, bad)
+   !> Read the arguments of a figure of the mechanism.
+   subroutine read_motion(arguments, with_point, request, mistake)
       type(text_t), intent(in) :: arguments(:)               !! (any) what stands between commas
       logical, intent(in) :: with_point                      !! the first of them is a point
       type(motion_request_t), intent(out) :: request         !! what they ask for
-      character(:), allocatable, intent(out) :: message      !! what is wrong, blank if nothing
-      character(:), allocatable, intent(out) :: bad          !! the wrong argument, blank: none, or all of them
+      type(mistake_t), allocatable, intent(out) :: mistake   !! what is wrong
 
+      character(:), allocatable :: message
       integer :: k
 
       message = ""
-      bad = ""
       request%driver = ""
       request%point = ""
       allocate (request%times(0))
       if (with_point) request%point = arguments(1)%s
       do k = merge(2, 1, with_point), size(arguments)
-         if (starts_with(arguments(k)%s, "n=")) then
-            call take_count(segment(arguments(k)%s, 3), request, message)
-         else if (starts_with(arguments(k)%s, "last=")) then
-            call take_window(segment(arguments(k)%s, 6), request, message)
-         else if (starts_with(arguments(k)%s, "t=")) then
-            call take_time(segment(arguments(k)%s, 3), request, message)
-         else
-            call take_time(arguments(k)%s, request, message)
-         end if
-         if (len(message) > 0) bad = arguments(k)%s
-         if (len(message) > 0) return
+         associate (word => arguments(k)%s)
+            if (starts_with(word, "n=")) then
+               call read_count(segment(word, 3), request, message)
+            else if (starts_with(word, "last=")) then
+               call read_window(segment(word, 6), request, message)
+            else
+               call add_time(segment(word, merge(3, 1, starts_with(word, "t="))), request, message)
+            end if
+            if (len(message) > 0) call set_mistake(mistake, message, motion_hint, word)
+         end associate
+         if (allocated(mistake)) return
       end do
-      if (size(request%times) > most_pictures) message = "too many times for one figure"
-   end subroutine take_motion
+      if (size(request%times) > most_pictures) call set_mistake(mistake, "too many times for one figure", motion_hint, "")
+   end subroutine read_motion
+
+   !> Read the moment of a film.
+   subroutine read_moment(word, request, mistake)
+      character(*), intent(in) :: word                       !! end, least or a time with its unit
+      type(field_request_t), intent(inout) :: request        !! its moment is set
+      type(mistake_t), allocatable, intent(out) :: mistake   !! what is wrong
+
+      character(:), allocatable :: trouble
+      integer :: n
+
+      n = number_length(word)
+      trouble = ""
+      if (word == "end" .or. word == "least") then
+         request%moment = merge(moment_end, moment_min, word == "end")
+      else if (n == 0) then
+         trouble = "'"//word//"' is not a time of a film"
+      else if (n == len(word)) then
+         trouble = "the time '"//word//"' of a film has no unit"
+      else
+         request%moment = moment_at
+         call read_time(word, request%t, trouble)
+         if (len(trouble) > 0) trouble = "'"//word//"' is not within the run"
+      end if
+      if (len(trouble) > 0) call set_mistake(mistake, trouble, film_hint, word)
+   end subroutine read_moment
 
    !> A number of pictures.
-   subroutine take_count(word, request, message)
+   subroutine read_count(word, request, message)
       character(*), intent(in) :: word                       !! digits
       type(motion_request_t), intent(inout) :: request       !! its number is set
       character(:), allocatable, intent(inout) :: message    !! what is wrong, blank if nothing
@@ -72,10 +100,10 @@ contains
       if (len(word) > 0 .and. len(word) < 5 .and. verify(word, "0123456789") == 0) read (word, *, iostat=status) request%n
       if (status == 0 .and. request%n >= 2 .and. request%n <= most_pictures) return
       message = "'n="//word//"' is not a number of pictures from 2 to 200"
-   end subroutine take_count
+   end subroutine read_count
 
    !> The length of a window: a time, or turns of a driver.
-   subroutine take_window(word, request, message)
+   subroutine read_window(word, request, message)
       character(*), intent(in) :: word                       !! as `2ms`, `1turnsofmotor`
       type(motion_request_t), intent(inout) :: request       !! its window is set
       character(:), allocatable, intent(inout) :: message    !! what is wrong, blank if nothing
@@ -94,10 +122,10 @@ contains
          call read_time(word, request%last, message)
       end if
       if (len(message) == 0 .and. .not. request%last > 0.0_wp) message = "'last="//word//"' is not positive"
-   end subroutine take_window
+   end subroutine read_window
 
-   !> An instant.
-   subroutine take_time(word, request, message)
+   !> Append an instant.
+   subroutine add_time(word, request, message)
       character(*), intent(in) :: word                       !! as `1ms`
       type(motion_request_t), intent(inout) :: request       !! its times grow
       character(:), allocatable, intent(inout) :: message    !! what is wrong, blank if nothing
@@ -110,7 +138,7 @@ contains
          if (t <= request%times(size(request%times))) message = "times must increase: '"//word//"' does not"
       end if
       request%times = [request%times, t]
-   end subroutine take_time
+   end subroutine add_time
 
    !> A time with its unit.
    subroutine read_time(word, t, message)

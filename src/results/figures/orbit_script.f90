@@ -79,6 +79,8 @@ contains
       call choose_plane(curves, h, v)
       path = curves(v)
       path%x = curves(h)%y
+      path%x_label = curves(h)%y_label
+      path%series(1) = curves(h)%series(2)
       path%x_range = curves(h)%y_range
    end function path_of
 

@@ -5,11 +5,10 @@
 !> transparent it is, so that where the path passes often is seen among the rest.
 module path_data
    use errors, only: error_t
-   use figure_data, only: curve_t, open_columns
+   use drawn_rows, only: drawn_rows_t
+   use figure_data, only: curve_t
    use, intrinsic :: ieee_arithmetic, only: ieee_is_finite
    use kinds, only: wp
-   use number_rows, only: number_rows_t
-   use text, only: text_t
    use text_buffer, only: buffer_t
    use text_file, only: write_file
    implicit none (type, external)
@@ -34,29 +33,23 @@ module path_data
 contains
 
    !> Make the table of a path with too many points for the run's own.
-   subroutine make_path(folder, name, heading, curve, n_row, path, error)
+   subroutine make_path(folder, name, heading, rows, curve, path, error)
       character(*), intent(in) :: folder                 !! of the figures
       character(*), intent(in) :: name                   !! of the figure
       character(*), intent(in) :: heading                !! lines with `#` for the table
-      type(curve_t), intent(in) :: curve                 !! file and columns of the path
-      integer, intent(in) :: n_row                       !! rows of that file
+      type(drawn_rows_t), intent(in) :: rows             !! of the run
+      type(curve_t), intent(in) :: curve                 !! the path
       type(path_t), intent(out) :: path                  !! what there is
       type(error_t), allocatable, intent(out) :: error   !! the table cannot be written
 
-      type(number_rows_t) :: rows
-      type(text_t), allocatable :: labels(:)
-      real(wp), allocatable :: row(:)
       type(buffer_t) :: lines
       real(wp) :: crossings, extent(2), last(2)
-      integer :: n
-      logical :: has_last, is_open
+      integer :: n, r
+      logical :: has_last
 
-      if (n_row <= most_rows) return
-      call open_columns(folder//"/"//curve%path, rows, labels, is_open)
-      if (.not. is_open) return
-      allocate (row(size(labels)))
+      if (rows%n <= most_rows) return
       path%file = name//".path.dat"
-      call lines%line("# "//labels(curve%x)%s//" "//labels(curve%y)%s)
+      call lines%line("# "//curve%x_label//" "//curve%y_label)
       call lines%add(heading)
       call lines%line("# path, points closer than half a pixel omitted, SI")
       extent = [curve%x_range(2) - curve%x_range(1), curve%y_range(2) - curve%y_range(1)]
@@ -64,8 +57,8 @@ contains
       crossings = 0.0_wp
       has_last = .false.
       n = 0
-      do while (rows%next(row))
-         associate (point => [row(curve%x), row(curve%y)])
+      do r = 1, rows%n
+         associate (point => rows%x(r, curve%series))
             if (.not. all(ieee_is_finite(point))) then
                if (has_last) call lines%line("")  ! a gap
                has_last = .false.
@@ -81,7 +74,6 @@ contains
             n = n + 1
          end associate
       end do
-      call rows%close()
       call write_file(folder//"/"//path%file, lines%get(), error)
       path%is_used = n > 0 .and. .not. allocated(error)
       call choose_style(crossings, n, path)

@@ -111,15 +111,15 @@ contains
       integer :: counts(statistics%plan%bins), k
       real(wp) :: edges(statistics%plan%bins + 1)
 
-      call joint_statistics(figure%numbers(1)%s, events, statistics%plan%after, t_end, joint)
-      if (figure%numbers(2)%s == "impact_speed") then
+      call joint_statistics(figure%arguments(1)%s, events, statistics%plan%after, t_end, joint)
+      if (figure%arguments(2)%s == "impact_speed") then
          call histogram(joint%speeds, edges, counts)
          table%x_unit = "m/s"
-         table%x_name = "impact speed of "//figure%numbers(1)%s
+         table%x_name = "impact speed of "//figure%arguments(1)%s
       else
          call histogram(joint%forces, edges, counts)
          table%x_unit = "N"
-         table%x_name = "peak force of "//figure%numbers(1)%s
+         table%x_name = "peak force of "//figure%arguments(1)%s
       end if
       call append_text(table%labels, "from["//table%x_unit//"]")
       call append_text(table%labels, "to["//table%x_unit//"]")

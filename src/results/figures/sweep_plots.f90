@@ -38,7 +38,7 @@ contains
          call bifurcation_table(scalar_name(catalogue, figure%scalars(1)), &
                                 catalogue%groups(figure%scalars(1)%group)%channel%unit, results, table)
       else
-         call statistics_table(figure%numbers, results, table)
+         call statistics_table(figure%arguments, results, table)
       end if
    end subroutine sweep_table
 

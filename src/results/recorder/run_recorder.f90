@@ -11,9 +11,10 @@ module run_recorder
    use errors, only: error_t, exit_file, set_error
    use event_list, only: event_list_t
    use extremes, only: extremes_t, joint_extremes_t, joints_at_extremes
+   use drawn_rows, only: drawn_rows_t
+   use figure_needs, only: missing_films
    use figure_words, only: figure_t
    use film_fields, only: append_field, film_field_t
-   use film_words, only: missing_films
    use frames, only: frame_keeper_t
    use hot_films, only: films_too_hot
    use hdf5_writer, only: hdf5_writer_t
@@ -45,13 +46,14 @@ module run_recorder
       integer(i8) :: cost = 0              !! time that it takes to save it [ms]
    end type pace_t
 
-   !> The recorder. Set `plan` before `start`.
+   !> The recorder. Set `plan` and `figures` before `start`.
    type, extends(recorder_t) :: run_recorder_t
       type(output_plan_t) :: plan                             !! what to keep, and where
+      type(figure_t), allocatable :: figures(:)               !! (n) figures of the run, then those of a sweep that it is of
+      type(drawn_rows_t) :: rows                              !! what they draw
+      type(drawn_rows_t) :: ideal_rows                        !! the same of the reference run with ideal joints
       type(catalogue_t), allocatable, private :: items        !! what the run can report, for the figures
       type(selection_t), private :: selection                 !! what of it is kept
-      type(figure_t), allocatable, private :: figures(:)      !! (n) figures to be made
-      type(figure_t), allocatable, private :: of_sweep(:)     !! (n) figures of a sweep that this run may be a part of
       type(event_list_t), private :: events                   !! all events
       type(hdf5_writer_t), private :: hdf5                    !! run.h5
       type(motion_writer_t), private :: motion                !! the motion for other programs
@@ -221,6 +223,7 @@ contains
       if (self%plan%with%texts) call self%texts%sample(t, kind, catalogue, self%events, second)
       call join_errors(error, second)
       if (allocated(error)) self%is_broken = .true.
+      call self%rows%sample(t, catalogue)
    end subroutine keep_row
 
    !> Keep the current values as those of an instant once per period.

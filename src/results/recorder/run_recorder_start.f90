@@ -2,9 +2,12 @@
 submodule(run_recorder) run_recorder_start
    use channel_names, only: scalar_t
    use channels, only: list_scalars, select_channels
+   use drawn_rows, only: labels_of
    use errors, only: exit_deck
+   use figure_binding, only: bind_figure
+   use figure_phrase, only: mistake_t
    use figure_needs, only: add_figure_channels, extra_tables, film_requests, spectral_scalars, stroboscopic_scalars
-   use figure_words, only: append_figure, figure_film, is_of_run, new_figure
+   use figure_words, only: append_figure, figure_film
    use text_file, only: write_file
    implicit none (type, external)
 
@@ -22,8 +25,7 @@ contains
          if (allocated(error)) return
       end if
       if (self%plan%is_twin()) self%plan%statistics%is_wanted = .false.
-      call self%statistics%start(self%plan%statistics, catalogue, [stroboscopic_scalars(self%figures), &
-                                 stroboscopic_scalars(self%of_sweep)], &
+      call self%statistics%start(self%plan%statistics, catalogue, stroboscopic_scalars(self%figures), &
                                  spectral_scalars(self%figures))
       allocate (self%fields(0))
       if (self%plan%with%hdf5 .and. self%plan%with%histories .or. self%plan%with%figures) then
@@ -42,6 +44,8 @@ contains
       if (self%plan%with%texts) then
          call self%texts%start(self%plan, catalogue, self%selection, extra_tables(self%figures, catalogue), error)
          if (allocated(error)) return
+         if (self%plan%with%figures .and. .not. self%plan%is_twin()) self%rows%labels = labels_of(self%figures, catalogue)
+         if (allocated(self%rows%labels)) call self%rows%start(self%texts, catalogue)
       end if
       ! histories may need them, extremes do
       self%wants_contact_rows = self%plan%with%histories .or. self%statistics%plan%is_wanted
@@ -54,14 +58,15 @@ contains
       call memory_is_for("the motion")
    end procedure start_run
 
-   !> Understand the words for channels and figures. The reference run skips what it does not have.
+   !> Find the channels that are kept, with those of figures. The reference run skips what it does not have.
    subroutine choose(self, catalogue, error)
       class(run_recorder_t), intent(inout) :: self       !! the recorder
       type(catalogue_t), intent(in) :: catalogue         !! what can be recorded
       type(error_t), allocatable, intent(out) :: error   !! a word is wrong
 
+      type(figure_t), allocatable :: bound(:)
+      type(mistake_t), allocatable :: mistake
       type(text_t), allocatable :: words(:)
-      type(figure_t) :: figure
       character(:), allocatable :: hint, message
       integer :: bad, k
 
@@ -78,19 +83,15 @@ contains
          call self%selection%clear(catalogue)
          exit
       end do
-      allocate (self%figures(0), self%of_sweep(0))
-      do k = 1, size(self%plan%figures)
-         call new_figure(self%plan%figures(k)%s, catalogue, figure, message, hint)
-         if (len(message) == 0 .and. .not. is_of_run(figure) .and. .not. self%plan%is_twin()) then
-            ! figures of a sweep ask a run for their channels only
-            call append_figure(self%of_sweep, figure)
-         else if (len(message) == 0) then
-            call append_figure(self%figures, figure)
-         else if (.not. self%plan%is_twin()) then
-            call set_error(error, exit_deck, message//"; "//hint)
-            return
-         end if
-      end do
+      if (.not. allocated(self%figures)) allocate (self%figures(0))
+      if (self%plan%is_twin()) then  ! whose catalogue is another
+         allocate (bound(0))
+         do k = 1, size(self%figures)
+            call bind_figure(self%figures(k), catalogue, mistake)
+            if (.not. allocated(mistake)) call append_figure(bound, self%figures(k))
+         end do
+         call move_alloc(bound, self%figures)
+      end if
       call add_figure_channels(self%figures, self%selection)
    end subroutine choose
 

@@ -1,5 +1,6 @@
 !> The summaries of a run, and what is shown of them.
 submodule(run_recorder) run_recorder_summary
+   use figure_words, only: is_of_run
    use figures, only: make_figures
    use output_plan, only: show_json, show_nothing, show_summary
    use plot_table, only: plot_table_t
@@ -45,9 +46,10 @@ contains
    !> The summaries of a run that ends while its figures are made: they are replaced when those are there.
    module procedure write_without_figures
       type(outcome_t) :: outcome
+      integer :: k
 
       if (self%is_broken .or. self%summary%status == status_stopped .or. .not. self%plan%with%figures) return
-      if (size(self%figures) == 0) return
+      if (.not. any([(is_of_run(self%figures(k)), k=1, size(self%figures))])) return
       outcome = self%outcome
       call append_text(outcome%warnings, "the run ended before its figures were drawn")
       call replace_summaries(self, summary_lines(self%plan, self%summary, outcome), summary_json(self%plan, outcome), error)
@@ -77,8 +79,9 @@ contains
          call statistics_table(self%figures(k), self%statistics, self%items, self%events, self%summary%time_end, &
                                file_heading(self%plan), tables(k))
       end do
-      call make_figures(self%plan%directory, self%plan%title, self%figures, self%items, self%extremes, tables, self%fields, &
-                        self%plan%looks%drawing, self%keeper, self%outcome%pictures, missing, error)
+      call make_figures(self%plan%directory, self%plan%title, self%figures, self%items, self%extremes, self%rows, &
+                        self%ideal_rows, tables, self%fields, self%plan%looks%drawing, self%keeper, self%outcome%pictures, &
+                        missing, error)
       call append_all(self%outcome%warnings, missing)
    end procedure draw_figures
 

@@ -78,7 +78,6 @@ module output_plan
       integer(i8) :: n_instant = 0                     !! output instants up to the end of the motion
       real(wp) :: moved = 0.0_wp                       !! how far assembly moved a body from where the deck puts it [m]
       type(text_t), allocatable :: channels(:)         !! (n) words of the deck's `channels`; none: everything
-      type(text_t), allocatable :: figures(:)          !! (n) words of the deck's `figures`
       type(text_t), allocatable :: warnings(:)         !! (n) what was noticed before the run
       type(statistics_plan_t) :: statistics            !! numbers of the motion after its transient
       type(accuracy_t) :: accuracy                     !! what is known of the errors, if an accuracy was asked for
@@ -118,7 +117,6 @@ contains
       call fill_list(self%origin%parameter_names)
       call fill_list(self%origin%parameter_texts)
       call fill_list(self%channels)
-      call fill_list(self%figures)
       call fill_list(self%warnings)
    end subroutine complete_plan
 

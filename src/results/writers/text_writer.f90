@@ -36,7 +36,7 @@ module text_writer
    !> The files of a run.
    type :: text_writer_t
       private
-      type(text_table_t), allocatable :: tables(:)        !! (n) files of columns
+      type(text_table_t), allocatable, public :: tables(:) !! (n) files of columns
       type(text_t), allocatable, public :: names(:)       !! (n) their paths within the run's directory
       type(text_file_t) :: events                         !! events.dat
       character(:), allocatable :: heading                !! of events.dat
