@@ -227,8 +227,8 @@ contains
       call add_section(lines, table)
       call check_equal(error, lines%get(), "<h2 id=""channels"">values</h2>"//nl//"<div class=""scroll""><table><thead><tr>"// &
                        "<th>channel</th><th>unit</th><th>max</th><th>at [ms]</th><th>hits</th></tr></thead><tbody>"//nl// &
-                       "<tr><td>rod.angle</td><td>°</td><td>143.24</td><td>1.25</td><td>7</td></tr>"//nl// &
-                       "<tr><td>pin.x</td><td>fm</td><td>0</td><td>-</td><td>12</td></tr>"//nl// &
+                       "<tr><td>rod.angle</td><td>deg</td><td>143.24</td><td>1.25</td><td>7</td></tr>"//nl// &
+                       "<tr><td>pin.x</td><td>m</td><td>0</td><td>-</td><td>12</td></tr>"//nl// &
                        "<tr><td>pin.state</td><td></td><td>1</td><td>2</td><td>0</td></tr>"//nl//"</tbody></table></div>"//nl// &
                        "<p>4 more in run.h5</p>"//nl, "page")
    end subroutine html_has_units_that_read_well

@@ -7,7 +7,7 @@ module html_table
    use result_table, only: result_column_t, result_table_t
    use text, only: to_text
    use text_buffer, only: buffer_t
-   use text_of_table, only: shown_cell
+   use text_of_table, only: shown_cell, shown_value
    implicit none (type, external)
    private
    public :: add_section, head
@@ -67,14 +67,15 @@ contains
       type(display_unit_t), intent(in) :: units(:)       !! (columns) how values are shown
 
       type(display_unit_t) :: of_row
-      real(wp) :: extent, factor
+      real(wp) :: extent, factor, x
       integer :: k, part
 
       if (allocated(table%units)) then
          extent = 0.0_wp
          do k = 1, size(table%columns)
             if (.not. (table%columns(k)%has_unit_of_row() .and. allocated(table%columns(k)%heading))) cycle
-            if (ieee_is_finite(table%columns(k)%reals(row))) extent = max(extent, abs(table%columns(k)%reals(row)))
+            x = shown_value(table, table%columns(k), row, 1)
+            if (ieee_is_finite(x)) extent = max(extent, abs(x))
          end do
          of_row = choose_unit(table%units(row)%s, extent)
       end if

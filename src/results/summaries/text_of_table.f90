@@ -10,7 +10,7 @@ module text_of_table
    use text_buffer, only: buffer_t
    implicit none (type, external)
    private
-   public :: add_table, shown_cell
+   public :: add_table, shown_cell, shown_value
 
    integer, parameter :: indent = 11         !! blanks before a row
    integer, parameter :: widest_name = 60    !! characters of a name that others are lined up with
@@ -101,10 +101,20 @@ contains
       if (allocated(column%integers)) cell = to_text(column%integers(row))
       if (allocated(column%logicals)) cell = trim(merge("yes", "no ", column%logicals(row)))
       if (.not. allocated(column%reals)) return
-      x = column%reals((row - 1)*column%n_part() + part)
-      if (column%has_unit_of_row() .and. allocated(table%noise)) x = shown(x, table%noise(row))
+      x = shown_value(table, column, row, part)
       cell = column%missing
       if (ieee_is_finite(x)) cell = real_text(factor*x, column%digits)
    end function shown_cell
+
+   !> A real number for people: round-off is zero.
+   pure real(wp) function shown_value(table, column, row, part) result(x)
+      type(result_table_t), intent(in) :: table        !! the table
+      type(result_column_t), intent(in) :: column      !! its column
+      integer, intent(in) :: row                       !! row of the value
+      integer, intent(in) :: part                      !! part of the value
+
+      x = column%reals((row - 1)*column%n_part() + part)
+      if (column%has_unit_of_row() .and. allocated(table%noise)) x = shown(x, table%noise(row))
+   end function shown_value
 
 end module text_of_table

@@ -5,7 +5,7 @@ module extremes_tables
    use extremes, only: extreme_t, extremes_t, joint_extremes_t
    use kinds, only: wp
    use result_table, only: only_shown, result_table_t
-   use text, only: append_text, text_t, to_text
+   use text, only: append_text, counted, text_t, to_text
    implicit none (type, external)
    private
    public :: channel_extremes, joint_extremes
@@ -86,7 +86,7 @@ contains
       if (.not. has_course) table%title = ""
       if (size(joints) == 0) table%group = ""
       table%is_minor = joints%impacts == 0 .and. .not. joints%contact_fraction > 0.0_wp
-      if (any(table%is_minor)) call append_text(table%notes, to_text(count(table%is_minor))//" joints without contact")
+      if (any(table%is_minor)) call append_text(table%notes, counted(count(table%is_minor), "joint", "joints")//" without contact")
       call table%put("joint", "1", "joints with clearance", texts=names, dataset="name", heading="joint")
       call table%put("impacts", "1", "number of impacts", integers=joints%impacts, heading="impacts")
       call table%put("contact_fraction", "1", "fraction of time in contact", joints%contact_fraction, &
