@@ -16,7 +16,6 @@ module figures
    use field_plot, only: write_field_plot
    use drawn_rows, only: drawn_rows_t
    use figure_data, only: curve_t, find_curves
-   use figure_script, only: figure_text
    use figure_words, only: draws_mechanism, figure_animation, figure_film, figure_histogram, figure_history, figure_portrait, &
       figure_section, figure_spectrum, figure_t, is_of_run
    use frames, only: frame_keeper_t
@@ -24,9 +23,9 @@ module figures
    use film_fields, only: film_field_t
    use plot_table, only: plot_table_t, tell_empty, write_plot
    use kinds, only: wp
-   use orbit_script, only: path_of
    use output_marker, only: enter_file
    use path_data, only: make_path, path_t
+   use path_script, only: figure_text, path_of
    use posix, only: make_directory
    use scene_plot, only: write_scene_plot
    use text, only: append_text, text_t
@@ -58,7 +57,7 @@ contains
       type(error_t), allocatable, intent(out) :: error             !! a script cannot be written
 
       type(text_t), allocatable :: empty(:), names(:), pages(:)
-      integer :: code, k
+      integer :: code, i, k
       logical :: is_written
 
       allocate (pictures(0), warnings(0), names(0), pages(0))
@@ -70,7 +69,7 @@ contains
          return
       end if
       do k = 1, size(list)
-         if (is_named(file_of(list(k)), names) .or. .not. is_of_run(list(k))) cycle
+         if (any([(names(i)%s == file_of(list(k)), i=1, size(names))]) .or. .not. is_of_run(list(k))) cycle
          if (draws_mechanism(list(k))) then
             call write_scene(directory//"/figures", title, list(k), catalogue, drawing, keeper, is_written, pages, error)
          else if (list(k)%kind == figure_film) then
@@ -225,18 +224,5 @@ contains
          return
       end do
    end subroutine write_scene
-
-   !> Whether a figure is already in the list.
-   pure logical function is_named(name, names)
-      character(*), intent(in) :: name      !! of a figure
-      type(text_t), intent(in) :: names(:)  !! (n) figures so far
-
-      integer :: k
-
-      is_named = .false.
-      do k = 1, size(names)
-         if (names(k)%s == name) is_named = .true.
-      end do
-   end function is_named
 
 end module figures
