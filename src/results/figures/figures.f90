@@ -19,17 +19,15 @@ module figures
    use figure_words, only: draws_mechanism, figure_animation, figure_film, figure_histogram, figure_history, figure_portrait, &
       figure_section, figure_spectrum, figure_t, is_of_run
    use frames, only: frame_keeper_t
-   use gnuplot_runs, only: draw_figures, moving
+   use gnuplot_runs, only: draw_figures, make_folder, moving
    use film_fields, only: film_field_t
    use plot_table, only: plot_table_t, tell_empty, write_plot
    use kinds, only: wp
-   use output_marker, only: enter_file
    use path_data, only: make_path, path_t
    use path_script, only: figure_text, path_of
-   use posix, only: make_directory
    use scene_plot, only: write_scene_plot
    use text, only: append_text, text_t
-   use text_file, only: fail_file, write_file
+   use text_file, only: write_file
    implicit none (type, external)
    private
    public :: make_figures
@@ -57,17 +55,13 @@ contains
       type(error_t), allocatable, intent(out) :: error             !! a script cannot be written
 
       type(text_t), allocatable :: empty(:), names(:), pages(:)
-      integer :: code, i, k
+      integer :: i, k
       logical :: is_written
 
       allocate (pictures(0), warnings(0), names(0), pages(0))
       if (.not. any([(is_of_run(list(k)), k=1, size(list))])) return
-      code = enter_file(directory//"/figures/")
-      if (code == 0) code = make_directory(directory//"/figures")
-      if (code /= 0) then
-         call fail_file(error, "cannot make the directory", directory//"/figures", code, "")
-         return
-      end if
+      call make_folder(directory//"/figures", error)
+      if (allocated(error)) return
       do k = 1, size(list)
          if (any([(names(i)%s == file_of(list(k)), i=1, size(names))]) .or. .not. is_of_run(list(k))) cycle
          if (draws_mechanism(list(k))) then
