@@ -10,17 +10,16 @@ module verb_compare
    use console, only: say
    use csv_table, only: csv_text
    use errors, only: error_t, exit_different, exit_file, exit_usage, set_error
-   use gnuplot_runs, only: draw_figures
+   use gnuplot_runs, only: draw_figures, make_folder
    use kinds, only: wp
    use options, only: options_t
    use output_directory, only: output_directory_t
-   use output_marker, only: enter_file
-   use posix, only: make_directory, path_exists
+   use posix, only: path_exists
    use run_history, only: read_run
    use series, only: history_t
    use source_text, only: line_of, n_line_of, read_source, source_t
    use text, only: append_text, counted, lower, starts_with, text_t, to_text
-   use text_file, only: fail_file, replace_file
+   use text_file, only: replace_file
    implicit none (type, external)
    private
    public :: compare_runs
@@ -280,7 +279,7 @@ contains
       type(output_directory_t) :: directory
       type(text_t), allocatable :: names(:), pictures(:), warnings(:)
       character(:), allocatable :: folder, object, text
-      integer :: code, k
+      integer :: k
 
       call directory%open(directory_of(options, first), error)
       if (allocated(error)) return
@@ -290,9 +289,7 @@ contains
       end do
       allocate (pictures(0))
       folder = directory%path//"/figures"
-      code = enter_file(folder//"/")
-      if (code == 0) code = make_directory(folder)
-      if (code /= 0) call fail_file(error, "cannot make the directory", folder, code, "")
+      call make_folder(folder, error)
       if (.not. allocated(error)) call write_overlays(found, folder, first, second, names, warnings, error)
       if (.not. allocated(error)) call draw_figures(folder, names, pictures, warnings)
       text = comparison_text(found, first, second)//"output     "//directory%path//"/"//new_line("a")

@@ -6,7 +6,7 @@ module verb_precision
    use console, only: say
    use csv_table, only: csv_text
    use errors, only: error_t, exit_integration, exit_usage, set_error
-   use gnuplot_runs, only: draw_figures
+   use gnuplot_runs, only: draw_figures, make_folder
    use item, only: place_of
    use json_text, only: json_object_t
    use kinds, only: wp
@@ -14,9 +14,7 @@ module verb_precision
    use mechanism_catalogue, only: build_catalogue
    use options, only: options_t
    use output_directory, only: output_directory_t
-   use output_marker, only: enter_file
    use output_plan, only: output_plan_t
-   use posix, only: make_directory
    use precision_file, only: write_precision
    use precision_info, only: check_setting_word
    use precision_objects, only: precision_json
@@ -34,7 +32,7 @@ module verb_precision
    use scene, only: analysis_dynamic
    use scene_echo, only: echo_scene
    use text, only: append_text, replace, split_blank, text_t
-   use text_file, only: fail_file, replace_file, write_file
+   use text_file, only: replace_file, write_file
    use text_table, only: file_heading
    use version, only: program_version
    implicit none (type, external)
@@ -161,7 +159,6 @@ contains
 
       type(text_t), allocatable :: names(:)
       character(:), allocatable :: folder
-      integer :: code
 
       allocate (pictures(0))
       call write_file(plan%directory//"/deck.echo", echo_scene(loaded%deck, loaded%scene), error)
@@ -172,12 +169,8 @@ contains
       end if
       if (allocated(error)) return
       folder = plan%directory//"/figures"
-      code = enter_file(folder//"/")
-      if (code == 0) code = make_directory(folder)
-      if (code /= 0) then
-         call fail_file(error, "cannot make the directory", folder, code, "")
-         return
-      end if
+      call make_folder(folder, error)
+      if (allocated(error)) return
       call write_precision_plots(folder, plan%title, file_heading(plan), study, names, error)
       if (.not. allocated(error)) call draw_figures(folder, names, pictures, warnings)
    end subroutine write_results

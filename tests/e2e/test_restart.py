@@ -81,8 +81,9 @@ def test_a_signal_saves_the_run(gudgeon, tmp_path, number):
 
 
 def test_a_killed_run_goes_on(gudgeon, tmp_path):
-    """SIGKILL, and --resume: the run that nobody disturbed, in every byte of the text files and every number of run.h5."""
-    deck = written(tmp_path, plain_deck((("analysis.dynamic", "checkpoint", "1 ms"), ("output", "every", "5 us"))))
+    """SIGKILL, and --resume: the run that nobody disturbed, in every byte of text files and figures, in every number of run.h5."""
+    figures = "gudgeon.orbit slider.acceleration.x portrait(slider.velocity.x,motor.moment)"
+    deck = written(tmp_path, plain_deck((("analysis.dynamic", "checkpoint", "1 ms"), ("output", "every", "5 us"), ("output", "figures", figures))))
     call(gudgeon, "run", deck, "--out", tmp_path / "whole", "--quiet")
     process = begun(gudgeon, deck, tmp_path / "out")
     process.kill()
@@ -93,8 +94,10 @@ def test_a_killed_run_goes_on(gudgeon, tmp_path):
     assert whole.rows("time").tobytes() == other.rows("time").tobytes()
     assert whole.rows("bodies/velocity").tobytes() == other.rows("bodies/velocity").tobytes()
     assert whole.contacts.tobytes() == other.contacts.tobytes()
-    for path in (tmp_path / "whole").glob("*.dat"):
-        assert path.read_bytes() == (tmp_path / "out" / path.name).read_bytes(), path.name
+    pictures = list((tmp_path / "whole" / "figures").iterdir())
+    assert {path.suffix for path in pictures} == {".dat", ".gp", ".png"}
+    for path in [*(tmp_path / "whole").glob("*.dat"), *pictures]:
+        assert path.read_bytes() == (tmp_path / "out" / path.relative_to(tmp_path / "whole")).read_bytes(), path.name
     assert not (tmp_path / "out" / "checkpoint.h5").exists()
 
 

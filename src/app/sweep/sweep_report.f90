@@ -6,22 +6,20 @@ module sweep_report
    use figure_binding, only: bind_figure
    use figure_phrase, only: mistake_t
    use figure_words, only: figure_t, is_of_run
-   use gnuplot_runs, only: draw_figures
+   use gnuplot_runs, only: draw_figures, make_folder
    use json_text, only: json_object_t
    use kinds, only: i8, wp
    use load, only: loaded_t
    use mechanism_catalogue, only: build_catalogue
    use members, only: cpu_of_all
    use options, only: options_t
-   use output_marker, only: enter_file
    use plot_table, only: plot_table_t, tell_empty, write_plot
-   use posix, only: make_directory
    use recorder, only: status_complete, status_failed, status_stopped
    use sweep_plots, only: sweep_table
    use sweep_work, only: failure_text, sweep_work_t
    use text, only: append_text, real_text, text_t, to_text
    use text_buffer, only: buffer_t
-   use text_file, only: fail_file, replace_file
+   use text_file, only: replace_file
    use text_table, only: file_heading
    use version, only: program_version
    implicit none (type, external)
@@ -44,7 +42,7 @@ contains
       type(text_t), allocatable :: empty(:), names(:)
       type(mistake_t), allocatable :: mistake
       character(:), allocatable :: folder
-      integer :: code, k
+      integer :: k
       logical :: is_written
 
       call build_catalogue(loaded%system, catalogue)
@@ -54,12 +52,8 @@ contains
          figure = loaded%figures(k)
          call bind_figure(figure, catalogue, mistake)
          if (allocated(mistake) .or. is_of_run(figure)) cycle
-         code = enter_file(folder//"/")
-         if (code == 0) code = make_directory(folder)
-         if (code /= 0) then
-            call fail_file(error, "cannot make the directory", folder, code, "")
-            return
-         end if
+         call make_folder(folder, error)
+         if (allocated(error)) return
          call sweep_table(figure, work%results, catalogue, file_heading(work%plan), table)
          call write_plot(folder, loaded%scene%title, table, is_written, error, empty)
          if (allocated(error)) return

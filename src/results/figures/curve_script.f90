@@ -15,7 +15,7 @@ module curve_script
    use kinds, only: wp
    use panel_cells, only: cell_heights, cell_words, picture_height
    use plot_text, only: quoted
-   use script_parts, only: angle_tics, axes_t, axis_range, colours, find_long_tics, hangs_from_zero, ideal_style, &
+   use script_parts, only: angle_tics, axes_t, axis_range, colours, edges, find_long_tics, hangs_from_zero, ideal_style, &
       label_words, largest, largest_y, preamble, source, stands_on_zero
    use text, only: real_text, to_text
    use text_buffer, only: buffer_t
@@ -135,12 +135,8 @@ contains
       type(envelope_t), intent(in) :: envelope    !! ranges of curves that turn too often
       integer, intent(in) :: n                    !! panels of the figure
 
-      real(wp) :: range(2)
-
       call lines%line("set ylabel "//label_words(panel%label, heights(n)/n))
-      range = range_of(panel, 1)
-      call lines%line("set offsets 0, 0, "//trim(merge("0         ", "graph 0.05", hangs_from_zero(range)))//", "// &
-                      trim(merge("0         ", "graph 0.05", stands_on_zero(range))))
+      call lines%line("set offsets 0, 0, "//edges(range_of(panel, 1), "0.05"))
       call ordinate_lines("y", 1)
       if (len(panel%right_label) > 0) then
          call lines%line("set y2label "//label_words(panel%right_label, heights(n)/n))

@@ -3,9 +3,8 @@ module drawn_rows
    use archive, only: archive_t
    use catalogue, only: catalogue_t
    use channel_names, only: scalar_t
-   use figure_words, only: figure_portrait, figure_t
    use kinds, only: wp
-   use text, only: append_text, text_t
+   use text, only: text_t
    use text_table, only: column_label
    use text_writer, only: text_writer_t
    implicit none (type, external)
@@ -39,20 +38,16 @@ module drawn_rows
 
 contains
 
-   !> Labels of the channels that figures of curves draw.
-   function labels_of(figures, catalogue) result(labels)
-      type(figure_t), intent(in) :: figures(:)     !! (n) figures
+   !> What stands over the columns of some numbers.
+   function labels_of(scalars, catalogue) result(labels)
+      type(scalar_t), intent(in) :: scalars(:)     !! (n) numbers
       type(catalogue_t), intent(in) :: catalogue   !! what can be recorded
-      type(text_t), allocatable :: labels(:)       !! (any) labels, perhaps more than once
+      type(text_t) :: labels(size(scalars))        !! (n) labels
 
-      integer :: i, k
+      integer :: k
 
-      allocate (labels(0))
-      do k = 1, size(figures)
-         if (figures(k)%kind > figure_portrait) cycle
-         do i = 1, size(figures(k)%scalars)
-            call append_text(labels, column_label(catalogue, figures(k)%scalars(i)))
-         end do
+      do k = 1, size(scalars)
+         labels(k)%s = column_label(catalogue, scalars(k))
       end do
    end function labels_of
 
@@ -63,14 +58,14 @@ contains
       type(catalogue_t), intent(in) :: catalogue    !! what can be recorded
 
       type(file_column_t) :: column
-      integer :: i, k
+      integer :: i, j, k
 
       allocate (self%columns(0), self%scalars(0))
       do k = 1, size(texts%tables)
          do i = 1, size(texts%tables(k)%columns)
             associate (scalar => texts%tables(k)%columns(i))
                column%label = column_label(catalogue, scalar)
-               if (.not. any_is(self%labels, column%label)) cycle
+               if (.not. any([(self%labels(j)%s == column%label, j=1, size(self%labels))])) cycle
                column%path = texts%names(k)%s
                column%number = i + 1
                column%series = findloc(self%scalars%group == scalar%group .and. self%scalars%item == scalar%item .and. &
@@ -83,16 +78,6 @@ contains
       end do
       allocate (self%x(first_rows, 0:size(self%scalars)))
    end subroutine start
-
-   !> Whether a word is in a list.
-   pure logical function any_is(list, word)
-      type(text_t), intent(in) :: list(:)   !! (n) words
-      character(*), intent(in) :: word      !! the word
-
-      integer :: k
-
-      any_is = any([(list(k)%s == word, k=1, size(list))])
-   end function any_is
 
    !> Keep a row.
    subroutine sample(self, t, catalogue)

@@ -11,6 +11,7 @@ module envelope_data
    use text, only: append_text, text_t, to_text
    use text_buffer, only: buffer_t
    use text_file, only: write_file
+   use text_table, only: number_row
    implicit none (type, external)
    private
    public :: count_turns, envelope_t, make_envelope
@@ -206,7 +207,6 @@ contains
 
       character(*), parameter :: of(4) = [character(8) :: "abscissa", "minimum", "maximum", "mean"]
       type(buffer_t) :: lines
-      character(24) :: number
       integer :: i, j, k
 
       call lines%add("#")
@@ -219,13 +219,7 @@ contains
       call lines%add(heading)
       call lines%line("# minimum and maximum in "//to_text(size(tables, 2))//" pixel columns of the picture, SI")
       do j = 1, size(tables, 2)
-         do k = 1, size(names)
-            do i = 1, 4
-               write (number, "(es24.16e3)") tables(i, j, k)
-               call lines%add(number//" ")
-            end do
-         end do
-         call lines%line("")
+         call lines%line(number_row([tables(:, j, :)])//" ")
       end do
       text = lines%get()
    end function table_text

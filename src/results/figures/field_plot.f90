@@ -12,6 +12,7 @@ module field_plot
    use text, only: real_text, to_text
    use text_buffer, only: buffer_t
    use text_file, only: write_file
+   use text_table, only: number_row
    implicit none (type, external)
    private
    public :: write_field_plot
@@ -52,7 +53,6 @@ contains
       character(:), allocatable :: text        !! whole lines
 
       type(buffer_t) :: lines
-      character(100) :: row
       integer :: j, k
 
       call lines%line("# angle[rad] axial_position[m] pressure[Pa] thickness[m]")
@@ -75,8 +75,7 @@ contains
       subroutine put(j, k)
          integer, intent(in) :: j, k  !! numbers of place and angle
 
-         write (row, "(3(es24.16e3, 1x), es24.16e3)") field%theta(k), field%y(j), field%pressure(j, k), field%gap(j, k)
-         call lines%line(trim(row))
+         call lines%line(number_row([field%theta(k), field%y(j), field%pressure(j, k), field%gap(j, k)]))
       end subroutine put
 
    end function table_text

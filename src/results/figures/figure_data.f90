@@ -56,25 +56,9 @@ contains
             call find_curve(figure%scalars(k), catalogue, extremes, rows, suffix, curve)
          end if
          curve%number = k
-         if (all(curve%series >= 0)) call append_curve(curves, curve)
+         if (all(curve%series >= 0)) curves = [curves, curve]
       end do
    end subroutine find_curves
-
-   !> Append a curve to a list.
-   subroutine append_curve(curves, curve)
-      type(curve_t), allocatable, intent(inout) :: curves(:)  !! (n) curves
-      type(curve_t), intent(in) :: curve                      !! the new one
-
-      type(curve_t), allocatable :: grown(:)
-      integer :: k
-
-      allocate (grown(size(curves) + 1))
-      do k = 1, size(curves)
-         grown(k) = curves(k)
-      end do
-      grown(size(grown)) = curve
-      call move_alloc(grown, curves)
-   end subroutine append_curve
 
    !> One curve; it has no series if one of its columns is not there or holds no numbers.
    subroutine find_curve(scalar, catalogue, extremes, rows, suffix, curve, over, apart)

@@ -2,15 +2,13 @@
 module figure_needs
    use catalogue, only: catalogue_t
    use channel_names, only: item_name, scalar_t
-   use channels, only: selection_t
-   use figure_words, only: figure_bifurcation, figure_film, figure_history, figure_portrait, figure_section, figure_spectrum
-   use figure_words, only: figure_t
+   use figure_words, only: figure_film, figure_history, figure_portrait, figure_t
    use film_fields, only: field_request_t, film_field_t
    use text, only: append_text, text_t
    use text_writer, only: extra_table_t
    implicit none (type, external)
    private
-   public :: add_figure_channels, extra_tables, film_requests, missing_films, spectral_scalars, stroboscopic_scalars
+   public :: extra_tables, film_requests, missing_films, scalars_of
 
 contains
 
@@ -19,19 +17,13 @@ contains
       type(figure_t), intent(in) :: figures(:)             !! (n) figures
       type(field_request_t), allocatable :: list(:)        !! (any) films, each once
 
-      type(field_request_t), allocatable :: grown(:)
       integer :: i, k
 
       allocate (list(0))
       do k = 1, size(figures)
          if (figures(k)%kind /= figure_film) cycle
          if (any([(list(i)%name == figures(k)%name, i=1, size(list))])) cycle
-         allocate (grown(size(list) + 1))
-         do i = 1, size(list)
-            grown(i) = list(i)
-         end do
-         grown(size(grown)) = figures(k)%film
-         call move_alloc(grown, list)
+         list = [list, figures(k)%film]
       end do
    end function film_requests
 
@@ -51,44 +43,19 @@ contains
       end do
    end function missing_films
 
-   !> The channels that figures need once per period.
-   function stroboscopic_scalars(figures) result(list)
+   !> The channels of the figures of some kinds.
+   function scalars_of(figures, kinds) result(list)
       type(figure_t), intent(in) :: figures(:)         !! (n) figures
-      type(scalar_t), allocatable :: list(:)           !! (any) channels
+      integer, intent(in) :: kinds(:)                  !! (any) kinds
+      type(scalar_t), allocatable :: list(:)           !! (any) channels, perhaps more than once
 
       integer :: k
 
       allocate (list(0))
       do k = 1, size(figures)
-         if (figures(k)%kind == figure_section .or. figures(k)%kind == figure_bifurcation) list = [list, figures(k)%scalars]
+         if (any(kinds == figures(k)%kind)) list = [list, figures(k)%scalars]
       end do
-   end function stroboscopic_scalars
-
-   !> The channels whose spectra figures need.
-   function spectral_scalars(figures) result(list)
-      type(figure_t), intent(in) :: figures(:)         !! (n) figures
-      type(scalar_t), allocatable :: list(:)           !! (any) channels
-
-      integer :: k
-
-      allocate (list(0))
-      do k = 1, size(figures)
-         if (figures(k)%kind == figure_spectrum) list = [list, figures(k)%scalars]
-      end do
-   end function spectral_scalars
-
-   !> Add the channels that figures need to a selection.
-   subroutine add_figure_channels(figures, selection)
-      type(figure_t), intent(in) :: figures(:)         !! (n) figures
-      type(selection_t), intent(inout) :: selection    !! channels that are kept
-
-      integer :: k
-
-      do k = 1, size(figures)
-         if (figures(k)%kind > figure_portrait) cycle
-         call selection%choose(figures(k)%scalars)
-      end do
-   end subroutine add_figure_channels
+   end function scalars_of
 
    !> Tables for portraits, and curves over a channel, whose channels are not in the same file.
    function extra_tables(figures, catalogue) result(tables)

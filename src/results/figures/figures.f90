@@ -16,21 +16,18 @@ module figures
    use field_plot, only: write_field_plot
    use drawn_rows, only: drawn_rows_t
    use figure_data, only: curve_t, find_curves
-   use figure_script, only: figure_text
    use figure_words, only: draws_mechanism, figure_animation, figure_film, figure_histogram, figure_history, figure_portrait, &
       figure_section, figure_spectrum, figure_t, is_of_run
    use frames, only: frame_keeper_t
-   use gnuplot_runs, only: draw_figures, moving
+   use gnuplot_runs, only: draw_figures, make_folder, moving
    use film_fields, only: film_field_t
    use plot_table, only: plot_table_t, tell_empty, write_plot
    use kinds, only: wp
-   use orbit_script, only: path_of
-   use output_marker, only: enter_file
    use path_data, only: make_path, path_t
-   use posix, only: make_directory
+   use path_script, only: figure_text, path_of
    use scene_plot, only: write_scene_plot
    use text, only: append_text, text_t
-   use text_file, only: fail_file, write_file
+   use text_file, only: write_file
    implicit none (type, external)
    private
    public :: make_figures
@@ -58,19 +55,15 @@ contains
       type(error_t), allocatable, intent(out) :: error             !! a script cannot be written
 
       type(text_t), allocatable :: empty(:), names(:), pages(:)
-      integer :: code, k
+      integer :: i, k
       logical :: is_written
 
       allocate (pictures(0), warnings(0), names(0), pages(0))
       if (.not. any([(is_of_run(list(k)), k=1, size(list))])) return
-      code = enter_file(directory//"/figures/")
-      if (code == 0) code = make_directory(directory//"/figures")
-      if (code /= 0) then
-         call fail_file(error, "cannot make the directory", directory//"/figures", code, "")
-         return
-      end if
+      call make_folder(directory//"/figures", error)
+      if (allocated(error)) return
       do k = 1, size(list)
-         if (is_named(file_of(list(k)), names) .or. .not. is_of_run(list(k))) cycle
+         if (any([(names(i)%s == file_of(list(k)), i=1, size(names))]) .or. .not. is_of_run(list(k))) cycle
          if (draws_mechanism(list(k))) then
             call write_scene(directory//"/figures", title, list(k), catalogue, drawing, keeper, is_written, pages, error)
          else if (list(k)%kind == figure_film) then
@@ -225,18 +218,5 @@ contains
          return
       end do
    end subroutine write_scene
-
-   !> Whether a figure is already in the list.
-   pure logical function is_named(name, names)
-      character(*), intent(in) :: name      !! of a figure
-      type(text_t), intent(in) :: names(:)  !! (n) figures so far
-
-      integer :: k
-
-      is_named = .false.
-      do k = 1, size(names)
-         if (names(k)%s == name) is_named = .true.
-      end do
-   end function is_named
 
 end module figures

@@ -3,15 +3,17 @@
 !> gnuplot is started directly, with fixed file names made of the deck's checked names. That it is not installed, or that one
 !> picture fails, is a warning: the scripts remain.
 module gnuplot_runs
+   use errors, only: error_t
    use kinds, only: i8
    use output_marker, only: enter_file
-   use posix, only: is_missing, remove_file, system_message
+   use posix, only: is_missing, make_directory, remove_file, system_message
    use processes, only: clock_ms, start_program, wait_group
    use system_file, only: read_file
    use text, only: append_text, starts_with, text_t, to_text
+   use text_file, only: fail_file
    implicit none (type, external)
    private
-   public :: draw_figures, moving
+   public :: draw_figures, make_folder, moving
 
    integer, parameter :: most_at_once = 4           !! gnuplots running side by side
    integer, parameter :: most_together = 6          !! pictures that one gnuplot draws
@@ -21,6 +23,18 @@ module gnuplot_runs
    character(*), parameter :: moving = ".gif"       !! ending of pictures that move
 
 contains
+
+   !> Make the folder of the figures, if it is not there.
+   subroutine make_folder(folder, error)
+      character(*), intent(in) :: folder                 !! of the figures
+      type(error_t), allocatable, intent(out) :: error   !! it cannot be made
+
+      integer :: code
+
+      code = enter_file(folder//"/")
+      if (code == 0) code = make_directory(folder)
+      if (code /= 0) call fail_file(error, "cannot make the directory", folder, code, "")
+   end subroutine make_folder
 
    !> Run gnuplot on every script: on some pictures that stand still one after the other, since to start it takes as long as to draw
    !> one, then alone on each that this did not bring about, and on those that move. Several of them run side by side.

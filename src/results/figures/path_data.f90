@@ -11,6 +11,7 @@ module path_data
    use kinds, only: wp
    use text_buffer, only: buffer_t
    use text_file, only: write_file
+   use text_table, only: number_row
    implicit none (type, external)
    private
    public :: make_path, path_t
@@ -68,7 +69,7 @@ contains
                if (all(abs(point - last) <= nearest*extent)) cycle
                crossings = crossings + maxval(abs(point - last)/max(extent, tiny(1.0_wp)))
             end if
-            call add_point(lines, point)
+            call lines%line(number_row(point))
             last = point
             has_last = .true.
             n = n + 1
@@ -96,16 +97,5 @@ contains
       end if
       write (path%alpha, "(z2.2)") nint(255*min(most_transparent, max(0.0_wp, 1.0_wp - fill)))
    end subroutine choose_style
-
-   !> A line of the table.
-   subroutine add_point(lines, point)
-      type(buffer_t), intent(inout) :: lines   !! the table
-      real(wp), intent(in) :: point(2)         !! (2) abscissa and ordinate, SI [any]
-
-      character(50) :: numbers
-
-      write (numbers, "(es24.16e3, 1x, es24.16e3)") point
-      call lines%line(trim(numbers))
-   end subroutine add_point
 
 end module path_data

@@ -7,10 +7,11 @@ module plot_table
    use, intrinsic :: ieee_arithmetic, only: ieee_is_finite
    use kinds, only: wp
    use plot_text, only: quoted
-   use script_parts, only: colours, hangs_from_zero, key_below, long_tics, open_range, preamble, stands_on_zero, with_unit
+   use script_parts, only: colours, edges, key_below, long_tics, open_range, preamble, with_unit
    use text, only: append_text, real_text, text_t, to_text
    use text_buffer, only: buffer_t
    use text_file, only: write_file
+   use text_table, only: number_row
    implicit none (type, external)
    private
    public :: draw_bars, draw_boxes, draw_dotted_lines, draw_lines, draw_marks, draw_points
@@ -133,7 +134,6 @@ contains
       character(:), allocatable :: text         !! whole lines
 
       type(buffer_t) :: lines
-      character(24) :: number
       integer :: i, k
 
       call lines%add("#")
@@ -143,12 +143,7 @@ contains
       call lines%line("")
       call lines%add(table%heading)
       do k = 1, size(table%values, 2)
-         do i = 1, size(table%values, 1)
-            write (number, "(es24.16e3)") table%values(i, k)
-            if (i > 1) call lines%add(" ")
-            call lines%add(number)
-         end do
-         call lines%line("")
+         call lines%line(number_row(table%values(:, k)))
       end do
       text = lines%get()
    end function table_text
@@ -280,8 +275,7 @@ contains
          ends = range + [-0.1_wp, 0.1_wp]*maxval(abs(range))
          call lines%line("set yrange ["//real_text(ends(1), 6)//":"//real_text(ends(2), 6)//"]")
       else
-         call lines%line("set offsets 0, 0, "//trim(merge("0         ", "graph 0.05", hangs_from_zero(range)))//", "// &
-                         trim(merge("0         ", "graph 0.05", stands_on_zero(range)))//"; set yrange "//open_range(range))
+         call lines%line("set offsets 0, 0, "//edges(range, "0.05")//"; set yrange "//open_range(range))
          call add_line(lines, long_tics("y", range))
       end if
    end subroutine line_lines
@@ -296,8 +290,7 @@ contains
       real(wp) :: range(2)
 
       range = y%factor*range_of(table, panel%curves%y)
-      call lines%line("set offsets "//aside(table)//", "//trim(merge("0         ", "graph 0.06", hangs_from_zero(range)))//", "// &
-                      trim(merge("0         ", "graph 0.06", stands_on_zero(range)))//"; set yrange "//open_range(range))
+      call lines%line("set offsets "//aside(table)//", "//edges(range, "0.06")//"; set yrange "//open_range(range))
    end subroutine ordinate_lines
 
    !> Room beside the points: half of what is between two words, or a part of the picture.

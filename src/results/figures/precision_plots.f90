@@ -14,8 +14,8 @@ module precision_plots
    use plot_text, only: quoted
    use horizon_plot, only: horizon_rows, horizon_script
    use precision_legend, only: colour_of, legend_t, sign_of
-   use precision_rows, only: any_ledger, error_axis, front_of, is_above_zero, largest_cpu, number, numbers_of, smallest_cpu, &
-      zero_of_errors, zero_of_ledgers
+   use precision_rows, only: any_ledger, any_state, error_axis, front_of, is_above_zero, largest_cpu, number, numbers_of, &
+      smallest_cpu, zero_of_errors, zero_of_ledgers
    use precision_results, only: error_names, tol_sweep_t, precision_t, tol_run_done, tol_run_failed, tol_run_other, tol_run_t
    use text, only: append_text, real_text, text_t, to_text
    use text_buffer, only: buffer_t
@@ -358,18 +358,5 @@ contains
       end subroutine panel
 
    end function views_script
-
-   !> Whether any run is in some state.
-   pure logical function any_state(study, state)
-      type(precision_t), intent(in) :: study  !! results
-      integer, intent(in) :: state            !! of a run
-
-      integer :: k
-
-      any_state = .false.
-      do k = 1, size(study%tol_sweeps)
-         any_state = any_state .or. any(study%tol_sweeps(k)%tol_runs%state == state)
-      end do
-   end function any_state
 
 end module precision_plots

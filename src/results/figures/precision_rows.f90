@@ -7,8 +7,8 @@ module precision_rows
    use text_buffer, only: buffer_t
    implicit none (type, external)
    private
-   public :: any_ledger, error_axis, front_of, is_above_zero, largest_cpu, min_error, number, numbers_of, smallest_cpu, &
-      zero_of_errors, zero_of_ledgers
+   public :: any_ledger, any_state, error_axis, front_of, is_above_zero, largest_cpu, min_error, number, numbers_of, &
+      smallest_cpu, zero_of_errors, zero_of_ledgers
 
    real(wp), parameter :: min_error = 1.0e-17_wp   !! drawn for a distance of nothing [1]
    real(wp), parameter :: decade = 0.2_wp            !! workspace beside an error, of it, for which the axis has another decade [1]
@@ -58,15 +58,12 @@ contains
       type(precision_t), intent(in) :: study       !! results
       type(tol_run_t), allocatable :: front(:)        !! (n) runs
 
+      type(tol_run_t), allocatable :: runs(:)
       type(tol_run_t) :: one
       integer :: i, k
 
-      allocate (front(0))
-      do k = 1, size(study%tol_sweeps)
-         do i = 1, size(study%tol_sweeps(k)%tol_runs)
-            if (study%tol_sweeps(k)%tol_runs(i)%is_front) front = [front, study%tol_sweeps(k)%tol_runs(i)]
-         end do
-      end do
+      runs = runs_of(study)
+      front = runs(pack([(k, k=1, size(runs))], runs%is_front))
       do k = 2, size(front)
          one = front(k)
          do i = k - 1, 1, -1
@@ -98,53 +95,65 @@ contains
       type(precision_t), intent(in) :: study   !! results
       type(tol_run_t), intent(in) :: tol_run         !! the run
 
-      x = tol_run%error(study%wanted)
-      if (tol_run%is_below) x = max(x, min_below*study%reference%bar(study%wanted))
+      x = known_error(study, tol_run)
       if (is_zero(x)) x = zero_of_errors(study)
    end function drawn_error
+
+   !> The error of a run; below the reference's own error it cannot be reported.
+   pure real(wp) function known_error(study, tol_run) result(x)
+      type(precision_t), intent(in) :: study   !! results
+      type(tol_run_t), intent(in) :: tol_run   !! the run
+
+      x = tol_run%error(study%wanted)
+      if (tol_run%is_below) x = max(x, min_below*study%reference%bar(study%wanted))
+   end function known_error
+
+   !> All runs of a study.
+   pure function runs_of(study) result(runs)
+      type(precision_t), intent(in) :: study        !! results
+      type(tol_run_t), allocatable :: runs(:)       !! (n) runs, by setting
+
+      integer :: k
+
+      allocate (runs(0))
+      do k = 1, size(study%tol_sweeps)
+         runs = [runs, study%tol_sweeps(k)%tol_runs]
+      end do
+   end function runs_of
 
    !> Where errors of exactly 0 are drawn on a logarithmic axis, since they have no place of their own: a decade below all others
    !> and all tolerances.
    pure real(wp) function zero_of_errors(study) result(place)
       type(precision_t), intent(in) :: study   !! results
 
-      real(wp) :: minimum, x
-      integer :: i, k
+      type(tol_run_t), allocatable :: runs(:)
+      real(wp) :: minimum
+      integer :: k
 
-      place = not_a_number()
+      runs = runs_of(study)
       minimum = study%accuracy
-      x = study%reference%bar(study%wanted)
-      if (is_above_zero(x)) minimum = min(minimum, min_below*x)
-      do k = 1, size(study%tol_sweeps)
-         do i = 1, size(study%tol_sweeps(k)%tol_runs)
-            x = study%tol_sweeps(k)%tol_runs(i)%error(study%wanted)
-            if (study%tol_sweeps(k)%tol_runs(i)%is_below) x = max(x, min_below*study%reference%bar(study%wanted))
-            if (is_above_zero(x)) minimum = min(minimum, x)
-            if (is_zero(x)) place = 0.0_wp
+      associate (x => [(known_error(study, runs(k)), k=1, size(runs))], bar => study%reference%bar(study%wanted))
+         if (is_above_zero(bar)) minimum = min(minimum, min_below*bar)
+         minimum = min(minimum, minval(x, mask=is_above_zero(x)))
+         do k = 1, size(study%tol_sweeps)
+            if (.not. study%tol_sweeps(k)%is_fixed) minimum = min(minimum, minval(study%tol_sweeps(k)%tol_runs%asked))
          end do
-         if (.not. study%tol_sweeps(k)%is_fixed) minimum = min(minimum, minval(study%tol_sweeps(k)%tol_runs%asked))
-      end do
-      if (ieee_is_finite(place)) place = decade_below(minimum)
+         place = not_a_number()
+         if (any(is_zero(x))) place = decade_below(minimum)
+      end associate
    end function zero_of_errors
 
    !> The same of residuals of the ledger.
    pure real(wp) function zero_of_ledgers(study) result(place)
       type(precision_t), intent(in) :: study   !! results
 
-      real(wp) :: minimum
-      integer :: i, k
+      type(tol_run_t), allocatable :: runs(:)
 
-      place = not_a_number()
-      minimum = epsilon(1.0_wp)
-      do k = 1, size(study%tol_sweeps)
-         do i = 1, size(study%tol_sweeps(k)%tol_runs)
-            associate (x => study%tol_sweeps(k)%tol_runs(i)%error(error_ledger))
-               if (is_above_zero(x)) minimum = min(minimum, x)
-               if (is_zero(x)) place = 0.0_wp
-            end associate
-         end do
-      end do
-      if (ieee_is_finite(place)) place = decade_below(minimum)
+      runs = runs_of(study)
+      associate (x => runs%error(error_ledger))
+         place = not_a_number()
+         if (any(is_zero(x))) place = decade_below(min(epsilon(1.0_wp), minval(x, mask=is_above_zero(x))))
+      end associate
    end function zero_of_ledgers
 
    !> Whether something is a number, above 0.
@@ -176,17 +185,17 @@ contains
       type(precision_t), intent(in) :: study   !! results
       integer :: ends(2)                       !! (2) powers of ten
 
+      type(tol_run_t), allocatable :: runs(:)
       real(wp) :: far(2), x
-      integer :: i, k
+      integer :: k
 
+      runs = runs_of(study)
       far = study%accuracy
       x = study%reference%bar(study%wanted)
       if (is_above_zero(x)) far = [min(far(1), x), max(far(2), x)]
-      do k = 1, size(study%tol_sweeps)
-         do i = 1, size(study%tol_sweeps(k)%tol_runs)
-            x = drawn_error(study, study%tol_sweeps(k)%tol_runs(i))
-            if (ieee_is_finite(x)) far = [min(far(1), x), max(far(2), x)]
-         end do
+      do k = 1, size(runs)
+         x = drawn_error(study, runs(k))
+         if (ieee_is_finite(x)) far = [min(far(1), x), max(far(2), x)]
       end do
       ends = [floor(log10(far(1)*(1.0_wp - decade))), ceiling(log10(far(2)*(1.0_wp + decade)))]
       x = zero_of_errors(study)
@@ -197,42 +206,41 @@ contains
    pure logical function any_ledger(study)
       type(precision_t), intent(in) :: study  !! results
 
-      integer :: i, k
+      type(tol_run_t), allocatable :: runs(:)
 
-      any_ledger = .false.
-      do k = 1, size(study%tol_sweeps)
-         do i = 1, size(study%tol_sweeps(k)%tol_runs)
-            if (ieee_is_finite(study%tol_sweeps(k)%tol_runs(i)%error(error_ledger))) any_ledger = .true.
-         end do
-      end do
+      runs = runs_of(study)
+      any_ledger = any(ieee_is_finite(runs%error(error_ledger)))
    end function any_ledger
+
+   !> Whether any run is in some state.
+   pure logical function any_state(study, state)
+      type(precision_t), intent(in) :: study  !! results
+      integer, intent(in) :: state            !! of a run
+
+      type(tol_run_t), allocatable :: runs(:)
+
+      runs = runs_of(study)
+      any_state = any(runs%state == state)
+   end function any_state
 
    !> Maximum processor time.
    pure real(wp) function largest_cpu(study) result(x)
       type(precision_t), intent(in) :: study  !! results
 
-      integer :: i, k
+      type(tol_run_t), allocatable :: runs(:)
 
-      x = 0.0_wp
-      do k = 1, size(study%tol_sweeps)
-         do i = 1, size(study%tol_sweeps(k)%tol_runs)
-            if (ieee_is_finite(study%tol_sweeps(k)%tol_runs(i)%cpu)) x = max(x, study%tol_sweeps(k)%tol_runs(i)%cpu)
-         end do
-      end do
+      runs = runs_of(study)
+      x = max(0.0_wp, maxval(runs%cpu, mask=ieee_is_finite(runs%cpu)))
    end function largest_cpu
 
    !> Minimum processor time of a run that ended.
    pure real(wp) function smallest_cpu(study) result(x)
       type(precision_t), intent(in) :: study  !! results
 
-      integer :: i, k
+      type(tol_run_t), allocatable :: runs(:)
 
-      x = largest_cpu(study)
-      do k = 1, size(study%tol_sweeps)
-         do i = 1, size(study%tol_sweeps(k)%tol_runs)
-            if (study%tol_sweeps(k)%tol_runs(i)%state == tol_run_done) x = min(x, study%tol_sweeps(k)%tol_runs(i)%cpu)
-         end do
-      end do
+      runs = runs_of(study)
+      x = min(largest_cpu(study), minval(runs%cpu, mask=runs%state == tol_run_done))
    end function smallest_cpu
 
    !> A number as gnuplot reads it.

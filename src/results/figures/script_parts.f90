@@ -10,7 +10,7 @@ module script_parts
    use text_buffer, only: buffer_t
    implicit none (type, external)
    private
-   public :: angle_tics, axes_t, axis_range, find_long_tics, hangs_from_zero, largest, largest_y, long_tics, open_range
+   public :: angle_tics, axes_t, axis_range, edge, edges, find_long_tics, hangs_from_zero, largest, largest_y, long_tics, open_range
    public :: scaled, source, stands_on_zero
    public :: label_words, path_source, preamble, with_unit
    public :: colours, ideal_style, key_below
@@ -94,6 +94,25 @@ contains
 
       hangs_from_zero = stands_on_zero([-range(2), -range(1)])
    end function hangs_from_zero
+
+   !> Storage between a curve and an end of its axis.
+   pure function edge(is_zero, part) result(words)
+      logical, intent(in) :: is_zero           !! the axis ends at zero there
+      character(*), intent(in) :: part         !! of the axis, else
+      character(:), allocatable :: words       !! for `set offsets`
+
+      words = "graph "//part
+      if (is_zero) words = "0"
+   end function edge
+
+   !> Storage below and above curves.
+   pure function edges(range, part) result(words)
+      real(wp), intent(in) :: range(2)         !! (2) minimum and maximum value [any]
+      character(*), intent(in) :: part         !! of the axis, where it does not end at zero
+      character(:), allocatable :: words       !! for `set offsets`
+
+      words = edge(hangs_from_zero(range), part)//", "//edge(stands_on_zero(range), part)
+   end function edges
 
    !> Ends of an axis that scales itself but where it ends at zero; values beyond zero that nobody sees have room all the same.
    function open_range(range) result(words)

@@ -2,6 +2,7 @@
 module statistics_plots
    use catalogue, only: catalogue_t
    use channel_names, only: scalar_name, scalar_t
+   use curve_words, only: unit_of
    use event_list, only: event_list_t
    use, intrinsic :: ieee_arithmetic, only: ieee_is_finite
    use figure_words, only: figure_histogram, figure_section, figure_spectrum, figure_t
@@ -147,14 +148,5 @@ contains
 
       same = a%group == b%group .and. a%component == b%component .and. a%item == b%item
    end function same
-
-   !> The unit of a number.
-   pure function unit_of(catalogue, scalar) result(unit)
-      type(catalogue_t), intent(in) :: catalogue  !! what can be recorded
-      type(scalar_t), intent(in) :: scalar        !! the number
-      character(:), allocatable :: unit           !! SI
-
-      unit = catalogue%groups(scalar%group)%channel%unit
-   end function unit_of
 
 end module statistics_plots

@@ -6,10 +6,13 @@ submodule(run_recorder) run_recorder_start
    use errors, only: exit_deck
    use figure_binding, only: bind_figure
    use figure_phrase, only: mistake_t
-   use figure_needs, only: add_figure_channels, extra_tables, film_requests, spectral_scalars, stroboscopic_scalars
-   use figure_words, only: append_figure, figure_film
+   use figure_needs, only: extra_tables, film_requests, scalars_of
+   use figure_words, only: append_figure, figure_bifurcation, figure_film, figure_history, figure_orbit, figure_portrait, &
+      figure_section, figure_spectrum
    use text_file, only: write_file
    implicit none (type, external)
+
+   integer, parameter :: figures_of_curves(3) = [figure_history, figure_orbit, figure_portrait]
 
 contains
 
@@ -25,8 +28,9 @@ contains
          if (allocated(error)) return
       end if
       if (self%plan%is_twin()) self%plan%statistics%is_wanted = .false.
-      call self%statistics%start(self%plan%statistics, catalogue, stroboscopic_scalars(self%figures), &
-                                 spectral_scalars(self%figures))
+      call self%statistics%start(self%plan%statistics, catalogue, &
+                                 scalars_of(self%figures, [figure_section, figure_bifurcation]), &
+                                 scalars_of(self%figures, [figure_spectrum]))
       allocate (self%fields(0))
       if (self%plan%with%hdf5 .and. self%plan%with%histories .or. self%plan%with%figures) then
          if (any(self%figures%kind == figure_film)) self%wants_fields = film_requests(self%figures)
@@ -44,7 +48,8 @@ contains
       if (self%plan%with%texts) then
          call self%texts%start(self%plan, catalogue, self%selection, extra_tables(self%figures, catalogue), error)
          if (allocated(error)) return
-         if (self%plan%with%figures .and. .not. self%plan%is_twin()) self%rows%labels = labels_of(self%figures, catalogue)
+         if (self%plan%with%figures .and. .not. self%plan%is_twin()) self%rows%labels = &
+            labels_of(scalars_of(self%figures, figures_of_curves), catalogue)
          if (allocated(self%rows%labels)) call self%rows%start(self%texts, catalogue)
       end if
       ! histories may need them, extremes do
@@ -92,7 +97,7 @@ contains
          end do
          call move_alloc(bound, self%figures)
       end if
-      call add_figure_channels(self%figures, self%selection)
+      call self%selection%choose(scalars_of(self%figures, figures_of_curves))
    end subroutine choose
 
    !> A list without one of its words.

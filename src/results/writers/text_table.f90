@@ -12,7 +12,7 @@ module text_table
    use text_file, only: text_file_t
    implicit none (type, external)
    private
-   public :: column_label, file_heading, one_line, put_row_of_numbers, text_table_t
+   public :: column_label, file_heading, number_row, one_line, put_row_of_numbers, text_table_t
 
    !> A file and its rows that are not yet there. Where rows may be those of contacts, the last column says what each is.
    type :: text_table_t
@@ -155,5 +155,16 @@ contains
          call put_decimal(numbers(k), line((k - 1)*decimal_width + 1:k*decimal_width))
       end do
    end subroutine put_row_of_numbers
+
+   !> The same as text, without the last blank.
+   function number_row(numbers) result(line)
+      real(wp), intent(in) :: numbers(:)                   !! (n) any [any]
+      character(decimal_width*size(numbers) - 1) :: line   !! blanks between
+
+      character(decimal_width*size(numbers)) :: whole
+
+      call put_row_of_numbers(numbers, whole)
+      line = whole
+   end function number_row
 
 end module text_table
