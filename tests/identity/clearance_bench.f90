@@ -186,8 +186,11 @@ contains
       materials%poisson = 0.3_wp
       bench%set%items%leaves = [leaves_turn, leaves_way, leaves_turn]
       bench%set%items%way = reshape([1.0_wp, 0.0_wp, 0.6_wp, 0.8_wp, 0.0_wp, 1.0_wp], [2, n_item])
+      call bench%set%take_surfaces(items, materials, [(1.0_wp, k=1, n_body)], [(.false., k=1, n_body)])
       call bench%set%prepare(items)
-      call bench%set%fit_law(items, materials, [(1.0_wp, k=1, n_body)], [(.false., k=1, n_body)])
+      do k = 1, n_item
+         call bench%set%fit(k)
+      end do
       call bench%set%laws%normal%fit(bench%set%items%pairs(1), parameters, message, help)
       bench%has_form = message == ""
       if (.not. bench%has_form) return

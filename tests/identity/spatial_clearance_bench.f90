@@ -154,8 +154,9 @@ contains
       points%s(:, 2) = random%vector(3, -0.05_wp, 0.05_wp)
       call bench%set%new(item, [1], [2], points, law, friction)
       materials(1) = steel()
+      call bench%set%take_surfaces(item, materials, [1.0_wp, 1.0_wp], [.false., .false.])
       call bench%set%prepare(item)
-      call bench%set%fit_law(item, materials, [1.0_wp, 1.0_wp], [.false., .false.])
+      call bench%set%fit(1)
       call bench%set%laws%normal%fit(bench%set%items%pairs(1), parameters, message, help)
       if (message /= "") return
       own(:, :, 0) = reshape([1, 0, 0, 0, 1, 0, 0, 0, 1], [3, 3])

@@ -108,7 +108,8 @@ contains
          do k = 1, n_item
             if (attempt == 1) speed(k) = speed_of_journal(bench, k)
          end do
-         call check_close(error, delta(n_before + 1:n_before + n_item), -bench%set%items%clearance, 0.0_wp, bench%name//": centred")
+         call check_close(error, delta(n_before + 1:n_before + n_item), -bench%set%items%pairs%clearance, 0.0_wp, &
+                          bench%name//": centred")
          call check_close(error, rate(n_before + 1:n_before + n_item), speed, 1.0e-14_wp, bench%name//": rate when centred")
          call evaluate_loads(bench, loads, integrands)
          call check_close(error, sum(abs(loads%force)), 0.0_wp, 0.0_wp, bench%name//": force when centred")

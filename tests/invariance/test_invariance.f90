@@ -150,7 +150,8 @@ contains
          call close_to("places", [a%linkage%bodies%r(1, :), a%linkage%bodies%angle], [b%linkage%bodies%r(1, :), &
                        b%linkage%bodies%angle])
          call close_to("points", [loaded%scene%points%s], [original%scene%points%s])
-         call close_to("clearance", a%clearance_joints%sets(1)%set%items%clearance, b%clearance_joints%sets(1)%set%items%clearance)
+         call close_to("clearance", a%clearance_joints%sets(1)%set%items%pairs%clearance, &
+                       b%clearance_joints%sets(1)%set%items%pairs%clearance)
          call close_to("stiffness", a%clearance_joints%sets(1)%set%laws%parameters(1, :), &
                        b%clearance_joints%sets(1)%set%laws%parameters(1, :))
          call close_to("gains", [a%linkage%solution%alpha, a%linkage%solution%beta], [b%linkage%solution%alpha, &

@@ -114,7 +114,8 @@ contains
                        "bronze pin", &
                        relative=.true.)
       call check_close(error, system%clearance_joints%sets(4)%set%laws%parameters(1, :), [3.0e9_wp], 0.0_wp, "given")
-      call check_close(error, system%clearance_joints%sets(1)%set%items%clearance, [0.5e-3_wp, 0.5e-3_wp], 0.0_wp, "clearance")
+      call check_close(error, system%clearance_joints%sets(1)%set%items%pairs%clearance, [0.5e-3_wp, 0.5e-3_wp], 0.0_wp, &
+                       "clearance")
    end subroutine test_stiffness
 
    !> Friction with coefficient zero is dropped.

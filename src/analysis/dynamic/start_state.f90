@@ -217,7 +217,7 @@ contains
       do k = 1, size(system%clearance_joints%sets)
          associate (set => system%clearance_joints%sets(k)%set)
             do i = 1, set%n_contact
-               if (delta(set%before%contacts + i) <= touching*set%items%clearance(set%item_of(i))) cycle
+               if (delta(set%before%contacts + i) <= touching*set%items%pairs(set%item_of(i))%clearance) cycle
                if (is_preload) then
                   call set%begin_contact(i, 0.0_wp, max(rate(set%before%contacts + i), 0.0_wp), 0.0_wp)
                   cycle

@@ -31,7 +31,7 @@ contains
             if (.not. allocated(set%laws%films)) cycle
             if (.not. set%laws%films%is_alone) cycle
             item = set%item_of(contact)
-            thickness = set%items%clearance(item)*(1.0_wp - set%laws%films%eps_max(item))
+            thickness = set%items%pairs(item)%clearance*(1.0_wp - set%laws%films%eps_max(item))
             words = "the film of joint '"//set%names(item)%s//"' ("//set%laws%films%law%name//") reached its limit: the "// &
                "eccentricity is "// &
                     real_text(set%laws%films%eps_max(item), 8)//" times the clearance (eps_max), film thickness "// &

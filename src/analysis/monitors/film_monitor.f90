@@ -90,7 +90,7 @@ contains
                first = place_of(set, i)
                associate (joint => self%joint(first), films => set%laws%films)
                   joint%is_watched = films%acts
-                  if (films%is_alone) joint%film_at_end = set%items%clearance(i)*(1.0_wp - films%eps_max(i))
+                  if (films%is_alone) joint%film_at_end = set%items%pairs(i)%clearance*(1.0_wp - films%eps_max(i))
                   joint%limit(limit_machined) = machined
                   joint%limit(limit_diameter) = of_diameter*2.0_wp*films%parameters(parameter_radius, i)
                   joint%limit(limit_roughness) = of_roughness*films%roughness(i)
@@ -158,7 +158,7 @@ contains
       real(wp) :: tilt
 
       film = set%laws%films%motion_of(item, set%items%body(:, item), set%items%s_i(:, item), set%items%s_j(:, item), motion)
-      tilt = norm2(film%tilt)/max(set%items%clearance(item) - norm2(film%e), tiny(1.0_wp))
+      tilt = norm2(film%tilt)/max(set%items%pairs(item)%clearance - norm2(film%e), tiny(1.0_wp))
       if (tilt > lean%tilt) then
          lean%tilt = tilt
          lean%tilt_time = t

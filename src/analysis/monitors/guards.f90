@@ -168,8 +168,8 @@ contains
             if (pair%radius_i > 0.0_wp) radius = min(radius, pair%radius_i)
             if (pair%shape == shape_plane) radius = max(radius, pair%length)
             if (guards%penetration*radius > 0.0_wp) limit(guard_penetration) = guards%penetration*radius
-            has_clearance = set%traits%is_round .or. (set%traits%is_gap .and. set%items%clearance(item) > 0.0_wp)
-            if (has_clearance) limit(guard_clearance) = set%items%clearance(item)
+            has_clearance = set%traits%is_round .or. (set%traits%is_gap .and. set%items%pairs(item)%clearance > 0.0_wp)
+            if (has_clearance) limit(guard_clearance) = set%items%pairs(item)%clearance
             limit(guard_law_range) = set%laws%parameters(parameter_deepest, c)
             limit(guard_impact_speed) = pair%speed_limit
             limit(guard_strength) = force_at_pressure(pair, pair%strength)

@@ -88,7 +88,7 @@ contains
                   if (abs(change) >= missing) worst = set%names(i)%s
                   missing = max(missing, abs(change))
                   if (missing <= same) cycle
-                  call films%warm(i, min(films%place(i)%temperature + 0.5_wp*change, hottest))
+                  call films%warm(i, items%pairs(i), min(films%place(i)%temperature + 0.5_wp*change, hottest))
                end do
             end associate
          end associate

@@ -91,11 +91,11 @@ contains
       end associate
       call find_whirl(slopes, whirl)
       film%joint = set%names(item)%s
-      film%clearance = set%items%clearance(item)
+      film%clearance = set%items%pairs(item)%clearance
       film%eccentricity_ratio = norm2(motion%e)/film%clearance
       film%is_heated = set%laws%films%place(item)%is_heated
       film%temperature = set%laws%films%place(item)%temperature
-      film%viscosity = set%laws%films%bearing(item)%viscosity
+      film%viscosity = set%laws%films%place(item)%viscosity
       film%stiffness = slopes%stiffness
       film%damping = slopes%damping
       film%error = slopes%error
@@ -220,7 +220,7 @@ contains
             if (.not. has_films(set)) cycle
             do i = 1, set%n
                associate (film => set%laws%films%motion_of(i, set%items%body(:, i), set%items%s_i(:, i), set%items%s_j(:, i), &
-                                                           system%linkage%motion), c => set%items%clearance(i))
+                                                           system%linkage%motion), c => set%items%pairs(i)%clearance)
                   gap = min(gap, max(c - norm2(film%e), 1.0e-3_wp*c))
                end associate
             end do

@@ -40,7 +40,7 @@ contains
             do i = 1, set%n
                c = (i - 1)*set%n_contact_item + 1
                words = ""
-               if (set%traits%is_round) words = "radial clearance "//to_text(1.0e3_wp*set%items%clearance(i))//" mm, "
+               if (set%traits%is_round) words = "radial clearance "//to_text(1.0e3_wp*set%items%pairs(i)%clearance)//" mm, "
                call say(set%names(i)%s//": "//words//"law "//law//", "//set%laws%normal%description(set%laws%parameters(:, c)), 2)
                call explain_film(set, i, loaded%system%linkage%inverse_mass(1, :))
                last = set%before%contacts + i*set%n_contact_item
@@ -113,7 +113,8 @@ contains
                "contact force is "// &
                "added", 4)
          end if
-         decay = films%decay_of(item, film_motion_t(e=[near*place%clearance, 0.0_wp]), sum(inverse_mass(set%items%body(:, item))))
+         decay = films%decay_of(item, film_motion_t(e=[near*set%items%pairs(item)%clearance, 0.0_wp]), &
+                                sum(inverse_mass(set%items%body(:, item))))
          if (decay > 0.0_wp) call say("at "//real_text(near, 1)//" of the clearance the film stops the journal within "// &
                                       real_text(1.0e6_wp/decay, 2)//" us: explicit methods need steps of about this size; "// &
                                       "implicit methods (radau, bdf, ida) do not", 4)

@@ -187,6 +187,7 @@ contains
       if (friction_law > 0) allocate (friction, source=scene%frictions(friction_law)%law)
       ties = [(tie_of(scene, scene%clearances(kind)%info, items(i)), i=1, size(items))]
       call slot%set%new(items, ties%point(1), ties%point(2), scene%points, law, friction)
+      call slot%set%take_surfaces(items, scene%materials, scene%bodies%mass, is_driven)
       if (face_law > 0) allocate (slot%set%laws%face, source=scene%laws(face_law)%law)
       slot%set%items%leaves = [(0, i=1, size(items))]
       allocate (slot%set%items%way(2, size(items)), source=0.0_wp)
@@ -213,13 +214,15 @@ contains
       call slot%set%prepare(items)
       if (film > 0) then
          if (slot%set%laws%films%acts) system%clearance_joints%film_clearance = min(system%clearance_joints%film_clearance, &
-                                                                         minval(slot%set%items%clearance))
+                                                                         minval(slot%set%items%pairs%clearance))
       end if
       do i = 1, size(items)
          if (ties(i)%by_joint) call slot%set%take_joint(i, joints(i)%set)
       end do
       call slot%set%set_start(system%linkage%motion)
-      call slot%set%fit_law(items, scene%materials, scene%bodies%mass, is_driven)
+      do i = 1, size(items)
+         call slot%set%fit(i)
+      end do
    end subroutine add_clearance_set
 
    !> The normal law of a row: none where a film alone holds the surfaces apart, or the row names none; half of one at each of two

@@ -6,7 +6,7 @@ module scene_checks
    use deck_types, only: add_default, deck_t
    use diagnostics, only: diagnostics_t
    use film_law, only: film_bearing_t, n_film_parameter
-   use film_places, only: film_bearing_of
+   use film_places, only: film_bearing_of, place_of_film
    use friction_law, only: memory_slip
    use force_registry, only: n_force_kinds
    use item, only: item_t
@@ -308,7 +308,7 @@ contains
       law_number = cell_index(info, item, "law")
       if (law_number > 0) call scene%laws(law_number)%law%fit(pair, parameters, message, help)
       if (message /= "") column = column_of(info, "law")
-      if (column == 0) call check_film(scene, info, item, column, message, help)
+      if (column == 0) call check_film(scene, info, item, pair, column, message, help)
       if (column > 0) return
       face_law = cell_index(info, item, "face_law")
       if (face_law == 0) return
@@ -325,10 +325,11 @@ contains
    end subroutine check_law
 
    !> The film of a clearance joint must fit its bearing.
-   subroutine check_film(scene, info, item, column, message, help)
+   subroutine check_film(scene, info, item, pair, column, message, help)
       type(scene_t), intent(in) :: scene                    !! the scene
       type(kind_info_t), intent(in) :: info                 !! the geometry
       type(item_t), intent(in) :: item                      !! the row
+      type(surfaces_t), intent(in) :: pair                  !! its surfaces
       integer, intent(inout) :: column                      !! column at fault, 0: all is well
       character(:), allocatable, intent(inout) :: message   !! what is wrong
       character(:), allocatable, intent(inout) :: help      !! what would be right
@@ -339,7 +340,7 @@ contains
 
       film = cell_index(info, item, "film")
       if (film == 0 .or. cell_text(info, item, "level") == "clearance") return
-      bearing = film_bearing_of(item, scene%lubrication%oils)
+      bearing = film_bearing_of(pair, place_of_film(item, scene%lubrication%oils))
       associate (law => scene%lubrication%films(film)%law)
          call law%fit(bearing, parameters, message, help)
          if (law%is_of_sphere() .neqv. bearing%is_sphere) then

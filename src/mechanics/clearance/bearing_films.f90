@@ -11,16 +11,17 @@
 !> lost may be negative: the shaft that would give the energy back is not asked for its moment. Limits: journals in the plane.
 module bearing_films
    use film_fields, only: film_field_t
-   use film_law, only: film_bearing_t, film_law_t, film_motion_t, film_slopes_t, n_film_parameter, parameter_clearance, &
+   use film_law, only: film_law_t, film_motion_t, film_slopes_t, n_film_parameter, parameter_clearance, &
       parameter_length
    use film_places, only: film_bearing_of, film_place_t, film_state_t, finish_state, place_of_film, share_of
    use item, only: item_t
    use kinds, only: two_pi, wp
    use lubricant, only: oil_t, viscosity_at
    use motion, only: loads_t, motion_t
+   use surfaces, only: surfaces_t
    implicit none (type, external)
    private
-   public :: bearing_films_t, new_bearing_films
+   public :: bearing_films_t, films_fit, new_bearing_films
 
    integer, parameter :: n_around = 360, n_along = 40  !! parts of the angle and of the length of an unwrapped film
 
@@ -35,12 +36,12 @@ module bearing_films
       real(wp), allocatable :: roughness(:)           !! (n) of the surfaces, 0: not known [m]
       real(wp), allocatable :: parameters(:, :)       !! (n_film_parameter, n) fitted to the bearings [any]
       type(film_place_t), allocatable :: place(:)     !! (n) how they act
-      type(film_bearing_t), allocatable :: bearing(:) !! (n) bearings
       type(oil_t), allocatable :: oil(:)              !! (n) lubricants
       type(film_motion_t), allocatable :: motion(:)   !! (n) of an evaluation
       real(wp), allocatable :: f(:, :)                !! (2, n) of an evaluation [N]
       real(wp), allocatable :: s(:, :, :)             !! (2, 2, n) centres of bearing and journal, of an evaluation [m]
    contains
+      procedure :: fit => films_fit
       procedure :: bear => films_bear
       procedure :: state_of => films_state_of
       procedure :: slopes_of => films_slopes_of
@@ -62,24 +63,33 @@ contains
       type(oil_t), intent(in) :: oils(:)         !! (lubricants) all of them
       class(bearing_films_t), intent(inout) :: films !! the films, new
 
-      character(:), allocatable :: help, message
       integer :: k, n
 
       n = size(items)
       allocate (films%law, source=law)
       allocate (films%parameters(n_film_parameter, n), films%eps_max(n), films%roughness(n), films%place(n), films%motion(n))
-      allocate (films%f(2, n), films%s(2, 2, n), films%bearing(n), films%oil(n))
+      allocate (films%f(2, n), films%s(2, 2, n), films%oil(n))
       films%acts = items(1)%word("level") == "lubricated" .or. items(1)%word("level") == "hybrid"
       films%is_alone = items(1)%word("level") == "lubricated"
       do k = 1, n
-         films%bearing(k) = film_bearing_of(items(k), oils)
          if (items(k)%reference("lubricant") > 0) films%oil(k) = oils(items(k)%reference("lubricant"))
-         films%place(k) = place_of_film(items(k), films%oil(k), films%acts)
-         call law%fit(films%bearing(k), films%parameters(:, k), message, help)
+         films%place(k) = place_of_film(items(k), oils)
          films%roughness(k) = items(k)%number("roughness")
          films%eps_max(k) = items(k)%number("eps_max")
       end do
    end subroutine new_bearing_films
+
+   !> Fit the film of an item to its surfaces and to its temperature.
+   subroutine films_fit(self, k, pair)
+      class(bearing_films_t), intent(inout) :: self  !! the films
+      integer, intent(in) :: k                       !! item
+      type(surfaces_t), intent(in) :: pair           !! its surfaces
+
+      character(:), allocatable :: help, message
+
+      self%place(k)%gone = pair%clearance + self%place(k)%depth
+      call self%law%fit(film_bearing_of(pair, self%place(k)), self%parameters(:, k), message, help)
+   end subroutine films_fit
 
    !> Add what the films do to the loads, and find the power that they take.
    subroutine films_bear(self, body, s_i, s_j, motion, loads)
@@ -192,16 +202,15 @@ contains
    end subroutine add_film_loads
 
    !> Give the film of one item another temperature, and its viscosity.
-   subroutine films_warm(self, k, temperature)
+   subroutine films_warm(self, k, pair, temperature)
       class(bearing_films_t), intent(inout) :: self  !! the films
       integer, intent(in) :: k                       !! item
+      type(surfaces_t), intent(in) :: pair           !! its surfaces
       real(wp), intent(in) :: temperature            !! of the film [K]
 
-      character(:), allocatable :: help, message
-
       self%place(k)%temperature = temperature
-      self%bearing(k)%viscosity = viscosity_at(self%oil(k), temperature)
-      call self%law%fit(self%bearing(k), self%parameters(:, k), message, help)
+      self%place(k)%viscosity = viscosity_at(self%oil(k), temperature)
+      call self%fit(k, pair)
    end subroutine films_warm
 
    !> Whether films go out over a transition, which items of a set share.
@@ -233,7 +242,7 @@ contains
       state%power = -dot_product(state%force, film%e_dot) - state%drag_journal*motion%omega(3, body(2)) &
                     - state%drag_bearing*motion%omega(3, body(1))
       state%side_flow = state%share*self%law%side_flow(film, self%parameters(:, k))
-      call finish_state(self%bearing(k), self%oil(k)%heat, sum(abs(motion%omega(3, body))), state)
+      call finish_state(self%parameters(:, k), self%oil(k)%heat, sum(abs(motion%omega(3, body))), state)
    end function films_state_of
 
    !> Maximum pressure in the middle of the length, at whole degrees around the bearing; 0 of a film that does not act.

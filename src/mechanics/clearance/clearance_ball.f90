@@ -8,7 +8,6 @@
 !> plane without ends; the ball is a half space of its radius for the stiffness; friction has no moment about the normal.
 module clearance_ball
    use clearance_plane, only: describe_ball
-   use clearance_set, only: no_ideal_kind, no_mistake
    use item, only: item_t
    use kind_info, only: add_channel, add_direction, add_number, add_reference, dim_length, in_space, kind_info_t
    use kinds, only: wp
@@ -22,9 +21,7 @@ module clearance_ball
    type, extends(plane_contacts_t) :: clearance_ball_t
    contains
       procedure, nopass :: info => ball_info
-      procedure, nopass :: ideal_kind => no_ideal_kind
       procedure :: prepare => ball_prepare
-      procedure, nopass :: mistake => no_mistake
       procedure, nopass :: describe => describe_ball
    end type clearance_ball_t
 
@@ -63,7 +60,7 @@ contains
          self%planes%normal(:, k) = [0.0_wp, 0.0_wp, -1.0_wp]
          self%planes%radius(k) = items(k)%number("radius")
          self%planes%height(k) = -self%planes%radius(k)
-         self%items%clearance(k) = self%planes%radius(k)
+         self%items%pairs(k)%clearance = self%planes%radius(k)
       end do
    end subroutine ball_prepare
 

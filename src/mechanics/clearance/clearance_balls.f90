@@ -7,7 +7,6 @@
 !> the stiffness. Limits: centres that coincide have no normal; friction has no moment about the normal.
 module clearance_balls
    use clearance_discs, only: add_disc_columns, describe_discs
-   use clearance_set, only: no_ideal_kind, no_mistake
    use item, only: item_t
    use kind_info, only: in_space, kind_info_t
    use kinds, only: wp
@@ -21,9 +20,7 @@ module clearance_balls
    type, extends(socket_contacts_t) :: clearance_balls_t
    contains
       procedure, nopass :: info => balls_info
-      procedure, nopass :: ideal_kind => no_ideal_kind
       procedure :: prepare => balls_prepare
-      procedure, nopass :: mistake => no_mistake
       procedure, nopass :: describe => describe_discs
    end type clearance_balls_t
 
@@ -41,24 +38,14 @@ contains
       call add_contact_channels(info, "second ball", "its sliding velocity")
    end function balls_info
 
-   !> Radii of each item.
+   !> The second ball is beside the first.
    subroutine balls_prepare(self, items)
       class(clearance_balls_t), intent(inout) :: self  !! the set
       type(item_t), intent(in) :: items(:)             !! (n) rows of the table
 
-      integer :: k
-
       call self%make_storage()
       allocate (self%socket(self%n))
-      do k = 1, self%n
-         associate (item => items(k), socket => self%socket(k))
-            socket%side = -1.0_wp
-            socket%radius_i = -item%number("radius_i")
-            socket%radius_j = item%number("radius_j")
-            socket%clearance = socket%radius_i - socket%radius_j
-            self%items%clearance(k) = -socket%clearance
-         end associate
-      end do
+      self%socket%side = -1.0_wp
    end subroutine balls_prepare
 
 end module clearance_balls

@@ -110,7 +110,7 @@ contains
       m = 0
       do k = 1, self%n
          associate (item => items(k))
-            self%items%clearance(k) = item%number("gap")
+            self%items%pairs(k)%clearance = item%number("gap")
             self%axes(k)%across = item%direction("width_axis")
             half = 0.5_wp*[item%number("width"), item%number("height"), item%number("length")]
             if (has_ends(item)) self%axes(k)%ends = [item%number("guide_start"), item%number("guide_end")]
@@ -120,7 +120,7 @@ contains
                m = m + 1
                self%planes%normal(across, m) = side(across, corner)
                self%planes%point(:, m) = side(:, corner)*half
-               self%planes%height(m) = half(across) + self%items%clearance(k)
+               self%planes%height(m) = half(across) + self%items%pairs(k)%clearance
             end do
          end do
       end do

@@ -11,7 +11,7 @@
 !> bushing's axis, across it, world frame. Source: Flores et al. (2008), section 6.3, corrected: see `socket_contacts`.
 !> Limits: those of `socket_contacts`; the pin is held along its axis by nothing.
 module clearance_bushing
-   use clearance_spherical, only: add_socket_columns, check_socket, describe_socket
+   use clearance_spherical, only: add_socket_columns, check_socket
    use bodies, only: material_t
    use item, only: item_t
    use joint_frames, only: find_frames
@@ -19,7 +19,7 @@ module clearance_bushing
    use kinds, only: wp
    use motion, only: motion_t
    use point_contacts, only: add_contact_channels, of_axial_displacement, of_eccentricity, of_force, of_moment, of_tilt
-   use revolute_level, only: add_film_columns, add_spatial_film_channels
+   use revolute_level, only: add_film_columns, add_spatial_film_channels, describe_hole
    use socket_contacts, only: of_engagement
    use socket_joints, only: socket_joints_t
    use surfaces, only: surfaces_t
@@ -100,7 +100,7 @@ contains
       kind = "joint.revolute"
    end function bushing_ideal_kind
 
-   !> Radii, lengths and axes of each item, these as in the deck.
+   !> Axes of each item as in the deck.
    subroutine bushing_prepare(self, items)
       class(clearance_bushing_t), intent(inout) :: self  !! the set
       type(item_t), intent(in) :: items(:)               !! (n) rows of the table
@@ -112,21 +112,13 @@ contains
       allocate (self%socket(self%n))
       do k = 1, self%n
          associate (item => items(k), socket => self%socket(k))
-            self%items%clearance(k) = item%number("clearance")
-            socket%radius_i = item%number("bearing_radius")
-            socket%clearance = self%items%clearance(k)
-            socket%radius_j = socket%radius_i - self%items%clearance(k)
             socket%has_axis = .true.
             socket%has_ends = item%word("ends") == "clipped"
-            socket%half_i = 0.5_wp*item%number("length")
-            socket%half_j = socket%half_i
-            if (item%is_given("journal_length")) socket%half_j = 0.5_wp*item%number("journal_length")
             socket%axis_i = item%direction("axis_i")
             socket%axis_j = item%direction("axis_j")
             socket%across = item%direction("x_i")
          end associate
       end do
-      call self%take_level(items)
    end subroutine bushing_prepare
 
    !> Axes in the frames of the bodies.
@@ -159,8 +151,10 @@ contains
       type(material_t), intent(in) :: materials(:)  !! (materials) all materials
       type(surfaces_t), intent(out) :: pair         !! its surfaces
 
-      call describe_socket(item, materials, pair)
+      call describe_hole(item, materials, pair)
       pair%length = item%number("length")
+      pair%length_j = pair%length
+      if (item%is_given("journal_length")) pair%length_j = item%number("journal_length")
    end subroutine bushing_describe
 
    !> How far what takes part in a contact is from the centres of mass of both bodies.
@@ -170,8 +164,8 @@ contains
       real(wp) :: span(2)                             !! (2) in bodies i and j [m]
 
       associate (item => self%item_of(contact))
-         span = [sum(abs(self%items%s_i(:, item))) + self%socket(item)%half_i, &
-                 sum(abs(self%items%s_j(:, item))) + self%socket(item)%half_j + self%items%clearance(item)]
+         span = [sum(abs(self%items%s_i(:, item))) + 0.5_wp*self%items%pairs(item)%length, &
+                 sum(abs(self%items%s_j(:, item))) + 0.5_wp*self%items%pairs(item)%length_j + self%items%pairs(item)%clearance]
       end associate
    end function bushing_span_of
 

@@ -8,13 +8,12 @@
 !> radii, also for discs, unless a law says otherwise; centres that coincide have no normal.
 module clearance_discs
    use bodies, only: material_t
-   use clearance_set, only: no_ideal_kind, no_mistake
    use item, only: item_t
    use kind_info, only: add_channel, add_number, add_reference, dim_length, in_plane, kind_info_t
    use kinds, only: wp
    use point_contacts, only: add_contact_channels, of_eccentricity, of_force
    use round_contacts, only: round_contacts_t
-   use surfaces, only: shape_external, surfaces_t, take_materials
+   use surfaces, only: put_beside, surfaces_t, take_materials
    implicit none (type, external)
    private
    public :: add_disc_columns, clearance_discs_t, describe_discs
@@ -23,9 +22,7 @@ module clearance_discs
    type, extends(round_contacts_t) :: clearance_discs_t
    contains
       procedure, nopass :: info => discs_info
-      procedure, nopass :: ideal_kind => no_ideal_kind
       procedure :: prepare => discs_prepare
-      procedure, nopass :: mistake => no_mistake
       procedure, nopass :: describe => describe_discs
    end type clearance_discs_t
 
@@ -61,23 +58,13 @@ contains
       call add_channel(info, "force", "N", "world", 2, "force on the second "//disc, of_force)
    end subroutine add_disc_columns
 
-   !> Radii of each item.
+   !> The second disc is beside the first.
    subroutine discs_prepare(self, items)
       class(clearance_discs_t), intent(inout) :: self  !! the set
       type(item_t), intent(in) :: items(:)             !! (n) rows of the table
 
-      integer :: k
-
       call self%make_journals()
-      do k = 1, self%n
-         associate (item => items(k), journal => self%journal(k))
-            journal%side = -1.0_wp
-            journal%radius_i = -item%number("radius_i")
-            journal%radius_j = item%number("radius_j")
-            journal%clearance = journal%radius_i - journal%radius_j
-            self%items%clearance(k) = -journal%clearance
-         end associate
-      end do
+      self%journal%side = -1.0_wp
    end subroutine discs_prepare
 
    !> Two convex surfaces.
@@ -86,9 +73,7 @@ contains
       type(material_t), intent(in) :: materials(:)  !! (materials) all materials
       type(surfaces_t), intent(out) :: pair         !! its surfaces
 
-      pair%shape = shape_external
-      pair%radius_i = item%number("radius_i")
-      pair%radius_j = item%number("radius_j")
+      call put_beside(pair, item%number("radius_i"), item%number("radius_j"))
       call take_materials(pair, materials, item%reference("material"), item%reference("material_j"))
    end subroutine describe_discs
 

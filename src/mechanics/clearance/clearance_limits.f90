@@ -10,7 +10,6 @@
 !> Signs: the reported force is that on body j. Source: Flores et al. (2008), section 3.1, a point against a plane. Limits: those of
 !> `clearance_stop`; the face of an angle is as long as the joint's way.
 module clearance_limits
-   use clearance_set, only: no_ideal_kind
    use clearance_stop, only: add_stop_columns, check_stop, describe_stop, limits, lower, never, stop_labels, upper
    use item, only: item_t, place_of
    use joint_set, only: joint_set_t
@@ -29,7 +28,6 @@ module clearance_limits
    contains
       procedure, nopass :: info => limits_info
       procedure, nopass :: contact_labels => stop_labels
-      procedure, nopass :: ideal_kind => no_ideal_kind
       procedure :: prepare => limits_prepare
       procedure :: take_joint => limits_take_joint
       procedure :: find_axes => limits_find_axes
@@ -61,7 +59,7 @@ contains
 
       call self%make_planes(items)
       do k = 1, self%n
-         self%items%clearance(k) = items(k)%number("lever")
+         self%items%pairs(k)%clearance = items(k)%number("lever")
          do c = lower, upper
             m = 2*(k - 1) + c
             self%planes%height(m) = never

@@ -9,7 +9,6 @@
 !> put right. Limits: a plane without ends; the ball is a half space of its radius for the stiffness.
 module clearance_plane
    use bodies, only: material_t
-   use clearance_set, only: no_ideal_kind, no_mistake
    use flat_contacts, only: flat_contacts_t
    use item, only: item_t
    use joint_translational, only: add_axis_columns
@@ -25,9 +24,7 @@ module clearance_plane
    type, extends(flat_contacts_t) :: clearance_plane_t
    contains
       procedure, nopass :: info => plane_info
-      procedure, nopass :: ideal_kind => no_ideal_kind
       procedure :: prepare => plane_prepare
-      procedure, nopass :: mistake => no_mistake
       procedure, nopass :: describe => describe_ball
    end type clearance_plane_t
 
@@ -70,7 +67,7 @@ contains
             self%plane%radius(k) = item%number("radius")
             self%plane%height(k) = -self%plane%radius(k)
             self%plane%point_j(:, k) = self%items%s_j(1:2, k)
-            self%items%clearance(k) = self%plane%radius(k)
+            self%items%pairs(k)%clearance = self%plane%radius(k)
          end associate
       end do
    end subroutine plane_prepare

@@ -16,9 +16,9 @@ module clearance_revolute
    use kind_info, only: add_channel, add_number, add_reference, add_word, dim_length, in_plane, kind_info_t
    use kinds, only: wp
    use point_contacts, only: add_contact_channels, of_eccentricity, of_force
-   use revolute_level, only: add_film_channels, add_film_columns, find_level_mistake
+   use revolute_level, only: add_film_channels, add_film_columns, describe_hole, find_level_mistake
    use round_contacts, only: round_contacts_t
-   use surfaces, only: shape_internal, surfaces_t, take_materials
+   use surfaces, only: surfaces_t
    use text, only: to_text
    implicit none (type, external)
    private
@@ -74,7 +74,7 @@ contains
       kind = "joint.revolute"
    end function revolute_ideal_kind
 
-   !> Radii, clearance and form of each item.
+   !> Form of each item.
    subroutine revolute_prepare(self, items)
       class(clearance_revolute_t), intent(inout) :: self  !! the set
       type(item_t), intent(in) :: items(:)                !! (n) rows of the table
@@ -85,11 +85,6 @@ contains
       call self%make_journals()
       do k = 1, self%n
          associate (item => items(k), journal => self%journal(k))
-            self%items%clearance(k) = item%number("clearance")
-            journal%radius_i = item%number("bearing_radius")
-            journal%radius_j = journal%radius_i - self%items%clearance(k)
-            journal%clearance = self%items%clearance(k)
-            if (item%word("level") == "lubricated") journal%clearance = item%number("eps_max")*journal%clearance
             journal%is_book = item%word("form") == "book"
             if (journal%is_book) journal%share = 0.0_wp
          end associate
@@ -102,12 +97,8 @@ contains
       type(material_t), intent(in) :: materials(:)  !! (materials) all materials
       type(surfaces_t), intent(out) :: pair         !! its surfaces
 
-      pair%shape = shape_internal
-      pair%radius_i = item%number("bearing_radius")
-      pair%clearance = item%number("clearance")
-      pair%radius_j = pair%radius_i - pair%clearance
+      call describe_hole(item, materials, pair)
       pair%length = item%number("length")
-      call take_materials(pair, materials, item%reference("material"), item%reference("journal_material"))
    end subroutine revolute_describe
 
    !> The journal must have a radius, and the row what its level needs.

@@ -23,9 +23,8 @@ module clearance_set
    use text, only: text_t
    implicit none (type, external)
    private
-   public :: clearance_fit_law, clearance_set_t, clearance_slot_t, loss_contact, loss_friction, n_integrand, &
+   public :: clearance_fit, clearance_set_t, clearance_slot_t, loss_contact, loss_friction, n_integrand, &
       normal_impulse
-   public :: no_ideal_kind, no_mistake
 
    ! what is integrated of a contact
    integer, parameter :: loss_contact = 1    !! power taken by contact damping
@@ -46,7 +45,6 @@ module clearance_set
       integer, allocatable :: body(:, :)          !! (2, n) bodies of bearing and journal, 0: ground
       real(wp), allocatable :: s_i(:, :)          !! (3, n) centre of the bearing, frame of its body [m]
       real(wp), allocatable :: s_j(:, :)          !! (3, n) centre of the journal, frame of its body [m]
-      real(wp), allocatable :: clearance(:)       !! (n) clearance [m]
       integer, allocatable :: leaves(:)           !! (n) of items tied by a joint: what that leaves, see `kind_info`
       real(wp), allocatable :: way(:, :)          !! (2, n) and the axis of one that leaves a way, frame of i [1]
       type(surfaces_t), allocatable :: pairs(:)   !! (n) the surfaces
@@ -68,9 +66,9 @@ module clearance_set
       type(clearance_laws_t) :: laws       !! laws of all items
    contains
       procedure(info_interface), nopass, deferred :: info
-      procedure(ideal_interface), nopass, deferred :: ideal_kind
+      procedure, nopass :: ideal_kind => no_ideal_kind
       procedure(prepare_interface), deferred :: prepare
-      procedure(mistake_interface), nopass, deferred :: mistake
+      procedure, nopass :: mistake => no_mistake
       procedure(describe_interface), nopass, deferred :: describe
       procedure(evaluate_interface), deferred :: evaluate
       procedure(gaps_interface), deferred :: gaps
@@ -82,7 +80,8 @@ module clearance_set
       procedure :: take_joint => clearance_take_joint
       procedure :: set_start => clearance_set_start
       procedure :: span_of => clearance_span_of
-      procedure :: fit_law => clearance_fit_law
+      procedure, non_overridable :: take_surfaces => clearance_take_surfaces
+      procedure :: fit => clearance_fit
       procedure :: note_contact_rate => clearance_note_contact_rate
       procedure :: lay => clearance_lay
       procedure :: follow_sliding => clearance_follow_sliding
@@ -103,12 +102,6 @@ module clearance_set
          type(kind_info_t) :: info  !! name, columns and channels (those of the contacts too)
       end function info_interface
 
-      !> The joint that the geometry is without clearance: its first columns are those of the geometry.
-      function ideal_interface() result(kind)
-         implicit none (type, external)
-         character(:), allocatable :: kind  !! name of the kind of joint; blank: there is none, and no column `level`
-      end function ideal_interface
-
       !> Take the geometry's own parameters, the clearance among them. Names, bodies, points and laws are set already.
       subroutine prepare_interface(self, items)
          import :: clearance_set_t, item_t
@@ -125,16 +118,6 @@ module clearance_set
          type(material_t), intent(in) :: materials(:)  !! (materials) all materials
          type(surfaces_t), intent(out) :: pair         !! its surfaces
       end subroutine describe_interface
-
-      !> What is wrong with a row as a whole.
-      subroutine mistake_interface(item, column, message, help)
-         import :: item_t
-         implicit none (type, external)
-         type(item_t), intent(in) :: item                       !! the row
-         integer, intent(out) :: column                         !! column at fault, 0: all is well
-         character(:), allocatable, intent(out) :: message      !! what is wrong
-         character(:), allocatable, intent(out) :: help         !! what would be right
-      end subroutine mistake_interface
 
       !> Add the forces of the contacts that act, and set what is integrated of them. No allocation.
       subroutine evaluate_interface(self, motion, loads, integrands)
@@ -233,9 +216,8 @@ contains
       self%n_contact_item = size(labels)
       self%n_contact = self%n*self%n_contact_item
       allocate (self%names(self%n), self%items%body(2, self%n), self%items%s_i(3, self%n), self%items%s_j(3, self%n))
-      allocate (self%items%clearance(self%n), self%laws%parameters(n_law_parameter, self%n_contact), source=0.0_wp)
-      allocate (self%items%pairs(self%n))
-      allocate (self%contact(self%n_contact))
+      allocate (self%items%pairs(self%n), self%contact(self%n_contact))
+      allocate (self%laws%parameters(n_law_parameter, self%n_contact), source=0.0_wp)
       allocate (self%laws%normal, source=law)
       if (allocated(friction)) then
          if (friction%is_active()) then
@@ -274,18 +256,19 @@ contains
       real(wp) :: span(2)                         !! (2) in bodies i and j [m]
 
       associate (item => self%item_of(contact))
-         span = [sum(abs(self%items%s_i(:, item))), sum(abs(self%items%s_j(:, item))) + self%items%clearance(item)]
+         span = [sum(abs(self%items%s_i(:, item))), sum(abs(self%items%s_j(:, item))) + self%items%pairs(item)%clearance]
       end associate
    end function clearance_span_of
 
-   !> Of geometries that hold nothing together: no ideal joint.
+   !> The joint that the geometry is without clearance, whose first columns are those of the geometry: none, unless the geometry
+   !> says otherwise. Where there is none, there is no column `level`.
    function no_ideal_kind() result(kind)
       character(:), allocatable :: kind  !! blank
 
       kind = ""
    end function no_ideal_kind
 
-   !> Of geometries of which any row makes sense.
+   !> What is wrong with a row as a whole: nothing, unless the geometry says otherwise.
    subroutine no_mistake(item, column, message, help)
       type(item_t), intent(in) :: item                       !! the row
       integer, intent(out) :: column                         !! 0: all is well
@@ -297,33 +280,45 @@ contains
       help = ""
    end subroutine no_mistake
 
-   !> Fit the normal law to the surfaces. A law that does not match was an error of the deck, unless the joint is an ideal
-   !> one that is taken as loose for its channels only: no contact is evaluated then. A body that drivers move cannot be pushed;
-   !> between two of them the masses of the deck are all there is.
-   subroutine clearance_fit_law(self, items, materials, mass, is_driven)
+   !> Take the surfaces of the rows. A body that drivers move cannot be pushed; between two of them the masses of the deck are all
+   !> there is.
+   subroutine clearance_take_surfaces(self, items, materials, mass, is_driven)
       class(clearance_set_t), intent(inout) :: self  !! the set
       type(item_t), intent(in) :: items(:)           !! (n) rows of the table
       type(material_t), intent(in) :: materials(:)   !! (materials) all materials
       real(wp), intent(in) :: mass(:)                !! (bodies) masses of the bodies [kg]
       logical, intent(in) :: is_driven(:)            !! (bodies) whether drivers alone say how they move
 
-      character(:), allocatable :: help, message
-      real(wp) :: parameters(n_law_parameter)
       integer, allocatable :: bodies(:)
-      integer :: c, k
+      integer :: k
 
       do k = 1, self%n
          call self%describe(items(k), materials, self%items%pairs(k))
          bodies = pack(self%items%body(:, k), self%items%body(:, k) > 0)
          if (.not. all(is_driven(bodies))) bodies = pack(bodies, .not. is_driven(bodies))
          self%items%pairs(k)%inverse_mass = sum(1.0_wp/mass(bodies))
-         call self%laws%normal%fit(self%items%pairs(k), parameters, message, help)
-         parameters(parameter_gentle) = gentle**2*self%items%pairs(k)%inverse_mass
+      end do
+   end subroutine clearance_take_surfaces
+
+   !> Fit normal law and film of an item to its surfaces, at the start and after any change of them. A law that does not match was
+   !> an error of the deck, unless the joint is an ideal one that has a clearance for its channels only: no contact is evaluated then.
+   subroutine clearance_fit(self, k)
+      class(clearance_set_t), intent(inout) :: self  !! the set
+      integer, intent(in) :: k                       !! the item
+
+      character(:), allocatable :: help, message
+      real(wp) :: parameters(n_law_parameter)
+      integer :: c
+
+      associate (pair => self%items%pairs(k))
+         call self%laws%normal%fit(pair, parameters, message, help)
+         parameters(parameter_gentle) = gentle**2*pair%inverse_mass
          do c = (k - 1)*self%n_contact_item + 1, k*self%n_contact_item
             self%laws%parameters(:, c) = parameters
          end do
-      end do
-   end subroutine clearance_fit_law
+         if (allocated(self%laws%films)) call self%laws%films%fit(k, pair)
+      end associate
+   end subroutine clearance_fit
 
    !> How fast a contact that has started swings: as an impact with its speed, or as one that gets as deep as it is, which one that
    !> starts overlapping is without any speed. 0 if that is not known. And whether it starts beyond the transition of a film.

@@ -7,19 +7,17 @@
 !> the socket's, world frame. Source: Flores et al. (2008), section 6.2, corrected: see `socket_contacts`.
 !> Limits: the socket is a whole sphere: nothing keeps the ball from leaving through an opening.
 module clearance_spherical
-   use bodies, only: material_t
    use item, only: item_t, place_of
    use kind_info, only: add_channel, add_number, add_reference, add_word, dim_length, in_space, kind_info_t
    use kinds, only: wp
    use motion, only: motion_t
    use point_contacts, only: add_contact_channels, of_eccentricity, of_force, of_moment
-   use revolute_level, only: add_film_columns, add_spatial_film_channels, find_level_mistake
+   use revolute_level, only: add_film_columns, add_spatial_film_channels, describe_hole, find_level_mistake
    use socket_joints, only: socket_joints_t
-   use surfaces, only: shape_internal, surfaces_t, take_materials
    use text, only: to_text
    implicit none (type, external)
    private
-   public :: add_socket_columns, check_socket, clearance_spherical_t, describe_socket
+   public :: add_socket_columns, check_socket, clearance_spherical_t
 
    !> Balls in sockets.
    type, extends(socket_joints_t) :: clearance_spherical_t
@@ -29,7 +27,7 @@ module clearance_spherical
       procedure :: prepare => spherical_prepare
       procedure :: set_start => spherical_set_start
       procedure, nopass :: mistake => check_socket
-      procedure, nopass :: describe => describe_socket
+      procedure, nopass :: describe => describe_hole
    end type clearance_spherical_t
 
 contains
@@ -77,23 +75,14 @@ contains
       kind = "joint.spherical"
    end function spherical_ideal_kind
 
-   !> Radii of each item.
+   !> A ball is inside its socket.
    subroutine spherical_prepare(self, items)
       class(clearance_spherical_t), intent(inout) :: self  !! the set
       type(item_t), intent(in) :: items(:)                 !! (n) rows of the table
 
-      integer :: k
-
       self%traits%is_round = .true.
       call self%make_storage()
       allocate (self%socket(self%n))
-      do k = 1, self%n
-         self%items%clearance(k) = items(k)%number("clearance")
-         self%socket(k)%radius_i = items(k)%number("bearing_radius")
-         self%socket(k)%clearance = self%items%clearance(k)
-         self%socket(k)%radius_j = self%socket(k)%radius_i - self%items%clearance(k)
-      end do
-      call self%take_level(items)
    end subroutine spherical_prepare
 
    !> Nothing but where the films are.
@@ -103,19 +92,6 @@ contains
 
       call self%seat_films()
    end subroutine spherical_set_start
-
-   !> A ball in a socket, or a pin in a bushing.
-   pure subroutine describe_socket(item, materials, pair)
-      type(item_t), intent(in) :: item              !! the row
-      type(material_t), intent(in) :: materials(:)  !! (materials) all materials
-      type(surfaces_t), intent(out) :: pair         !! its surfaces
-
-      pair%shape = shape_internal
-      pair%radius_i = item%number("bearing_radius")
-      pair%clearance = item%number("clearance")
-      pair%radius_j = pair%radius_i - pair%clearance
-      call take_materials(pair, materials, item%reference("material"), item%reference("journal_material"))
-   end subroutine describe_socket
 
    !> The inner part must have a radius, and the row what its level needs.
    subroutine check_socket(item, column, message, help)

@@ -13,7 +13,6 @@
 !> hard an impact is for laws that ask.
 module clearance_stop
    use bodies, only: material_t
-   use clearance_set, only: no_ideal_kind
    use flat_contacts, only: flat_contacts_t
    use item, only: item_t, place_of
    use kind_info, only: add_any_number, add_channel, add_number, add_reference, dim_angle, dim_length, &
@@ -38,7 +37,6 @@ module clearance_stop
    contains
       procedure, nopass :: info => stop_info
       procedure, nopass :: contact_labels => stop_labels
-      procedure, nopass :: ideal_kind => no_ideal_kind
       procedure :: prepare => stop_prepare
       procedure, nopass :: mistake => check_stop
       procedure, nopass :: describe => describe_stop
@@ -92,7 +90,7 @@ contains
 
       call self%make_planes()
       do k = 1, self%n
-         self%items%clearance(k) = items(k)%number("lever")
+         self%items%pairs(k)%clearance = items(k)%number("lever")
          do c = lower, upper
             m = 2*(k - 1) + c
             self%plane%point_j(:, m) = self%items%s_j(1:2, k)

@@ -13,7 +13,6 @@
 !> wander across; the axis itself is held by another joint.
 module clearance_thrust
    use bodies, only: material_t
-   use clearance_set, only: no_ideal_kind, no_mistake
    use item, only: item_t
    use kind_info, only: add_channel, add_direction, add_number, add_reference, dim_length, in_space, kind_info_t
    use kinds, only: pi, wp
@@ -32,9 +31,7 @@ module clearance_thrust
    contains
       procedure, nopass :: info => thrust_info
       procedure, nopass :: contact_labels => thrust_labels
-      procedure, nopass :: ideal_kind => no_ideal_kind
       procedure :: prepare => thrust_prepare
-      procedure, nopass :: mistake => no_mistake
       procedure, nopass :: describe => thrust_describe
    end type clearance_thrust_t
 
@@ -102,7 +99,7 @@ contains
       m = 0
       do k = 1, self%n
          associate (item => items(k))
-            self%items%clearance(k) = item%number("gap")
+            self%items%pairs(k)%clearance = item%number("gap")
             half = 0.5_wp*item%number("length")
             do end_sign = -1, 1, 2
                do p = 1, n_point

@@ -19,7 +19,7 @@
 !> rectangle. Limits: short sides have corners only; see `slider_contacts` for the ends of guides with faces.
 module clearance_translational
    use bodies, only: material_t
-   use clearance_set, only: clearance_fit_law
+   use clearance_set, only: clearance_fit
    use floors, only: gentle
    use item, only: item_t, place_of
    use joint_translational, only: add_axis_columns
@@ -45,7 +45,7 @@ module clearance_translational
       procedure :: prepare => translational_prepare
       procedure, nopass :: mistake => translational_mistake
       procedure, nopass :: describe => describe_corner
-      procedure :: fit_law => translational_fit_law
+      procedure :: fit => translational_fit
    end type clearance_translational_t
 
 contains
@@ -131,7 +131,7 @@ contains
             gap = item%number("gap")
             if (item%is_given("gap_upper")) gap(upper) = item%number("gap_upper")
             if (item%is_given("gap_lower")) gap(lower) = item%number("gap_lower")
-            self%items%clearance(k) = minval(gap)
+            self%items%pairs(k)%clearance = minval(gap)
             self%guide%ends(:, k) = [item%number("guide_start"), item%number("guide_end")]
             if (maxval(abs(self%guide%ends(:, k))) <= 0.0_wp) self%guide%ends(:, k) = [-huge(1.0_wp), huge(1.0_wp)]
             do side = upper, lower
@@ -229,25 +229,19 @@ contains
    end subroutine describe_corner
 
    !> Fit the corner law, and the face law if there is one.
-   subroutine translational_fit_law(self, items, materials, mass, is_driven)
+   subroutine translational_fit(self, k)
       class(clearance_translational_t), intent(inout) :: self  !! the set
-      type(item_t), intent(in) :: items(:)                     !! (n) rows of the table
-      type(material_t), intent(in) :: materials(:)             !! (materials) all materials
-      real(wp), intent(in) :: mass(:)                          !! (bodies) masses of the bodies [kg]
-      logical, intent(in) :: is_driven(:)                      !! (bodies) whether drivers alone say how they move
+      integer, intent(in) :: k                                 !! the item
 
       type(surfaces_t) :: pair
       character(:), allocatable :: help, message
-      integer :: k
 
-      call clearance_fit_law(self, items, materials, mass, is_driven)
+      call clearance_fit(self, k)
       if (.not. allocated(self%laws%face)) return
-      do k = 1, self%n
-         pair = self%items%pairs(k)
-         pair%shape = shape_face
-         call self%laws%face%fit(pair, self%guide%face_parameters(:, k), message, help)
-         self%guide%face_parameters(parameter_gentle, k) = gentle**2*pair%inverse_mass
-      end do
-   end subroutine translational_fit_law
+      pair = self%items%pairs(k)
+      pair%shape = shape_face
+      call self%laws%face%fit(pair, self%guide%face_parameters(:, k), message, help)
+      self%guide%face_parameters(parameter_gentle, k) = gentle**2*pair%inverse_mass
+   end subroutine translational_fit
 
 end module clearance_translational

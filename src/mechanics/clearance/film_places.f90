@@ -1,9 +1,10 @@
 !> What joints say of their films: the bearing of a row, how its film acts, and what a film does there.
 module film_places
-   use film_law, only: film_bearing_t, film_motion_t, max_eccentricity
+   use film_law, only: film_bearing_t, film_motion_t, max_eccentricity, parameter_clearance, parameter_length, parameter_radius
    use item, only: find_place, item_t
    use kinds, only: not_a_number, wp
    use lubricant, only: oil_t
+   use surfaces, only: surfaces_t
    implicit none (type, external)
    private
    public :: film_bearing_of, film_place_t, film_state_t, finish_state, place_of_film, share_of
@@ -12,8 +13,12 @@ module film_places
 
    !> How a film acts in a joint.
    type :: film_place_t
-      real(wp) :: clearance = 0.0_wp      !! c of the joint [m]
       real(wp) :: depth = 0.0_wp          !! d: of the transition to dry contact; 0: there is none [m]
+      real(wp) :: gone = 0.0_wp           !! c + d: eccentricity at which nothing of the film acts, fitted to the surfaces [m]
+      real(wp) :: extra = 0.0_wp          !! clearance of the film beyond that of the surfaces [m]
+      real(wp) :: viscosity = 0.0_wp      !! dynamic [Pa.s]
+      real(wp) :: eps_max = 1.0_wp        !! eccentricity ratio beyond which the film's shape stays the same [1]
+      logical :: is_sphere = .false.      !! of a ball in a socket
       logical :: has_torque = .false.     !! moments of shear act too
       logical :: is_relative = .false.    !! entrained by the difference of the speeds, as the book has it, not by their sum
       logical :: is_heated = .false.      !! a static analysis finds the temperature by a balance of heat
@@ -38,37 +43,38 @@ module film_places
 
 contains
 
-   !> The bearing that a row describes, as films see it; of a pin that is shorter than its bushing, the film has the pin's length.
-   pure function film_bearing_of(item, oils) result(bearing)
-      type(item_t), intent(in) :: item        !! the row of a joint with clearance
-      type(oil_t), intent(in) :: oils(:)      !! (lubricants) all of them
-      type(film_bearing_t) :: bearing         !! the bearing
+   !> A bearing, as its film sees it; of a pin that is shorter than its bushing, the film has the pin's length.
+   pure function film_bearing_of(pair, place) result(bearing)
+      type(surfaces_t), intent(in) :: pair      !! the surfaces
+      type(film_place_t), intent(in) :: place   !! how the film acts
+      type(film_bearing_t) :: bearing           !! the bearing
 
-      bearing%radius = item%number("bearing_radius") - item%number("clearance")
-      bearing%clearance = item%number("clearance")
-      if (item%word("level") == "hybrid") bearing%clearance = bearing%clearance + item%number("e_t1")
-      bearing%is_sphere = find_place(item, "length") == 0
-      if (.not. bearing%is_sphere) bearing%length = item%number("length")
-      if (find_place(item, "journal_length") > 0) then
-         if (item%is_given("journal_length")) bearing%length = min(bearing%length, item%number("journal_length"))
-      end if
-      if (item%reference("lubricant") > 0) bearing%viscosity = oils(item%reference("lubricant"))%viscosity
-      bearing%eps_max = item%number("eps_max")
+      bearing = film_bearing_t(pair%radius_j, pair%clearance + place%extra, min(pair%length, pair%length_j), place%viscosity, &
+                               place%eps_max, place%is_sphere)
    end function film_bearing_of
 
    !> How the film of a row acts.
-   pure function place_of_film(item, oil, acts) result(place)
-      type(item_t), intent(in) :: item   !! the row
-      type(oil_t), intent(in) :: oil     !! its lubricant
-      logical, intent(in) :: acts        !! whether the film acts at its level
-      type(film_place_t) :: place        !! how it acts
+   pure function place_of_film(item, oils) result(place)
+      type(item_t), intent(in) :: item     !! the row of a joint with clearance
+      type(oil_t), intent(in) :: oils(:)   !! (lubricants) all of them
+      type(film_place_t) :: place          !! how it acts
 
-      place%clearance = item%number("clearance")
-      if (item%word("level") == "hybrid") place%depth = item%number("e_t0")
+      character(:), allocatable :: level
+      integer :: oil
+
+      level = item%word("level")
+      if (level == "hybrid") place%depth = item%number("e_t0")
+      if (level == "hybrid") place%extra = item%number("e_t1")
+      oil = item%reference("lubricant")
+      if (oil > 0) place%viscosity = oils(oil)%viscosity
+      if (oil > 0) place%temperature = oils(oil)%temperature
+      place%eps_max = item%number("eps_max")
+      place%is_sphere = find_place(item, "length") == 0
       place%has_torque = item%flag("film_torque")
-      place%temperature = oil%temperature
       if (find_place(item, "entrain") > 0) place%is_relative = item%word("entrain") == "book"
-      if (find_place(item, "heat") > 0) place%is_heated = item%word("heat") == "balance" .and. acts
+      if (find_place(item, "heat") > 0) then
+         place%is_heated = item%word("heat") == "balance" .and. (level == "lubricated" .or. level == "hybrid")
+      end if
    end function place_of_film
 
    !> Part of a film that acts: of the length that the journal is in, in the transition to dry contact that of its deeper end.
@@ -78,20 +84,20 @@ contains
 
       share = motion%engaged
       if (place%depth > 0.0_wp) then
-         share = share*min(max((place%clearance + place%depth - max_eccentricity(motion))/place%depth, 0.0_wp), 1.0_wp)
+         share = share*min(max((place%gone - max_eccentricity(motion))/place%depth, 0.0_wp), 1.0_wp)
       end if
    end function share_of
 
    !> What follows from the power and the side flow of a film.
-   pure subroutine finish_state(bearing, heat, speeds, state)
-      type(film_bearing_t), intent(in) :: bearing   !! the bearing
+   pure subroutine finish_state(parameters, heat, speeds, state)
+      real(wp), intent(in) :: parameters(:)         !! (n_film_parameter) fitted to the bearing [any]
       real(wp), intent(in) :: heat                  !! capacity of the lubricant, of its volume [J/(m^3.K)]
       real(wp), intent(in) :: speeds                !! sum of both angular speeds [rad/s]
       type(film_state_t), intent(inout) :: state    !! what the film does
 
       real(wp) :: minimum
 
-      minimum = min_flow*bearing%length*bearing%radius*bearing%clearance*speeds
+      minimum = min_flow*parameters(parameter_length)*parameters(parameter_radius)*parameters(parameter_clearance)*speeds
       state%has_flow = state%side_flow > minimum
       if (state%has_flow) then
          state%rise = state%power/(heat*state%side_flow)

@@ -44,7 +44,7 @@ contains
                     *(abs(motion%r(1, j) - motion%r(1, i)) + abs(motion%r(2, j) - motion%r(2, i)) &
                       + abs(motion%r(3, j) - motion%r(3, i)) + span(1))
             rate_noise(k) = operations*eps*speed
-            if (set%traits%is_round) rate_noise(k) = rate_noise(k) + speed*noise(k)/set%items%clearance(item)
+            if (set%traits%is_round) rate_noise(k) = rate_noise(k) + speed*noise(k)/set%items%pairs(item)%clearance
          end associate
       end do
    end subroutine find_gap_noise

@@ -135,7 +135,7 @@ contains
 
       associate (item => self%item_of(contact))
          span = [sum(abs(self%items%s_i(:, item))), sum(abs(self%items%s_j(:, item)))] &
-                + sum(abs(self%planes%point(:, contact))) + self%items%clearance(item)
+                + sum(abs(self%planes%point(:, contact))) + self%items%pairs(item)%clearance
       end associate
    end function plane_span_of
 

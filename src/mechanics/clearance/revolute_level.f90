@@ -1,11 +1,14 @@
 !> What the levels of a revolute joint with clearance need: columns and channels of films, and what a row must have.
 module revolute_level
+   use bodies, only: material_t
    use item, only: find_place, item_t, place_of
    use kind_info, only: add_channel, add_flag, add_number, add_reference, add_word, dim_length, dim_none, kind_info_t
    use kinds, only: wp
+   use surfaces, only: put_inside, surfaces_t, take_materials
    implicit none (type, external)
    private
-   public :: add_film_channels, add_film_columns, add_spatial_film_channels, film_channels, find_level_mistake, pressure_channels
+   public :: add_film_channels, add_film_columns, add_spatial_film_channels, describe_hole, film_channels, find_level_mistake
+   public :: pressure_channels
    public :: of_drag_bearing, of_drag_journal, of_eccentricity_ratio, of_film_force, of_film_moment, of_film_power, of_film_pressure
    public :: of_film_thickness, of_film_torque, of_side_flow, of_temperature_rise
 
@@ -112,6 +115,17 @@ contains
       call add_channel(info, "temperature_rise", "K", "none", 1, "of the lubricant, if the side flow carries all heat; " &
                        //"NaN where that flow is below L R c (|w_i| + |w_j|)/1000", of_temperature_rise)
    end subroutine add_spatial_film_channels
+
+   !> A pin in a hole or a ball in a socket. Where a film alone is between the surfaces, its end is that of the gap.
+   pure subroutine describe_hole(item, materials, pair)
+      type(item_t), intent(in) :: item              !! the row
+      type(material_t), intent(in) :: materials(:)  !! (materials) all materials
+      type(surfaces_t), intent(out) :: pair         !! its surfaces
+
+      call put_inside(pair, item%number("bearing_radius"), item%number("clearance"), &
+                      merge(item%number("eps_max"), 1.0_wp, item%word("level") == "lubricated"))
+      call take_materials(pair, materials, item%reference("material"), item%reference("journal_material"))
+   end subroutine describe_hole
 
    !> What is wrong with a row as to its level: contact needs a material and a law, a film a lubricant and a length.
    subroutine find_level_mistake(item, column, message, help)

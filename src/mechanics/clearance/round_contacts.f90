@@ -22,26 +22,24 @@ module round_contacts
    use point_contact, only: point_contact_t
    use planar_points, only: planar_points_t
    use readings, only: readings_t
+   use surfaces, only: surfaces_t
    implicit none (type, external)
    private
    public :: journal_t, round_contacts_t
 
-   !> The surfaces of one joint, and where they are: beside each other, as an evaluation reads them.
+   !> Where the surfaces of one joint are, as an evaluation reads it.
    type :: journal_t
       integer :: body(2) = 0                !! (2) bodies of bearing and journal
       real(wp) :: s_i(2) = 0.0_wp           !! (2) centre of the bearing, frame of its body [m]
       real(wp) :: s_j(2) = 0.0_wp           !! (2) centre of the journal, frame of its body [m]
-      real(wp) :: radius_i = 0.0_wp         !! radius of the bearing; negative: a disc that the journal touches from outside [m]
-      real(wp) :: radius_j = 0.0_wp         !! radius of the journal [m]
-      real(wp) :: clearance = 0.0_wp        !! radius_i less radius_j [m]
       real(wp) :: side = 1.0_wp             !! 1: the journal is in a hole; -1: beside a disc, distance and normal reversed [1]
       real(wp) :: share = 0.5_wp            !! part of the penetration from a surface to where the forces act [1]
       logical :: is_book = .false.          !! formulas as the book prints them
    end type journal_t
 
-   !> Journals in bearings or beside discs. `prepare` of a geometry sets their surfaces.
+   !> Journals in bearings or beside discs. `prepare` of a geometry says where they are.
    type, abstract, extends(planar_points_t) :: round_contacts_t
-      type(journal_t), allocatable :: journal(:)       !! (n) the surfaces
+      type(journal_t), allocatable :: journal(:)       !! (n) where the surfaces are
    contains
       procedure, non_overridable :: make_journals
       procedure :: evaluate => round_evaluate
@@ -79,7 +77,7 @@ module round_contacts
 
 contains
 
-   !> Storage for the contacts and their surfaces, these where the points of the items are.
+   !> Storage for the contacts, their surfaces where the points of the items are.
    subroutine make_journals(self)
       class(round_contacts_t), intent(inout) :: self   !! the set, its items placed
 
@@ -104,9 +102,9 @@ contains
       if (self%n_touching > 0 .and. self%laws%normal%hertz_damping > 0.0_wp .and. .not. allocated(self%laws%friction)) then
          self%evaluated_at = motion%number
          call press_journals(self%n, self%laws%normal%hertz_damping, self%laws%parameters, self%contact, self%journal, &
-                             ubound(motion%angle, 1), motion%r, motion%rot, motion%v, motion%omega, self%work%contacts, &
-                             self%work%f_n, self%work%slope_delta, self%work%slope_rate, self%work%f_elastic, loads%force, &
-                             loads%moment, integrands)
+                             self%items%pairs, ubound(motion%angle, 1), motion%r, motion%rot, motion%v, motion%omega, &
+                             self%work%contacts, self%work%f_n, self%work%slope_delta, self%work%slope_rate, &
+                             self%work%f_elastic, loads%force, loads%moment, integrands)
          return
       end if
       include "point_way.inc"
@@ -118,13 +116,14 @@ contains
 
    !> One evaluation of contacts without friction whose law is Hertz's with hysteresis damping, contact by contact: what the law
    !> gets and gives goes through no array, which takes as long as a root.
-   pure subroutine press_journals(n, hysteresis, parameters, memory, journal, n_body, r, rot, v, omega, contacts, f_n, &
+   pure subroutine press_journals(n, hysteresis, parameters, memory, journal, pairs, n_body, r, rot, v, omega, contacts, f_n, &
                                   slope_delta, slope_rate, f_elastic, force, moment, integrands)
       integer, intent(in) :: n                               !! number of contacts
       real(wp), intent(in) :: hysteresis                     !! h of the law [1]
       real(wp), intent(in) :: parameters(n_law_parameter, n) !! (n_law_parameter, n) of the law, fitted to them [any]
       type(contact_memory_t), intent(in) :: memory(n)        !! (n) states
-      type(journal_t), intent(in) :: journal(n)              !! (n) the surfaces
+      type(journal_t), intent(in) :: journal(n)              !! (n) where the surfaces are
+      type(surfaces_t), intent(in) :: pairs(n)               !! (n) the surfaces
       integer, intent(in) :: n_body                          !! number of bodies
       real(wp), intent(in) :: r(3, 0:n_body)                 !! (3, 0:bodies) centres of mass [m]
       real(wp), intent(in) :: rot(3, 3, 0:n_body)            !! (3, 3, 0:bodies) body frames to world frame [1]
@@ -153,7 +152,7 @@ contains
             integrands(:, k) = 0.0_wp
             cycle
          end if
-         call measure_journal(journal(k)%body, journal(k)%s_i, journal(k)%s_j, journal(k), n_body, r, rot, v, omega, &
+         call measure_journal(journal(k)%body, journal(k)%s_i, journal(k)%s_j, journal(k), pairs(k), n_body, r, rot, v, omega, &
                               contacts(k), distance)
          call press_hertz(hysteresis, contacts(k)%delta, contacts(k)%rate, memory(k)%impact_speed, parameters(:, k), f_n(k), &
                           slope_delta(k), slope_rate(k), f_elastic(k), is_deep)
@@ -182,17 +181,19 @@ contains
       type(motion_t), intent(in) :: motion            !! positions and velocities
 
       call measure_journals(self%n, self%laws%normal%acts_apart, self%contact, self%journal, &
-                            ubound(motion%angle, 1), motion%r, motion%rot, motion%v, motion%omega, allocated(self%laws%friction), &
-                            self%work%contacts, self%work%delta, self%work%rate, self%work%impact_speed)
+                            self%items%pairs, ubound(motion%angle, 1), motion%r, motion%rot, motion%v, motion%omega, &
+                            allocated(self%laws%friction), self%work%contacts, self%work%delta, self%work%rate, &
+                            self%work%impact_speed)
    end subroutine measure_touching
 
    !> The same on plain arrays.
-   pure subroutine measure_journals(n, all_act, memory, journal, n_body, r, rot, v, omega, with_sliding, contacts, &
+   pure subroutine measure_journals(n, all_act, memory, journal, pairs, n_body, r, rot, v, omega, with_sliding, contacts, &
                                     delta, rate, impact_speed)
       integer, intent(in) :: n                            !! number of contacts
       logical, intent(in) :: all_act                      !! those that are free too
       type(contact_memory_t), intent(in) :: memory(n)     !! (n) states
-      type(journal_t), intent(in) :: journal(n)           !! (n) the surfaces
+      type(journal_t), intent(in) :: journal(n)           !! (n) where the surfaces are
+      type(surfaces_t), intent(in) :: pairs(n)            !! (n) the surfaces
       integer, intent(in) :: n_body                       !! number of bodies
       real(wp), intent(in) :: r(3, 0:n_body)              !! (3, 0:bodies) centres of mass [m]
       real(wp), intent(in) :: rot(3, 3, 0:n_body)         !! (3, 3, 0:bodies) body frames to world frame [1]
@@ -209,9 +210,9 @@ contains
 
       do k = 1, n
          if (memory(k)%is_touching .or. all_act) then
-            call measure_journal(journal(k)%body, journal(k)%s_i, journal(k)%s_j, journal(k), n_body, r, rot, v, omega, &
-                                 contacts(k), distance)
-            if (with_sliding) call measure_sliding(journal(k), distance, journal(k)%body, n_body, v, omega, contacts(k))
+            call measure_journal(journal(k)%body, journal(k)%s_i, journal(k)%s_j, journal(k), pairs(k), n_body, r, rot, v, &
+                                 omega, contacts(k), distance)
+            if (with_sliding) call measure_sliding(journal(k), pairs(k), distance, journal(k)%body, n_body, v, omega, contacts(k))
          end if
          call take_contact(memory(k), contacts(k), all_act, delta(k), rate(k), impact_speed(k))
       end do
@@ -228,20 +229,21 @@ contains
       real(wp) :: distance
 
       call measure_journal(self%journal(k)%body, self%journal(k)%s_i, self%journal(k)%s_j, self%journal(k), &
-                           ubound(motion%angle, 1), motion%r, &
-                           motion%rot, motion%v, motion%omega, contact, distance)
+                           self%items%pairs(k), ubound(motion%angle, 1), motion%r, motion%rot, motion%v, motion%omega, contact, &
+                           distance)
       if (with_sliding) then
-         call measure_sliding(self%journal(k), distance, self%items%body(:, k), ubound(motion%angle, 1), motion%v, motion%omega, &
-                              contact)
+         call measure_sliding(self%journal(k), self%items%pairs(k), distance, self%items%body(:, k), ubound(motion%angle, 1), &
+                              motion%v, motion%omega, contact)
       end if
    end subroutine measure_one
 
    !> All but the sliding velocity.
-   pure subroutine measure_journal(body, s_bearing, s_journal, journal, n_body, r, rot, v, omega, contact, distance)
+   pure subroutine measure_journal(body, s_bearing, s_journal, journal, pair, n_body, r, rot, v, omega, contact, distance)
       integer, intent(in) :: body(2)                     !! (2) bodies of bearing and journal
       real(wp), intent(in) :: s_bearing(2)               !! (2) centre of the bearing, frame of its body [m]
       real(wp), intent(in) :: s_journal(2)               !! (2) centre of the journal, frame of its body [m]
-      type(journal_t), intent(in) :: journal             !! the surfaces
+      type(journal_t), intent(in) :: journal             !! where the surfaces are
+      type(surfaces_t), intent(in) :: pair               !! the surfaces
       integer, intent(in) :: n_body                      !! number of bodies
       real(wp), intent(in) :: r(3, 0:n_body)             !! (3, 0:bodies) centres of mass [m]
       real(wp), intent(in) :: rot(3, 3, 0:n_body)        !! (3, 3, 0:bodies) body frames to world frame [1]
@@ -265,17 +267,18 @@ contains
       end if
       contact%normal(1) = normal(1)
       contact%normal(2) = normal(2)
-      contact%delta = distance - journal%clearance
+      contact%delta = distance - pair%touch
       contact%rate = e_dot(1)*normal(1) + e_dot(2)*normal(2)
-      contact%arm_i(1) = s_i(1) + (journal%radius_i + journal%share*contact%delta)*normal(1)
-      contact%arm_i(2) = s_i(2) + (journal%radius_i + journal%share*contact%delta)*normal(2)
-      contact%arm_j(1) = s_j(1) + (journal%radius_j - journal%share*contact%delta)*normal(1)
-      contact%arm_j(2) = s_j(2) + (journal%radius_j - journal%share*contact%delta)*normal(2)
+      contact%arm_i(1) = s_i(1) + (journal%side*pair%radius_i + journal%share*contact%delta)*normal(1)
+      contact%arm_i(2) = s_i(2) + (journal%side*pair%radius_i + journal%share*contact%delta)*normal(2)
+      contact%arm_j(1) = s_j(1) + (pair%radius_j - journal%share*contact%delta)*normal(1)
+      contact%arm_j(2) = s_j(2) + (pair%radius_j - journal%share*contact%delta)*normal(2)
    end subroutine measure_journal
 
    !> Sliding velocities, once normal and arms are known.
-   pure subroutine measure_sliding(journal, distance, body, n_body, v, omega, contact)
-      type(journal_t), intent(in) :: journal             !! the surfaces
+   pure subroutine measure_sliding(journal, pair, distance, body, n_body, v, omega, contact)
+      type(journal_t), intent(in) :: journal             !! where the surfaces are
+      type(surfaces_t), intent(in) :: pair               !! the surfaces
       real(wp), intent(in) :: distance                   !! of the centres, negative beside a disc [m]
       integer, intent(in) :: body(2)                     !! (2) bodies of bearing and journal
       integer, intent(in) :: n_body                      !! number of bodies
@@ -288,7 +291,7 @@ contains
          contact%v_t = contact%v_t_work
          if (.not. journal%is_book) return
          ! of the geometric contact points: delta times the rate of the normal's direction
-         contact%v_t = contact%v_t_work - journal%radius_j*omega(3, j) + journal%radius_i*omega(3, i)
+         contact%v_t = contact%v_t_work - pair%radius_j*omega(3, j) + pair%radius_i*omega(3, i)
          contact%v_t = contact%v_t*contact%delta/max(distance, tiny(1.0_wp))
       end associate
    end subroutine measure_sliding
@@ -302,8 +305,9 @@ contains
 
       associate (journal => self%journal(k))
          acceleration = acceleration_along(journal%body, journal%s_i, journal%s_j, journal%side, &
-                                           journal%side*(contact%delta + journal%clearance), ubound(motion%angle, 1), motion%r, &
-                                           motion%rot, motion%v, motion%omega, motion%a, motion%alpha, contact%normal, contact%rate)
+                                           journal%side*(contact%delta + self%items%pairs(k)%touch), &
+                                           ubound(motion%angle, 1), motion%r, motion%rot, motion%v, motion%omega, motion%a, &
+                                           motion%alpha, contact%normal, contact%rate)
       end associate
    end function round_penetration_acceleration
 

@@ -19,9 +19,9 @@ contains
           .and. motion%number > 0 .and. self%stick_slip%memory == memory_none) then
          associate (acts_apart => self%laws%normal%acts_apart, items => self%items, work => self%work)
             call report_evaluated(readings%n, readings%of, self%n, self%before%items, self%before%contacts, &
-                                  self%n_touching > 0 .or. acts_apart, acts_apart, self%contact, self%journal, items%body, &
-                                  items%s_i, items%s_j, work%contacts, work%f_n, work%f_t, ubound(motion%angle, 1), motion%r, &
-                                  motion%rot, size(values), values)
+                                  self%n_touching > 0 .or. acts_apart, acts_apart, self%contact, self%journal, items%pairs, &
+                                  items%body, items%s_i, items%s_j, work%contacts, work%f_n, work%f_t, &
+                                  ubound(motion%angle, 1), motion%r, motion%rot, size(values), values)
          end associate
          return
       end if
@@ -31,8 +31,8 @@ contains
 
    !> Forces, states and eccentricities as the evaluation of this motion found them, on plain arrays. Of a contact that is free it
    !> measures nothing: its penetration follows from the eccentricity.
-   pure subroutine report_evaluated(n_reading, reading, n, items_before, contacts_before, acts, acts_apart, memory, journal, body, &
-                                    s_i, s_j, contacts, f_n, f_t, n_body, r, rot, n_value, values)
+   pure subroutine report_evaluated(n_reading, reading, n, items_before, contacts_before, acts, acts_apart, memory, journal, &
+                                    pairs, body, s_i, s_j, contacts, f_n, f_t, n_body, r, rot, n_value, values)
       integer, intent(in) :: n_reading                   !! channels that are read
       type(reading_t), intent(in) :: reading(n_reading)  !! (n_reading) the channels
       integer, intent(in) :: n                           !! number of joints, and of contacts
@@ -41,7 +41,8 @@ contains
       logical, intent(in) :: acts                        !! whether forces were found at all
       logical, intent(in) :: acts_apart                  !! whether those that are free act too
       type(contact_memory_t), intent(in) :: memory(n)    !! (n) states
-      type(journal_t), intent(in) :: journal(n)          !! (n) the surfaces
+      type(journal_t), intent(in) :: journal(n)          !! (n) where the surfaces are
+      type(surfaces_t), intent(in) :: pairs(n)           !! (n) the surfaces
       integer, intent(in) :: body(2, n)                  !! (2, n) bodies of bearing and journal
       real(wp), intent(in) :: s_i(3, n)                  !! (3, n) centre of the bearing, frame of its body [m]
       real(wp), intent(in) :: s_j(3, n)                  !! (3, n) centre of the journal, frame of its body [m]
@@ -84,19 +85,21 @@ contains
             case (of_friction_force)
                values(at) = friction
             case default
-               values(at) = course_of(reading(m)%code, memory(k)%is_touching, acts_apart, contacts(k), journal(k), e)
+               values(at) = course_of(reading(m)%code, memory(k)%is_touching, acts_apart, contacts(k), journal(k)%side, &
+                                     pairs(k)%touch, e)
             end select
          end do
       end do
    end subroutine report_evaluated
 
    !> Penetration, its rate or the state of a contact.
-   pure real(wp) function course_of(code, is_touching, acts_apart, contact, journal, e) result(value)
+   pure real(wp) function course_of(code, is_touching, acts_apart, contact, side, touch, e) result(value)
       integer, intent(in) :: code                      !! the channel
       logical, intent(in) :: is_touching               !! its state
       logical, intent(in) :: acts_apart                !! whether it was measured where it is free too
       type(point_contact_t), intent(in) :: contact     !! its kinematics, if it was measured
-      type(journal_t), intent(in) :: journal           !! its surfaces
+      real(wp), intent(in) :: side                     !! 1: in a hole; -1: beside a disc [1]
+      real(wp), intent(in) :: touch                    !! distance of the centres where it starts [m]
       real(wp), intent(in) :: e(2)                     !! (2) eccentricity [m]
 
       select case (code)
@@ -104,7 +107,7 @@ contains
          if (is_touching .or. acts_apart) then
             value = max(contact%delta, 0.0_wp)
          else
-            value = max(journal%side*sqrt(e(1)**2 + e(2)**2) - journal%clearance, 0.0_wp)
+            value = max(side*sqrt(e(1)**2 + e(2)**2) - touch, 0.0_wp)
          end if
       case (of_penetration_rate)
          value = 0.0_wp
@@ -167,8 +170,8 @@ contains
       case (of_film_force); value(1:2) = state%force
       case (of_film_torque); value(1) = state%torque
       case (of_film_pressure); value(1) = self%laws%films%max_pressure(k, film)
-      case (of_eccentricity_ratio); value(1) = norm2(film%e)/self%items%clearance(k)
-      case (of_film_thickness); value(1) = max(self%items%clearance(k) - norm2(film%e), 0.0_wp)
+      case (of_eccentricity_ratio); value(1) = norm2(film%e)/self%items%pairs(k)%clearance
+      case (of_film_thickness); value(1) = max(self%items%pairs(k)%clearance - norm2(film%e), 0.0_wp)
       case (of_drag_journal); value(1) = state%drag_journal
       case (of_drag_bearing); value(1) = state%drag_bearing
       case (of_film_power); value(1) = state%power

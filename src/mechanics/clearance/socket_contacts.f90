@@ -30,6 +30,7 @@ module socket_contacts
    use point_contacts, only: of_axial_displacement, of_eccentricity, of_moment, of_tilt
    use space_tangents, only: set_sliding
    use spatial_contacts, only: spatial_contacts_t
+   use surfaces, only: surfaces_t
    implicit none (type, external)
    private
    public :: direction_of, measure_one, station_of  ! for its submodule
@@ -37,16 +38,11 @@ module socket_contacts
 
    integer, parameter :: of_engagement = 43          !! channel: length of the pin in the bushing
 
-   !> The surfaces of one joint.
+   !> Where the surfaces of one joint are.
    type :: socket_t
-      real(wp) :: radius_i = 0.0_wp               !! radius of socket or bushing; negative: a ball that j touches from outside [m]
-      real(wp) :: radius_j = 0.0_wp               !! radius of ball or pin [m]
-      real(wp) :: clearance = 0.0_wp              !! radius_i less radius_j [m]
       real(wp) :: side = 1.0_wp                   !! 1: j is in a hole; -1: beside a ball, distance and normal reversed [1]
       logical :: has_axis = .false.               !! a bushing, not a socket
       logical :: has_ends = .false.               !! whose ends count
-      real(wp) :: half_i = 0.0_wp                 !! half the length of the bushing [m]
-      real(wp) :: half_j = 0.0_wp                 !! half the distance of the pin's bases [m]
       real(wp) :: axis_i(3) = 0.0_wp              !! (3) unit axis of the bushing, frame of body i [1]
       real(wp) :: axis_j(3) = 0.0_wp              !! (3) unit axis of the pin, frame of body j [1]
       real(wp) :: across(3) = 0.0_wp              !! (3) unit vector across the first, where angles are zero, frame of body i [1]
@@ -63,9 +59,9 @@ module socket_contacts
       logical :: is_there = .true.     !! false: the pin has left the bushing
    end type station_t
 
-   !> Balls in sockets or pins in bushings. `prepare` of a geometry sets their surfaces.
+   !> Balls in sockets or pins in bushings. `prepare` of a geometry says where they are.
    type, abstract, extends(spatial_contacts_t) :: socket_contacts_t
-      type(socket_t), allocatable :: socket(:)         !! (n) the surfaces
+      type(socket_t), allocatable :: socket(:)         !! (n) where the surfaces are
    contains
       procedure :: measure_acting => socket_measure_acting
       procedure :: measure => socket_measure
@@ -120,15 +116,16 @@ contains
       integer :: item
 
       item = (k - 1)/self%n_contact_item + 1
-      call measure_socket(self%socket(item), k - (item - 1)*self%n_contact_item, self%items%s_i(:, item), self%items%s_j(:, item), &
-                          self%items%body(1, item), self%items%body(2, item), ubound(motion%r, 2), motion%r, motion%rot, motion%v, &
-                          motion%omega, contact)
+      call measure_socket(self%socket(item), self%items%pairs(item), k - (item - 1)*self%n_contact_item, &
+                          self%items%s_i(:, item), self%items%s_j(:, item), self%items%body(1, item), self%items%body(2, item), &
+                          ubound(motion%r, 2), motion%r, motion%rot, motion%v, motion%omega, contact)
       if (with_sliding) call set_sliding(motion, self%items%body(1, item), self%items%body(2, item), contact)
    end subroutine measure_one
 
    !> All but the sliding velocity, on plain arrays.
-   pure subroutine measure_socket(socket, base, s_i, s_j, i, j, n_body, r, rot, v, omega, contact)
-      type(socket_t), intent(in) :: socket                !! the surfaces
+   pure subroutine measure_socket(socket, pair, base, s_i, s_j, i, j, n_body, r, rot, v, omega, contact)
+      type(socket_t), intent(in) :: socket                !! where the surfaces are
+      type(surfaces_t), intent(in) :: pair                !! the surfaces
       integer, intent(in) :: base                         !! of a bushing: 1 or 2, of the two ends of the pin
       real(wp), intent(in) :: s_i(3)                      !! (3) centre of socket or bushing, frame of body i [m]
       real(wp), intent(in) :: s_j(3)                      !! (3) centre of ball or pin, frame of body j [m]
@@ -144,24 +141,25 @@ contains
       type(station_t) :: at
       real(wp) :: distance, normal(3), reach
 
-      call find_station(socket, base, s_i, s_j, i, j, n_body, r, rot, v, omega, at)
+      call find_station(socket, pair, base, s_i, s_j, i, j, n_body, r, rot, v, omega, at)
       distance = sqrt(at%e(1)**2 + at%e(2)**2 + at%e(3)**2)
       normal = socket%side*direction_of(at, distance)
-      contact%delta = socket%side*distance - socket%clearance
-      if (.not. at%is_there) contact%delta = -socket%clearance
+      contact%delta = socket%side*distance - pair%touch
+      if (.not. at%is_there) contact%delta = -pair%touch
       if (socket%has_axis) then
          if (any(abs(at%pin) > 0.0_wp)) normal = normal - dot_product(normal, at%pin)/dot_product(at%u, at%pin)*at%u
       end if
       contact%normal = normal
       contact%rate = normal(1)*at%w(1) + normal(2)*at%w(2) + normal(3)*at%w(3)
-      reach = socket%radius_j - 0.5_wp*contact%delta
+      reach = pair%radius_j - 0.5_wp*contact%delta
       contact%arm_j = at%arm_j + reach*normal
       contact%arm_i = r(:, j) + contact%arm_j - r(:, i)
    end subroutine measure_socket
 
    !> Where a ball or base is, at a motion.
-   pure function station_of(socket, base, s_i, s_j, i, j, motion) result(at)
-      type(socket_t), intent(in) :: socket   !! the surfaces
+   pure function station_of(socket, pair, base, s_i, s_j, i, j, motion) result(at)
+      type(socket_t), intent(in) :: socket   !! where the surfaces are
+      type(surfaces_t), intent(in) :: pair   !! the surfaces
       integer, intent(in) :: base            !! of a bushing: 1 or 2, of the two ends of the pin
       real(wp), intent(in) :: s_i(3)         !! (3) centre of socket or bushing, frame of body i [m]
       real(wp), intent(in) :: s_j(3)         !! (3) centre of ball or pin, frame of body j [m]
@@ -170,12 +168,13 @@ contains
       type(motion_t), intent(in) :: motion   !! positions and velocities
       type(station_t) :: at                  !! the station
 
-      call find_station(socket, base, s_i, s_j, i, j, ubound(motion%r, 2), motion%r, motion%rot, motion%v, motion%omega, at)
+      call find_station(socket, pair, base, s_i, s_j, i, j, ubound(motion%r, 2), motion%r, motion%rot, motion%v, motion%omega, at)
    end function station_of
 
    !> The same on plain arrays.
-   pure subroutine find_station(socket, base, s_i, s_j, i, j, n_body, r, rot, v, omega, at)
-      type(socket_t), intent(in) :: socket            !! the surfaces
+   pure subroutine find_station(socket, pair, base, s_i, s_j, i, j, n_body, r, rot, v, omega, at)
+      type(socket_t), intent(in) :: socket            !! where the surfaces are
+      type(surfaces_t), intent(in) :: pair            !! the surfaces
       integer, intent(in) :: base                     !! of a bushing: 1 or 2, of the two ends of the pin
       real(wp), intent(in) :: s_i(3)                  !! (3) centre of socket or bushing, frame of body i [m]
       real(wp), intent(in) :: s_j(3)                  !! (3) centre of ball or pin, frame of body j [m]
@@ -188,22 +187,24 @@ contains
       real(wp), intent(in) :: omega(3, 0:n_body)      !! (3, 0:bodies) angular velocities, world frame [rad/s]
       type(station_t), intent(out) :: at              !! the station
 
-      real(wp) :: arm_i(3), cosine, place, side, zeta
+      real(wp) :: arm_i(3), cosine, half_i, half_j, place, side, zeta
 
       arm_i = turned(rot(:, :, i), s_i)
       at%arm_j = turned(rot(:, :, j), s_j)
       if (socket%has_axis) then
          side = real(2*base - 3, wp)
-         place = side*socket%half_j
+         half_i = 0.5_wp*pair%length
+         half_j = 0.5_wp*pair%length_j
+         place = side*half_j
          at%u = turned(rot(:, :, i), socket%axis_i)
          at%pin = turned(rot(:, :, j), socket%axis_j)
          if (socket%has_ends) then
             ! stations of the pin's axis in the bushing: zeta(place) = zeta + place u . u_j, between the ends
             cosine = dot_product(at%u, at%pin)
             zeta = dot_product(r(:, j) + at%arm_j - r(:, i) - arm_i, at%u)
-            at%is_there = abs(zeta) < socket%half_i + socket%half_j*abs(cosine)
-            if (abs(zeta + place*cosine) > socket%half_i .and. at%is_there) then
-               place = (sign(socket%half_i, zeta + place*cosine) - zeta)/cosine
+            at%is_there = abs(zeta) < half_i + half_j*abs(cosine)
+            if (abs(zeta + place*cosine) > half_i .and. at%is_there) then
+               place = (sign(half_i, zeta + place*cosine) - zeta)/cosine
                at%arm_j = at%arm_j + place*at%pin
             else
                at%arm_j = at%arm_j + place*at%pin
@@ -257,8 +258,8 @@ contains
       item = self%item_of(k)
       i = self%items%body(1, item)
       j = self%items%body(2, item)
-      at = station_of(self%socket(item), k - (item - 1)*self%n_contact_item, self%items%s_i(:, item), self%items%s_j(:, item), &
-                      i, j, motion)
+      at = station_of(self%socket(item), self%items%pairs(item), k - (item - 1)*self%n_contact_item, self%items%s_i(:, item), &
+                      self%items%s_j(:, item), i, j, motion)
       associate (w_i => motion%omega(:, i), w_j => motion%omega(:, j))
          to_i = motion%r(:, j) + at%arm_j - motion%r(:, i)
          arm_i = to_i - at%rho
@@ -291,7 +292,7 @@ contains
       real(wp), intent(in) :: f_t(self%n_contact_item)    !! (n_contact_item) friction forces on j along t [N]
       real(wp), intent(inout), contiguous :: value(:)     !! (components) the value [any]
 
-      real(wp) :: cosine, d(3), pin(3), u(3), zeta
+      real(wp) :: cosine, d(3), half_i, pin(3), u(3), zeta
       integer :: c
 
       associate (socket => self%socket(item), i => self%items%body(1, item), j => self%items%body(2, item))
@@ -315,8 +316,9 @@ contains
          case (of_axial_displacement)
             value = zeta
          case (of_engagement)
-            cosine = socket%half_j*abs(cosine)
-            value = max(min(cosine, socket%half_i - zeta) - max(-cosine, -socket%half_i - zeta), 0.0_wp)
+            cosine = 0.5_wp*self%items%pairs(item)%length_j*abs(cosine)
+            half_i = 0.5_wp*self%items%pairs(item)%length
+            value = max(min(cosine, half_i - zeta) - max(-cosine, -half_i - zeta), 0.0_wp)
          end select
       end associate
    end subroutine socket_report_item

@@ -24,13 +24,14 @@
 !> is in the middle of that; where the pin leaves it at an end, the film acts by the part of its length that the pin is in. A pin
 !> that leans by more than 60 degrees has none.
 module socket_films
-   use bearing_films, only: bearing_films_t
+   use bearing_films, only: bearing_films_t, films_fit
    use film_law, only: film_motion_t, parameter_clearance, parameter_eps_max, parameter_radius, &
       parameter_viscosity
    use film_places, only: film_state_t, finish_state, share_of
    use film_spherical, only: sphere_shear
    use kinds, only: wp
    use motion, only: cross, loads_t, motion_t
+   use surfaces, only: surfaces_t
    implicit none (type, external)
    private
    public :: film_seat_t, socket_films_t
@@ -74,12 +75,25 @@ module socket_films
    type, extends(bearing_films_t) :: socket_films_t
       type(film_seat_t), allocatable :: seat(:)  !! (n) where they are
    contains
+      procedure :: fit => socket_fit
       procedure :: bear => socket_bear
       procedure :: motion_of => socket_motion_of
       procedure :: state_of => socket_state_of
    end type socket_films_t
 
 contains
+
+   !> Fit the film of an item to its surfaces.
+   subroutine socket_fit(self, k, pair)
+      class(socket_films_t), intent(inout) :: self   !! the films
+      integer, intent(in) :: k                       !! item
+      type(surfaces_t), intent(in) :: pair           !! its surfaces
+
+      call films_fit(self, k, pair)
+      self%seat(k)%half_i = 0.5_wp*pair%length
+      self%seat(k)%half_j = 0.5_wp*pair%length_j
+      self%seat(k)%is_of_pin = pair%length_j < pair%length
+   end subroutine socket_fit
 
    !> Add what the films do to the loads, and find the power that they take.
    subroutine socket_bear(self, body, s_i, s_j, motion, loads)
@@ -340,7 +354,7 @@ contains
       state%moment = couple + cross(at%off, force)
       state%side_flow = state%share*self%law%side_flow(film, self%parameters(:, k))
       if (.not. self%seat(k)%has_axis) return
-      call finish_state(self%bearing(k), self%oil(k)%heat, sum(abs(matmul(at%frame(:, 3), motion%omega(:, body)))), state)
+      call finish_state(self%parameters(:, k), self%oil(k)%heat, sum(abs(matmul(at%frame(:, 3), motion%omega(:, body)))), state)
    end function socket_state_of
 
 end module socket_films

@@ -5,7 +5,6 @@
 module socket_joints
    use film_law, only: film_motion_t, max_eccentricity
    use film_places, only: film_state_t
-   use item, only: item_t
    use kinds, only: wp
    use motion, only: cross, motion_t
    use point_contacts, only: of_force, of_moment, of_state, point_report
@@ -19,27 +18,14 @@ module socket_joints
    private
    public :: socket_joints_t
 
-   !> Balls in sockets or pins in bushings. `prepare` of a geometry calls `take_level`, its `set_start` `seat_films`.
+   !> Balls in sockets or pins in bushings. `set_start` of a geometry calls `seat_films`.
    type, abstract, extends(socket_contacts_t) :: socket_joints_t
    contains
-      procedure, non_overridable :: take_level
       procedure, non_overridable :: seat_films
       procedure :: report => joints_report
    end type socket_joints_t
 
 contains
-
-   !> Where a film alone is between the surfaces its end is that of the gap.
-   subroutine take_level(self, items)
-      class(socket_joints_t), intent(inout) :: self  !! the set, its surfaces set
-      type(item_t), intent(in) :: items(:)           !! (n) rows of the table
-
-      integer :: k
-
-      do k = 1, self%n
-         if (items(k)%word("level") == "lubricated") self%socket(k)%clearance = items(k)%number("eps_max")*self%items%clearance(k)
-      end do
-   end subroutine take_level
 
    !> Report the films where they are; after the axes are those of the bodies.
    subroutine seat_films(self)
@@ -59,9 +45,6 @@ contains
                seat%s_j = self%items%s_j(:, k)
                seat%has_axis = socket%has_axis
                seat%has_ends = socket%has_ends
-               seat%half_i = socket%half_i
-               seat%half_j = socket%half_j
-               seat%is_of_pin = socket%half_j < socket%half_i
                seat%axis_j = socket%axis_j
                if (.not. socket%has_axis) cycle
                seat%frame(:, 1) = socket%across
@@ -125,8 +108,8 @@ contains
          value = state%torque
          if (size(value) == 3) value = state%shear
       case (of_film_pressure); value(1) = self%laws%films%max_pressure(k, film)
-      case (of_eccentricity_ratio); value(1) = norm2(film%e)/self%items%clearance(k)
-      case (of_film_thickness); value(1) = max(self%items%clearance(k) - max_eccentricity(film), 0.0_wp)
+      case (of_eccentricity_ratio); value(1) = norm2(film%e)/self%items%pairs(k)%clearance
+      case (of_film_thickness); value(1) = max(self%items%pairs(k)%clearance - max_eccentricity(film), 0.0_wp)
       case (of_drag_journal); value(1) = state%drag_journal
       case (of_drag_bearing); value(1) = state%drag_bearing
       case (of_film_power); value(1) = state%power

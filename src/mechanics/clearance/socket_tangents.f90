@@ -36,8 +36,8 @@ contains
       item = self%item_of(k)
       i = self%items%body(1, item)
       j = self%items%body(2, item)
-      at = station_of(self%socket(item), k - (item - 1)*self%n_contact_item, self%items%s_i(:, item), self%items%s_j(:, item), &
-                      i, j, motion)
+      at = station_of(self%socket(item), self%items%pairs(item), k - (item - 1)*self%n_contact_item, self%items%s_i(:, item), &
+                      self%items%s_j(:, item), i, j, motion)
       length = max(norm2(at%e), tiny(1.0_wp))
       n = self%socket(item)%side*direction_of(at, norm2(at%e))
       w = at%w
@@ -59,7 +59,7 @@ contains
          n_rate = n_rate - q_rate*at%u
       end if
       n_rate = n_rate + cross(motion%omega(:, i), n)
-      associate (reach => self%socket(item)%radius_j - 0.5_wp*contact%delta)
+      associate (reach => self%items%pairs(item)%radius_j - 0.5_wp*contact%delta)
          arm_rate = cross(motion%omega(:, j), at%arm_j) + glide*at%pin + reach*n_rate - 0.5_wp*contact%rate*n
       end associate
       length = norm2(n)

@@ -2,7 +2,8 @@
 !>
 !> sigma_k = (1 - nu_k^2) / E_k;   impact speed from which on waves in the bodies matter: `elastic_waves`
 !>
-!> A geometry describes its contacts with it once, at set-up; a law fits its parameters to it.
+!> The one place of radii, clearance, lengths and materials of an item: geometry, normal law and film read them here. After a change
+!> `fit` of the set fits laws and films to them anew.
 !> Source: Flores et al. (2008), eq. (3.4) and section 3.2 (the factor 1e-5 is that of Love).
 module surfaces
    use bodies, only: material_t
@@ -10,7 +11,8 @@ module surfaces
    use kinds, only: wp
    implicit none (type, external)
    private
-   public :: set_materials, shape_external, shape_face, shape_internal, shape_plane, surfaces_t, take_materials
+   public :: put_beside, put_inside, set_materials, shape_external, shape_face, shape_internal, shape_plane, surfaces_t
+   public :: take_materials
 
    integer, parameter :: shape_internal = 1  !! a pin in a hole, a ball in a socket
    integer, parameter :: shape_external = 2  !! two pins or balls side by side
@@ -22,8 +24,10 @@ module surfaces
       integer :: shape = shape_internal      !! one of the above
       real(wp) :: radius_i = 0.0_wp          !! radius of the surface of i, of the hole if there is one [m]
       real(wp) :: radius_j = 0.0_wp          !! radius of the surface of j, of the pin in the hole [m]
-      real(wp) :: clearance = 0.0_wp         !! radius_i less radius_j of an internal pair [m]
+      real(wp) :: clearance = 0.0_wp         !! radius_i less radius_j of an internal pair; of others a length like it [m]
+      real(wp) :: touch = 0.0_wp             !! distance of the centres where a contact starts, negative of an external pair [m]
       real(wp) :: length = 0.0_wp            !! length of cylinders along their axes, or of a face; 0: not known [m]
+      real(wp) :: length_j = huge(1.0_wp)    !! length of the pin; huge: as long as the hole [m]
       real(wp) :: width = 0.0_wp             !! width of a face, across the plane of motion; 0: not known [m]
       real(wp) :: sigma_i = 0.0_wp           !! (1 - nu^2)/E of the material of i [1/Pa]
       real(wp) :: sigma_j = 0.0_wp           !! (1 - nu^2)/E of the material of j [1/Pa]
@@ -33,6 +37,34 @@ module surfaces
    end type surfaces_t
 
 contains
+
+   !> A pin in a hole, or a ball in a socket.
+   pure subroutine put_inside(pair, radius, clearance, part)
+      type(surfaces_t), intent(inout) :: pair   !! the pair
+      real(wp), intent(in) :: radius            !! of the hole [m]
+      real(wp), intent(in) :: clearance         !! radius of the hole less that of the pin [m]
+      real(wp), intent(in), optional :: part    !! of the clearance where a contact starts; absent: all of it [1]
+
+      pair%shape = shape_internal
+      pair%radius_i = radius
+      pair%radius_j = radius - clearance
+      pair%clearance = clearance
+      pair%touch = clearance
+      if (present(part)) pair%touch = part*clearance
+   end subroutine put_inside
+
+   !> Two discs or balls side by side.
+   pure subroutine put_beside(pair, radius_i, radius_j)
+      type(surfaces_t), intent(inout) :: pair   !! the pair
+      real(wp), intent(in) :: radius_i          !! of that of i [m]
+      real(wp), intent(in) :: radius_j          !! of that of j [m]
+
+      pair%shape = shape_external
+      pair%radius_i = radius_i
+      pair%radius_j = radius_j
+      pair%clearance = radius_i + radius_j
+      pair%touch = -pair%clearance
+   end subroutine put_beside
 
    !> Compliances and speed limit from the materials; a density that is not given limits nothing.
    pure subroutine set_materials(surfaces, material_i, material_j)

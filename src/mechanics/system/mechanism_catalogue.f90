@@ -279,7 +279,7 @@ contains
             contact_names = names_of_channels(of_contact)
             do i = 1, set%n
                call catalogue%add_item(group_clearances, set%names(i)%s, channels=joint_names, &
-                                       radius=merge(set%items%clearance(i), not_a_number(), set%traits%is_round))
+                                       radius=merge(set%items%pairs(i)%clearance, not_a_number(), set%traits%is_round))
                do c = 1, set%n_contact_item
                   call catalogue%add_item(group_contacts, set%names(i)%s, label=set%label_of(c), channels=contact_names)
                end do
