@@ -8,11 +8,9 @@ contains
 
    !> List what the integrator saves: what every one keeps, then what the method adds.
    module procedure integrator_list_memory
-      type(kind_info_t) :: info
 
-      info = self%info()
       call add_segment(segments, "the state", base_version, self%base_memory_size())
-      call add_segment(segments, "method = "//info%name, self%memory_version(), self%memory_size() - self%base_memory_size())
+      call add_segment(segments, "method = "//self%name(), self%memory_version(), self%memory_size() - self%base_memory_size())
    end procedure integrator_list_memory
 
    !> Numbers that a checkpoint needs; a method that remembers more adds to it.

@@ -13,6 +13,7 @@
 module clearance_revolute
    use bodies, only: material_t
    use item, only: item_t, place_of
+   use joint_level, only: level_lubricated, level_of
    use kind_info, only: add_channel, add_number, add_reference, add_word, dim_length, in_plane, kind_info_t
    use kinds, only: wp
    use point_contacts, only: add_contact_channels, of_eccentricity, of_force
@@ -89,7 +90,7 @@ contains
             journal%radius_i = item%number("bearing_radius")
             journal%radius_j = journal%radius_i - self%items%clearance(k)
             journal%clearance = self%items%clearance(k)
-            if (item%word("level") == "lubricated") journal%clearance = item%number("eps_max")*journal%clearance
+            if (level_of(item) == level_lubricated) journal%clearance = item%number("eps_max")*journal%clearance
             journal%is_book = item%word("form") == "book"
             if (journal%is_book) journal%share = 0.0_wp
          end associate

@@ -2,6 +2,7 @@
 module film_places
    use film_law, only: film_bearing_t, film_motion_t, max_eccentricity
    use item, only: find_place, item_t
+   use joint_level, only: level_hybrid, level_of
    use kinds, only: not_a_number, wp
    use lubricant, only: oil_t
    implicit none (type, external)
@@ -46,7 +47,7 @@ contains
 
       bearing%radius = item%number("bearing_radius") - item%number("clearance")
       bearing%clearance = item%number("clearance")
-      if (item%word("level") == "hybrid") bearing%clearance = bearing%clearance + item%number("e_t1")
+      if (level_of(item) == level_hybrid) bearing%clearance = bearing%clearance + item%number("e_t1")
       bearing%is_sphere = find_place(item, "length") == 0
       if (.not. bearing%is_sphere) bearing%length = item%number("length")
       if (find_place(item, "journal_length") > 0) then
@@ -64,7 +65,7 @@ contains
       type(film_place_t) :: place        !! how it acts
 
       place%clearance = item%number("clearance")
-      if (item%word("level") == "hybrid") place%depth = item%number("e_t0")
+      if (level_of(item) == level_hybrid) place%depth = item%number("e_t0")
       place%has_torque = item%flag("film_torque")
       place%temperature = oil%temperature
       if (find_place(item, "entrain") > 0) place%is_relative = item%word("entrain") == "book"

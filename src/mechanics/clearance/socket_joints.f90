@@ -6,6 +6,7 @@ module socket_joints
    use film_law, only: film_motion_t, max_eccentricity
    use film_places, only: film_state_t
    use item, only: item_t
+   use joint_level, only: level_lubricated, level_of
    use kinds, only: wp
    use motion, only: cross, motion_t
    use point_contacts, only: of_force, of_moment, of_state, point_report
@@ -37,7 +38,7 @@ contains
       integer :: k
 
       do k = 1, self%n
-         if (items(k)%word("level") == "lubricated") self%socket(k)%clearance = items(k)%number("eps_max")*self%items%clearance(k)
+         if (level_of(items(k)) == level_lubricated) self%socket(k)%clearance = items(k)%number("eps_max")*self%items%clearance(k)
       end do
    end subroutine take_level
 
