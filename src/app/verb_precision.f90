@@ -29,7 +29,7 @@ module verb_precision
    use run_plan, only: tell_origin
    use scene, only: analysis_dynamic
    use scene_echo, only: echo_scene
-   use text, only: append_text, replace, split_blank, text_t
+   use text, only: replace, split_blank, text_t
    use text_file, only: fail_file, replace_file, write_file
    use text_table, only: file_heading
    use version, only: program_version

@@ -9,7 +9,6 @@ module run_limits
    use kind_info, only: dim_none, dim_t, same_dimension
    use run_audit, only: limits_t
    use scene, only: analysis_dynamic, analysis_kinematic, scene_t
-   use stop_condition, only: stop_t
    use text, only: append_text, real_text, text_t
    use units, only: parse_unit, unit_t
    implicit none (type, external)

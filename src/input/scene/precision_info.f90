@@ -145,7 +145,9 @@ contains
       type(text_t), allocatable :: names(:)
 
       names = reference_methods(with_stiff=.false.)
-      setting = setting_t(names(1)%s, way, "")
+      setting%method = names(1)%s  ! one by one: of the constructor gfortran 12 makes the length zero
+      setting%way = way
+      setting%solver = ""
    end function reference_setting
 
    !> What is wrong with the section.

@@ -2,7 +2,7 @@
 module scene_checks
    use clearance_registry, only: n_clearance_kinds, new_clearance_set
    use clearance_set, only: clearance_set_t
-   use columns, only: cell_index, cell_text, column_of, find_column
+   use columns, only: cell_index, column_of, find_column
    use deck_types, only: add_default, deck_t
    use diagnostics, only: diagnostics_t
    use film_law, only: film_bearing_t, n_film_parameter

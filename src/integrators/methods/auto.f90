@@ -31,7 +31,7 @@ module auto
    use verner, only: verner_bound, verner_stages_t, verner_t
    implicit none (type, external)
    private
-   public :: auto_t
+   public :: auto_t, order_8_up_to
 
    real(wp), parameter :: order_8_up_to = 1.0e-8_wp  !! tolerance at and below which explicit steps are of order 8 [1]
    integer, parameter :: n_trial_step(2) = [16, 10]  !! (implicit, explicit) steps of a trial

@@ -11,7 +11,7 @@ module exponent_runs
    use batch_means, only: mean_of_series
    use contact_stick_slip, only: sticks
    use errors, only: error_t
-   use exponent, only: digits_of, exponent_t, find_exponent, horizon_t
+   use exponent, only: digits_of, find_exponent, horizon_t
    use friction_law, only: memory_none
    use item, only: item_t
    use kinds, only: eps, not_a_number, wp

@@ -7,11 +7,10 @@ module precision_reference
    use, intrinsic :: ieee_arithmetic, only: ieee_is_finite
    use kept_run, only: kept_run_t, n_sort, sort_positions, sort_reactions, sort_velocities
    use kinds, only: not_a_number, wp
-   use perturbation, only: arm_of
    use precision_info, only: setting_t
    use precision_results, only: error_motion, error_onsets, error_peaks, error_positions, error_reactions, error_restitution, &
       error_velocities, precision_t, tol_run_done, tol_run_other, tol_run_t
-   use run_difference, only: compare_contacts, compare_sorts, distances, ends_elsewhere, scales_of
+   use run_difference, only: compare_contacts, compare_sorts, distances, ends_elsewhere
    use scene_size, only: extent_of_scene, size_of_bodies
    use jobs, only: job_t
    use text, only: real_text

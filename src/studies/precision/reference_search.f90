@@ -7,7 +7,6 @@
 !> one of each integrator: that which goes the same way as the tightest run of a setting of another integrator for the longest time,
 !> and of the two the tighter one if both can be.
 module reference_search
-   use kept_run, only: kept_run_t
    use kinds, only: min_tolerance, not_a_number, wp
    use precision_info, only: setting_t
    use precision_tol_sweeps, only: not_ready
