@@ -17,7 +17,6 @@ module deck_scene
    use recorder, only: event_t, recorder_t, summary_t
    use run_audit, only: limits_t
    use scene, only: scene_t
-   use scene_method, only: new_method
    use scratch_deck, only: remove_scratch, write_scratch
    use start_state, only: find_start
    use step_check, only: check_steps
@@ -95,11 +94,11 @@ contains
       call mistakes%to_error(deck%sources, error)
       if (allocated(error)) return
       call new_system(loaded%scene, levels_as_written, loaded%system)
-      call check_steps(loaded%scene, mistakes)
+      call check_steps(loaded%scene%settings%integration, mistakes)
       call new_time_plan(loaded%scene, loaded%system, loaded%plan, mistakes)
       call mistakes%to_error(deck%sources, error)
       if (allocated(error)) return
-      call new_method(loaded%scene, loaded%method)
+      call loaded%scene%settings%integration%new_method(loaded%method)
       call find_start(loaded%scene, levels_as_written, loaded%system, loaded%y, assembly, error)
    end subroutine load_file
 

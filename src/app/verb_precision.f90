@@ -2,7 +2,6 @@
 module verb_precision
    use accurate_run, only: budget_of
    use build_info, only: compile_flags, compiler
-   use catalogue, only: catalogue_t
    use console, only: say
    use csv_table, only: csv_text
    use errors, only: error_t, exit_integration, exit_usage, set_error
@@ -11,7 +10,6 @@ module verb_precision
    use json_text, only: json_object_t
    use kinds, only: wp
    use load, only: load_deck, loaded_t
-   use mechanism_catalogue, only: build_catalogue
    use options, only: options_t
    use output_directory, only: output_directory_t
    use output_plan, only: output_plan_t
@@ -25,13 +23,12 @@ module verb_precision
    use precision_text, only: precision_report, precision_summary
    use processor, only: processor_name
    use progress, only: progress_t
-   use run_audit, only: limits_t
    use run_limits, only: limits_of
    use run_place, only: directory_of
    use run_plan, only: tell_origin
    use scene, only: analysis_dynamic
    use scene_echo, only: echo_scene
-   use text, only: append_text, replace, split_blank, text_t
+   use text, only: replace, split_blank, text_t
    use text_file, only: replace_file, write_file
    use text_table, only: file_heading
    use version, only: program_version
@@ -52,7 +49,6 @@ contains
       type(precision_t) :: study
       type(progress_t) :: display
       type(text_t), allocatable :: pictures(:), warnings(:), words(:)
-      type(limits_t) :: limits
       character(:), allocatable :: path
 
       call load_deck(options, loaded, error)
@@ -63,11 +59,11 @@ contains
       call directory%open(path, error)
       if (allocated(error)) return
       warnings = directory%warnings
-      call find_limits(loaded, limits, warnings)
+      call limits_of(loaded%scene, loaded%catalogue, loaded%limits, warnings)
       call make_plan(options, loaded, directory%path, plan)
       call begin_study(options, loaded, study)
       call display%start(.not. options%is_quiet)
-      call study_precision(loaded%scene, loaded%plan, limits%stop, words, display, study, error)
+      call study_precision(loaded%job_t, words, display, study, error)
       call display%finish()
       if (allocated(error)) then
          call directory%close()
@@ -105,18 +101,6 @@ contains
          return
       end do
    end subroutine check_request
-
-   !> Conditions that end the motion.
-   subroutine find_limits(loaded, limits, warnings)
-      type(loaded_t), intent(in) :: loaded                       !! the deck
-      type(limits_t), intent(out) :: limits                      !! limits
-      type(text_t), allocatable, intent(inout) :: warnings(:)    !! (n) grown
-
-      type(catalogue_t) :: catalogue
-
-      call build_catalogue(loaded%system, catalogue)
-      call limits_of(loaded%scene, loaded%system, catalogue, limits, warnings)
-   end subroutine find_limits
 
    !> What the study is asked, and where it runs.
    subroutine begin_study(options, loaded, study)

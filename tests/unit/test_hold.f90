@@ -2,7 +2,8 @@
 module test_hold
    use check, only: check_close, check_equal, check_true, suite_t
    use errors, only: error_t
-   use integrator, only: advance_event, advance_failed_evaluation, integrator_t, steps_fixed
+   use integrator, only: advance_event, advance_failed_evaluation, integrator_t
+   use integration_method, only: abilities_t, steps_fixed
    use integrator_registry, only: n_integrator_kinds, new_integrator
    use kind_info, only: kind_info_t
    use kinds, only: pi, wp
@@ -105,6 +106,7 @@ contains
       class(integrator_t), allocatable, intent(out) :: method     !! the integrator, started
       character(:), allocatable, intent(out) :: name              !! its name
 
+      type(abilities_t) :: can
       type(kind_info_t) :: info
       integer :: status
 
@@ -117,7 +119,8 @@ contains
       info = method%info()
       name = info%name
       method%controls%tolerance = 1.0e-6_wp
-      if (method%steps() == steps_fixed) method%controls%fixed_step = 0.1_wp
+      can = method%abilities()
+      if (can%steps == steps_fixed) method%controls%fixed_step = 0.1_wp
       call method%start(system, 0.0_wp, [1.0_wp, 0.0_wp], t_end, status)
    end subroutine begin
 

@@ -2,6 +2,7 @@
 module run_summary
    use errors, only: error_t
    use guards, only: guards_t
+   use integration_method, only: abilities_t
    use integrator, only: integrator_t
    use kinds, only: not_a_number, wp
    use mechanism, only: mechanism_t
@@ -11,7 +12,7 @@ module run_summary
    use run_tally, only: run_tally_t
    use sampling, only: sampler_t
    use shared_sticking, only: warn_of_shared_sticking
-   use stiff_run, only: is_explicit_by_name, method_words, stiffness_warning, trial_evaluations
+   use stiff_run, only: stiffness_warning
    use stop_condition, only: stop_t
    use text, only: append_text, text_t
    use whole_motion, only: whole_motion_t
@@ -38,7 +39,7 @@ contains
       integer :: p, worst
 
       allocate (summary%warnings(0))
-      summary%method%integrator = method_words(whole%parts(busiest(whole))%method)
+      summary%method%integrator = whole%parts(busiest(whole))%method%words(has_run=.true.)
       summary%method%solver = whole%system%linkage%solution%solver%name()
       summary%method%stabilisation = whole%system%way%words()
       summary%method%tolerance = merge(0.0_wp, method%controls%tolerance, method%controls%fixed_step > 0.0_wp)
@@ -50,7 +51,7 @@ contains
             summary%count%steps = summary%count%steps + part%method%count%n_steps
             summary%count%rejected_steps = summary%count%rejected_steps + part%method%count%n_rejected
             summary%count%rhs_evaluations = summary%count%rhs_evaluations + part%system%n_evaluations &
-                                            + trial_evaluations(part%method)
+                                            + part%method%trial_evaluations()
             summary%count%output_evaluations = summary%count%output_evaluations + part%method%count%n_output_evaluations
             summary%count%factorisations = summary%count%factorisations + part%system%linkage%solution%solver%n_factorisations
          end associate
@@ -125,6 +126,7 @@ contains
       logical, intent(in) :: has_failed              !! the run ended early
       type(summary_t), intent(inout) :: summary      !! its warnings grow
 
+      type(abilities_t) :: can
       character(:), allocatable :: words
       integer :: p
 
@@ -136,7 +138,8 @@ contains
          call append_text(summary%warnings, words)
          return
       end do
-      if (.not. is_explicit_by_name(method) .or. summary%count%steps < many_steps) return
+      can = method%abilities()
+      if (.not. can%is_explicit .or. can%parts /= "" .or. summary%count%steps < many_steps) return
       call guards%films%warn_of_stiffness(whole%system, summary%method%integrator, summary%warnings)
    end subroutine warn_of_stiffness
 

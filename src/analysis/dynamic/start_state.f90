@@ -6,7 +6,8 @@ module start_state
    use dependent_rows, only: find_dependent
    use driver_conflict, only: name_conflict
    use errors, only: error_t, exit_assembly, exit_deck, set_error
-   use item, only: place_of
+   use integration_method, only: abilities_t
+   use integration_settings, only: start_ideal, start_static
    use kinds, only: wp
    use memory_purpose, only: memory_is_for
    use perturbation, only: shift_t
@@ -55,10 +56,10 @@ contains
 
       call memory_is_for("the initial state of "//to_text(size(scene%bodies%names))//" bodies")
       call system%linkage%deck_state(q, v)
-      associate (start => scene%settings%dynamic%values(place_of(scene%settings%dynamic, "start"))%text)
-         starts_ideal = start == "ideal"
+      associate (start => scene%settings%integration%start)
+         starts_ideal = start == start_ideal
          at_start = merge(levels_ideal, levels, starts_ideal)
-         if (start == "static") call start_at_rest(scene, system, q, v, report, error)
+         if (start == start_static) call start_at_rest(scene, system, q, v, report, error)
       end associate
       if (allocated(error)) return
       is_shared = .false.
@@ -93,8 +94,7 @@ contains
       if (allocated(error)) return
       allocate (y(system%n), source=0.0_wp)
       call system%linkage%take_state(q, v, y)
-      call look_at_overlap(system, y, &
-                           scene%settings%dynamic%word("overlap") == "preload", error)
+      call look_at_overlap(system, y, scene%settings%integration%allows_overlap, error)
    end subroutine find_start
 
    !> Which rows depend on others, what friction depends on these, and whether they hold a motion to second order only.
@@ -122,11 +122,14 @@ contains
       type(assembly_t), intent(in) :: report                !! its dependent rows
       type(error_t), allocatable, intent(out) :: error      !! the method cannot do it
 
+      type(abilities_t) :: can
+
       if (size(report%dependent) == 0 .or. system%friction%rubbing%n == 0) return
-      if (scene%settings%dynamic%word("method") /= "ida") return
-      call set_error(error, exit_deck, "method ida drops redundant rows, but joint friction needs the " &
-                     //"multipliers of all rows"//new_line("a")//"  = "//redundancy_text(system, report)//new_line("a") &
-                     //"  = use another method, or joints without redundancy")
+      can = scene%settings%integration%can()
+      if (.not. can%solves_dae) return
+      call set_error(error, exit_deck, "method "//scene%settings%integration%method//" drops redundant rows, but joint " &
+                     //"friction needs the multipliers of all rows"//new_line("a")//"  = "//redundancy_text(system, report) &
+                     //new_line("a")//"  = use another method, or joints without redundancy")
    end subroutine check_method
 
    !> The static equilibrium at t = 0, its contacts started.

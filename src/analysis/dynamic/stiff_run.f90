@@ -1,12 +1,11 @@
 !> Whether a run by an explicit method was stiff, and how many times fewer evaluations an implicit one would have taken.
 !>
-!> At the end of a run whose steps were many and as short as the next one, `radau` is tried (`method_trial`). The ratio of
-!> evaluations per second of the motion is reported. Limits: it is that of the end of the motion.
+!> At the end of a run whose steps were many and as short as the next one, the method for stiff equations is tried
+!> (`method_trial`). The ratio of evaluations per second of the motion is reported. Limits: it is that of the end of the motion.
 module stiff_run
-   use auto, only: auto_t
+   use integration_method, only: abilities_t
    use integrator, only: integrator_t
-   use integrator_registry, only: find_integrator
-   use kind_info, only: kind_info_t
+   use integrator_registry, only: find_stiff_integrator
    use kinds, only: i8, wp
    use mechanism, only: mechanism_t
    use method_trial, only: run_trial, trial_t
@@ -14,7 +13,7 @@ module stiff_run
    use text, only: real_text
    implicit none (type, external)
    private
-   public :: is_explicit_by_name, method_words, stiffness_warning, trial_evaluations
+   public :: stiffness_warning
 
    integer(i8), parameter :: many = 4000       !! steps, below which nothing is said
    real(wp), parameter :: shorter = 2.0_wp     !! next step over the mean one, at most [1]
@@ -24,82 +23,37 @@ module stiff_run
 
 contains
 
-   !> Name of an integrator, and what it chose.
-   function method_words(method) result(words)
-      class(integrator_t), intent(in) :: method   !! the integrator, after the run
-      character(:), allocatable :: words          !! as `verner`
-
-      select type (method)
-      type is (auto_t)
-         words = "auto ("//method%choice_in_words()//")"
-      class default
-         words = name_of(method)
-      end select
-   end function method_words
-
-   !> Whether a method is explicit and does not choose another one.
-   logical function is_explicit_by_name(method) result(is_explicit)
-      class(integrator_t), intent(in) :: method   !! the integrator, after the run
-
-      select type (method)
-      type is (auto_t)
-         is_explicit = .false.
-      class default
-         is_explicit = method%is_explicit()
-      end select
-   end function is_explicit_by_name
-
-   !> Evaluations of trials of another method, which the system does not count.
-   pure integer(i8) function trial_evaluations(method) result(n)
-      class(integrator_t), intent(in) :: method   !! the integrator, after the run
-
-      n = 0
-      select type (method)
-      type is (auto_t)
-         n = method%choice%n_tried
-      end select
-   end function trial_evaluations
-
    !> The warning, blank if there is none. The system is left elsewhere.
    function stiffness_warning(system, method) result(words)
       type(mechanism_t), intent(inout) :: system  !! the system
       class(integrator_t), intent(in) :: method   !! its integrator, at the end of the run
       character(:), allocatable :: words          !! a sentence
 
-      class(integrator_t), allocatable :: radau
+      class(integrator_t), allocatable :: stiff
+      type(abilities_t) :: can
       type(trial_t) :: trial
       real(wp) :: factor, h
 
       words = ""
+      can = method%abilities()
+      if (can%parts /= "") return
       select type (method)
-      type is (auto_t)
       class is (one_step_t)
          h = method%pace%h_next
          if (.not. method%stability%is_watched .or. method%count%n_steps < many) return
          if (h*real(method%count%n_steps, wp) > shorter*method%t) return
-         call find_integrator("radau", radau)
-         select type (radau)
+         call find_stiff_integrator(stiff)
+         select type (stiff)
          class is (one_step_t)
-            call run_trial(radau, system, method%controls, method%t, method%step%y1, (1.0_wp + part_of_run)*method%t, h, n_step, &
+            call run_trial(stiff, system, method%controls, method%t, method%step%y1, (1.0_wp + part_of_run)*method%t, h, n_step, &
                            trial)
          end select
          factor = real(method%n_new_stage + 1, wp)/h*(trial%t_end - trial%t_begin)/real(trial%n_evaluation, wp)
          if (factor < worth) return
-         words = "stiff for method = "//name_of(method)//": stability limits its steps to "//real_text(h, 2)// &
-                 " s; radau needs about "//real_text(factor, 2)// &
-                 " times fewer evaluations at the end of the motion: set method = auto or radau"
+         words = "stiff for method = "//method%name()//": stability limits its steps to "//real_text(h, 2)// &
+                 " s; "//stiff%name()//" needs about "//real_text(factor, 2)// &
+                 " times fewer evaluations at the end of the motion: set method = auto or "//stiff%name()
       end select
    end function stiffness_warning
-
-   !> Name of an integrator.
-   function name_of(method) result(name)
-      class(integrator_t), intent(in) :: method  !! the integrator
-      character(:), allocatable :: name          !! its name
-
-      type(kind_info_t) :: info
-
-      info = method%info()
-      name = info%name
-   end function name_of
 
 end module stiff_run

@@ -64,7 +64,7 @@ contains
             call subsystem%system%linkage%solution%take_min_pivot(system%linkage%solution%min_pivot)
             call find_contacts(system, table, slot, item, subsystem)
             subsystem%rubbing = numbers_of(rubbing_names(subsystem%system), rubbing)
-            call find_integrator(scene%settings%dynamic%word("method"), subsystem%method)
+            call find_integrator(scene%settings%integration%method, subsystem%method)
             subsystem%method%controls = method%controls
             call new_output_times(one, end, subsystem%system%clearance_joints%n > 0, subsystem%output_times)
          end associate
@@ -79,12 +79,12 @@ contains
       integer :: k
 
       reason = ""
-      associate (dynamic => scene%settings%dynamic, guards => scene%settings%guards)
-         if (dynamic%word("groups") == "together") then
+      associate (settings => scene%settings%integration, guards => scene%settings%guards)
+         if (.not. settings%is_apart) then
             reason = "groups = together"
          else if (size(guards%values(place_of(guards, "stop"))%conditions) > 0) then
             reason = "a stop condition applies to all of them"
-         else if (dynamic%number("maximum_steps") > 0.0_wp .or. dynamic%number("maximum_evaluations") > 0.0_wp) then
+         else if (settings%controls%maximum_steps > 0 .or. settings%controls%maximum_evaluations > 0) then
             reason = "a limit applies to the sum of their steps or evaluations"
          else if (any([(scene%forces(k)%info%counts_turns .and. size(scene%forces(k)%items) > 0, k=1, n_force_kinds)]) .or. &
                   any([(scene%joints(k)%info%counts_turns .and. size(scene%joints(k)%items) > 0, k=1, n_joint_kinds)])) then

@@ -28,7 +28,7 @@ contains
       integer :: c, i, k, last, v
 
       if (loaded%system%clearance_joints%n == 0) return
-      step = loaded%scene%settings%dynamic%number("step")
+      step = loaded%scene%settings%integration%controls%fixed_step
       call say("")
       call say("joints with clearance")
       allocate (delta(loaded%system%clearance_joints%n_contact), rate(loaded%system%clearance_joints%n_contact), source=0.0_wp)

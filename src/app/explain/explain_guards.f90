@@ -2,7 +2,7 @@
 module explain_guards
    use catalogue, only: catalogue_t
    use console, only: say
-   use guards, only: guard_clearance, guard_penetration, guard_strength, guards_t
+   use guards, only: guard_clearance, guard_penetration, guard_strength, guards_t, new_guards
    use kinds, only: wp
    use load, only: loaded_t
    use mechanism_catalogue, only: build_catalogue
@@ -29,7 +29,8 @@ contains
       if (loaded%scene%analysis /= analysis_dynamic) return
       allocate (warnings(0))
       call build_catalogue(loaded%system, catalogue)
-      call limits_of(loaded%scene, loaded%system, catalogue, limits, warnings)
+      call limits_of(loaded%scene, catalogue, limits, warnings)
+      call new_guards(loaded%scene, loaded%system, limits%guards)
       call say("")
       call say("guards")
       associate (guards => limits%guards)

@@ -1,14 +1,13 @@
 !> Method, solver, stabilisation and times, with the reasons of what `auto` has chosen, for `gudgeon explain`.
 module explain_method
-   use auto, only: auto_t
    use console, only: say
    use integrator, only: integrator_t
    use kinds, only: wp
    use load, only: loaded_t
-   use mechanism, only: mechanism_t
    use row_plan, only: contact_rows_text
    use scene, only: analysis_kinematic, analysis_static
-   use scene_method, only: new_method
+   use solver_registry, only: reason_of_solver
+   use stabilisation_registry, only: reason_of_stabilisation
    use subsystems, only: grouping_words
    use text, only: counted, to_text
    use time_plan, only: last_instant
@@ -22,7 +21,8 @@ contains
    subroutine explain_method_and_times(loaded)
       type(loaded_t), intent(in) :: loaded  !! the deck
 
-      character(:), allocatable :: fixed, hold, solver
+      class(integrator_t), allocatable :: method
+      character(:), allocatable :: words
 
       call say("")
       call say("method")
@@ -36,23 +36,22 @@ contains
                   " of the maximum load", 2)
          return
       end select
-      associate (settings => loaded%scene%settings%dynamic)
-         solver = settings%word("solver")
-         if (solver == "auto") then
-            solver = loaded%system%linkage%solution%solver%name()//" (auto: "//reason_of_solver(loaded%system)//")"
+      associate (settings => loaded%scene%settings%integration, solver => loaded%system%linkage%solution%solver)
+         call settings%new_method(method)
+         call say("integrator "//method%name()//", tolerance "//to_text(settings%controls%tolerance), 2)
+         words = method%words(has_run=.false.)
+         if (words /= "") call say(words, 2)
+         words = "variable steps"
+         if (settings%controls%fixed_step > 0.0_wp) then
+            words = "fixed steps of "//to_text(settings%controls%fixed_step)//" s: the tolerance is not used"
          end if
-         fixed = "variable steps"
-         if (settings%number("step") > 0.0_wp) then
-            fixed = "fixed steps of "//to_text(settings%number("step"))//" s: the tolerance is not used"
-         end if
-         call say("integrator "//settings%word("method")//", tolerance "// &
-                  to_text(settings%number("tolerance")), 2)
-         if (settings%word("method") == "auto") call say(words_of_auto(loaded), 2)
-         call say(fixed, 2)
-         call say("solver "//solver, 2)
-         hold = loaded%system%way%words()
-         if (settings%word("stabilise") == "auto") hold = hold//" (auto: "//reason_of_stabilisation(loaded%system)//")"
-         call say("stabilisation "//hold, 2)
+         call say(words, 2)
+         words = solver%name()
+         if (settings%solver%name == "") words = words//" (auto: "//reason_of_solver(solver)//")"
+         call say("solver "//words, 2)
+         words = loaded%system%way%words()
+         if (settings%stabilisation%name == "") words = words//" (auto: "//reason_of_stabilisation(loaded%system%way)//")"
+         call say("stabilisation "//words, 2)
       end associate
       call explain_times(loaded)
    end subroutine explain_method_and_times
@@ -71,50 +70,5 @@ contains
       words = grouping_words(loaded%scene)
       if (len(words) > 0) call say(words, 2)
    end subroutine explain_times
-
-   !> What the method that chooses has to choose from.
-   function words_of_auto(loaded) result(words)
-      type(loaded_t), intent(in) :: loaded  !! the deck
-      character(:), allocatable :: words    !! the parts
-
-      class(integrator_t), allocatable :: method
-
-      call new_method(loaded%scene, method)
-      words = ""
-      select type (method)
-      type is (auto_t)
-         words = method%parts_in_words()
-      end select
-   end function words_of_auto
-
-   !> Why `auto` has chosen the solver.
-   function reason_of_solver(system) result(words)
-      type(mechanism_t), intent(in) :: system   !! the system
-      character(:), allocatable :: words            !! the reason
-
-      select case (system%linkage%solution%solver%name())
-      case ("schur")
-         words = "equal to pivoting within round-off, and the fastest for these equations"
-      case ("sparse")
-         words = "high joint count per body: the Schur complement would be dense"
-      case default
-         words = "set by the stabilisation"
-      end select
-   end function reason_of_solver
-
-   !> Why `auto` has chosen the stabilisation.
-   function reason_of_stabilisation(system) result(words)
-      type(mechanism_t), intent(in) :: system   !! the system
-      character(:), allocatable :: words            !! the reason
-
-      select case (system%way%name())
-      case ("none")
-         words = "not needed: no constraints, or the integrator enforces them"
-      case ("baumgarte")
-         words = "a driver jumps, and projection cannot follow a jump"
-      case default
-         words = "removes all constraint violation without adding gains"
-      end select
-   end function reason_of_stabilisation
 
 end module explain_method

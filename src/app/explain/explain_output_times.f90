@@ -4,6 +4,7 @@ module explain_output_times
    use console, only: say
    use output_times, only: watched_t
    use kinds, only: wp
+   use integrator_controls, only: onset_words
    use load, only: loaded_t
    use root_scan, only: place_t
    use scene, only: analysis_dynamic, table_t
@@ -28,10 +29,10 @@ contains
       integer :: k
 
       if (loaded%scene%analysis /= analysis_dynamic) return
-      associate (settings => loaded%scene%settings%dynamic)
-         fixed = settings%number("step")
-         maximum = settings%number("maximum_step")
-         onset = settings%word("contact_onset")
+      associate (controls => loaded%scene%settings%integration%controls)
+         fixed = controls%fixed_step
+         maximum = controls%maximum_step
+         onset = trim(onset_words(controls%onset))
       end associate
       call say("")
       call say("time points and maximum step")

@@ -16,7 +16,8 @@ module verb_explain
    use explain_method, only: explain_method_and_times
    use explain_model, only: explain_size, explain_start
    use imsl_names, only: is_imsl_name
-   use item, only: place_of
+   use integration_settings, only: start_static
+   use item, only: item_t, place_of
    use kinds, only: wp
    use kinematic_start, only: find_kinematic_start
    use load, only: check_swept_words, load_deck, loaded_t
@@ -156,6 +157,7 @@ contains
       type(scene_t), intent(in) :: scene   !! the scene
       character(*), intent(in) :: line     !! `kind item key = default`
 
+      type(item_t) :: dynamic
       integer :: k
 
       is_worth = scene%settings%precision%is_present .or. index(line, scene%settings%precision%info%name//" ") /= 1
@@ -163,13 +165,15 @@ contains
       do k = 1, n_analysis
          if (index(line, "analysis."//trim(analysis_names(k))//" ") == 0) cycle
          is_worth = k == scene%analysis .or. (k == analysis_static .and. scene%analysis == analysis_dynamic .and. &
-                                              scene%settings%dynamic%word("start") == "static")
+                                              scene%settings%integration%start == start_static)
       end do
       if (.not. is_worth) return
+      dynamic = scene%settings%dynamic%item_t
+      call scene%settings%integration%write(dynamic)
       do k = 1, size(scene%settings%dynamic%info%columns)
          associate (name => scene%settings%dynamic%info%columns(k)%name)
             if (index(line, "analysis.dynamic "//name//" = ") == 0) cycle
-            is_worth = .not. (is_imsl_name(name) .or. scene%settings%dynamic%values(k)%given)
+            is_worth = .not. (is_imsl_name(name) .or. dynamic%values(k)%given)
          end associate
       end do
    end function is_worth

@@ -9,13 +9,13 @@
 !>
 !> Source: Flores et al. (2008), sections 2.4, 3.5, tables 3.2, 4.2. Limits: films are as the deck's tables say (`form = book`).
 module legacy_way
-   use dimension_text, only: unit_text
    use errors, only: error_t, exit_usage, set_error
-   use item, only: item_t, option_t, place_of
-   use kind_info, only: dim_frequency, dim_length, dim_t, kind_info_t
+   use integration_settings, only: choice_t, new_option
+   use integrator_controls, only: onset_interpolate, onset_reject
+   use item, only: item_t
+   use kind_info, only: dim_frequency, kind_info_t
    use kinds, only: wp
    use scene, only: analysis_dynamic, scene_t
-   use text, only: real_text
    implicit none (type, external)
    private
    public :: take_legacy_way
@@ -38,36 +38,22 @@ contains
          call set_error(error, exit_usage, "option --legacy needs [analysis.dynamic]")
          return
       end if
-      associate (settings => scene%settings%dynamic%item_t)
-         call put_word(settings, "method", "verner")
-         call put_word(settings, "solver", "lapack")
-         call put_word(settings, "coordinates", "full")
-         call put_word(settings, "groups", "together")
-         associate (step => settings%values(place_of(settings, "step")))
-            if (.not. step%number > 0.0_wp) step%number = usual_step
-            step%given = .true.
-         end associate
-         associate (hold => settings%values(place_of(settings, "stabilise")))
-            if (.not. hold%given) then
-               call put_word(settings, "stabilise", "baumgarte")
-               if (allocated(hold%options)) deallocate (hold%options)
-               allocate (hold%options(2))
-               call put_option(hold%options(1), "alpha", usual_gain, dim_frequency)
-               call put_option(hold%options(2), "beta", usual_gain, dim_frequency)
-            end if
-         end associate
-         associate (onset => settings%values(place_of(settings, "contact_onset")))
-            if (way == "procedure1") then
-               call put_word(settings, "contact_onset", "interpolate")
-               if (allocated(onset%options)) deallocate (onset%options)
-               allocate (onset%options(0))
-            else if (onset%text /= "reject") then
-               call put_word(settings, "contact_onset", "reject")
-               if (allocated(onset%options)) deallocate (onset%options)
-               allocate (onset%options(1))
-               call put_option(onset%options(1), "limit", usual_limit, dim_length)
-            end if
-         end associate
+      associate (settings => scene%settings%integration)
+         settings%method = "verner"
+         settings%solver%name = "lapack"
+         settings%is_reduced = .false.
+         settings%is_apart = .false.
+         if (.not. settings%controls%fixed_step > 0.0_wp) settings%controls%fixed_step = usual_step
+         if (.not. scene%settings%dynamic%is_given("stabilise")) then
+            settings%stabilisation = choice_t("baumgarte", [new_option("alpha", usual_gain, dim_frequency), &
+                                                            new_option("beta", usual_gain, dim_frequency)])
+         end if
+         if (way == "procedure1") then
+            settings%controls%onset = onset_interpolate
+         else if (settings%controls%onset /= onset_reject) then
+            settings%controls%onset = onset_reject
+            settings%controls%onset_limit = usual_limit
+         end if
       end associate
       do k = 1, size(scene%clearances)
          do i = 1, size(scene%clearances(k)%items)
@@ -100,31 +86,5 @@ contains
       lacks_law = column == "faces"
       if (lacks_law) lacks_law = item%reference("face_law") == 0
    end function lacks_law
-
-   !> Give a key a word.
-   subroutine put_word(settings, key, word)
-      type(item_t), intent(inout) :: settings    !! the section
-      character(*), intent(in) :: key            !! the key
-      character(*), intent(in) :: word           !! its word
-
-      associate (value => settings%values(place_of(settings, key)))
-         value%text = word
-         value%given = .true.
-      end associate
-   end subroutine put_word
-
-   !> An option with a number, as if it had been read.
-   subroutine put_option(option, name, number, dimension)
-      type(option_t), intent(inout) :: option    !! the option
-      character(*), intent(in) :: name           !! its name
-      real(wp), intent(in) :: number             !! its value, SI [any]
-      type(dim_t), intent(in) :: dimension       !! of the value
-
-      option%name = name
-      option%text = real_text(number, 6)//unit_text(dimension)
-      option%number = number
-      option%is_number = .true.
-      option%dimension = dimension
-   end subroutine put_option
 
 end module legacy_way

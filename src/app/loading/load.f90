@@ -4,7 +4,7 @@ module load
    use build_system, only: levels_as_written, levels_ideal, levels_clearance_joints, new_system
    use catalogue, only: catalogue_t
    use change_scene, only: scene_with_changes
-   use columns, only: column_of, find_column
+   use columns, only: column_of
    use deck_file, only: read_deck
    use deck_types, only: deck_t
    use diagnostics, only: diagnostics_t
@@ -14,6 +14,8 @@ module load
    use formula_words, only: read_formulas
    use function_range, only: check_function_ranges
    use item, only: item_t, location_t, place_of
+   use jobs, only: job_t
+   use joint_level, only: make_ideal
    use legacy_way, only: take_legacy_way
    use kind_info, only: kind_info_t
    use kinds, only: wp
@@ -32,20 +34,18 @@ module load
    use sweep_values, only: read_sweep
    use swept, only: sweep_t
    use text, only: append_text, to_text
-   use time_plan, only: new_time_plan, time_plan_t
+   use time_plan, only: new_time_plan
    use word_checks, only: check_words, read_figures
    implicit none (type, external)
    private
    public :: check_swept_words, find_catalogue, load_case, load_deck, loaded_t
 
    !> A deck that is ready to run.
-   type :: loaded_t
+   type, extends(job_t) :: loaded_t
       character(:), allocatable :: path           !! of the deck
       type(deck_t) :: deck                        !! its text and parameters
-      type(scene_t) :: scene                      !! what it means
       type(mechanism_t) :: system             !! its equations
       type(catalogue_t), allocatable :: catalogue !! what they can report; of a case of a sweep none until it is requested
-      type(time_plan_t) :: plan                   !! its times
       type(figure_t), allocatable :: figures(:)   !! (n) its figures, as its words ask for them
       type(sweep_t) :: sweep                      !! its cases
       logical :: is_stream = .false.              !! the deck came through a pipe and cannot be read again
@@ -116,8 +116,9 @@ contains
       if (allocated(error)) return
       call apply_options(options, loaded%scene, error)
       if (allocated(error)) return
-      call new_system(loaded%scene, merge(levels_ideal, levels_as_written, loaded%scene%analysis == analysis_kinematic), &
-                      loaded%system)
+      loaded%levels = merge(levels_ideal, levels_as_written, loaded%scene%analysis == analysis_kinematic)
+      loaded%perturbed%start = options%change%member
+      call new_system(loaded%scene, loaded%levels, loaded%system)
       if (allocated(loaded%catalogue)) deallocate (loaded%catalogue)
       if (needs_catalogue(options, loaded%scene)) call find_catalogue(loaded)
       if (size(loaded%scene%tables%requests(table_formulas)%items) > 0) then
@@ -125,7 +126,7 @@ contains
          loaded%system%requests%formulas = loaded%scene%requests%formulas
          call build_catalogue(loaded%system, loaded%catalogue)
       end if
-      call check_steps(loaded%scene, mistakes)
+      call check_steps(loaded%scene%settings%integration, mistakes)
       call new_time_plan(loaded%scene, loaded%system, loaded%plan, mistakes)
       if (mistakes%count() == 0) call check_function_ranges(loaded%scene, loaded%plan%end, mistakes)
       if (has_all_words) then
@@ -167,7 +168,8 @@ contains
       type(options_t), intent(in) :: options  !! the command line
       type(scene_t), intent(in) :: scene      !! the scene of the deck
 
-      runs_as_written = .not. (options%change%is_ideal .or. scene%analysis == analysis_kinematic .or. has_ideal(scene))
+      runs_as_written = .not. (options%change%is_ideal .or. scene%analysis == analysis_kinematic .or. &
+                              has_ideal(scene, levels_as_written))
       if (allocated(options%change%analysis)) then
          runs_as_written = runs_as_written .and. options%change%analysis == analysis_names(scene%analysis)
       end if
@@ -247,17 +249,11 @@ contains
       type(scene_t), intent(inout) :: scene                !! levels, tolerance and method are changed
       type(error_t), allocatable, intent(out) :: error     !! an unknown method
 
-      character(:), allocatable :: known, nearest
-      integer :: c, i, k
+      integer :: k
 
       if (options%change%is_ideal) then
          do k = 1, size(scene%clearances)
-            c = find_column(scene%clearances(k)%info, "level")
-            if (c == 0) cycle  ! a geometry without an ideal joint keeps its contacts
-            do i = 1, size(scene%clearances(k)%items)
-               scene%clearances(k)%items(i)%values(c)%text = "ideal"
-               scene%clearances(k)%items(i)%values(c)%given = .true.
-            end do
+            call make_ideal(scene%clearances(k)%items)
          end do
       end if
       if (allocated(options%legacy%way)) call take_legacy_way(options%legacy%way, scene, error)
@@ -265,7 +261,8 @@ contains
       if (options%change%tolerance > 0.0_wp) then
          select case (scene%analysis)
          case (analysis_dynamic)
-            call set_tolerance(scene%settings%dynamic%info, scene%settings%dynamic%item_t)
+            scene%settings%integration%controls%tolerance = options%change%tolerance
+            call check_tolerance(scene%settings%dynamic%info)
          case (analysis_kinematic)
             call set_tolerance(scene%settings%kinematic%info, scene%settings%kinematic%item_t)
          case default
@@ -273,24 +270,7 @@ contains
          end select
          if (allocated(error)) return
       end if
-      if (allocated(options%change%method) .and. scene%analysis /= analysis_dynamic) then
-         call set_error(error, exit_usage, "option --method needs [analysis.dynamic], not [analysis."// &
-                        trim(analysis_names(scene%analysis))//"]")
-         return
-      end if
-      if (allocated(options%change%method)) then
-         c = column_of(scene%settings%dynamic%info, "method")
-         known = scene%settings%dynamic%info%columns(c)%choices
-         if (index(options%change%method, " ") > 0 .or. index(" "//known//" ", " "//options%change%method//" ") == 0) then
-            nearest = nearest_word(options%change%method, known)
-            if (len(nearest) > 0) nearest = "did you mean '"//nearest//"'? "
-            call set_error(error, exit_usage, "unknown method '"//options%change%method//"'"//new_line("a")//"  = "//nearest// &
-                           "methods: "//known)
-            return
-         end if
-         scene%settings%dynamic%values(c)%text = options%change%method
-         scene%settings%dynamic%values(c)%location = location_t()
-      end if
+      if (allocated(options%change%method)) call set_method(options%change%method, scene, error)
 
    contains
 
@@ -303,13 +283,44 @@ contains
             value%number = options%change%tolerance
             value%given = .true.
          end associate
+         call check_tolerance(kind)
+      end subroutine set_tolerance
+
+      !> The tolerance of the command line must be in the bounds of the key.
+      subroutine check_tolerance(kind)
+         type(kind_info_t), intent(in) :: kind      !! keys
+
          associate (column => kind%columns(column_of(kind, "tolerance")))
             if (options%change%tolerance >= column%bounds%lower .and. options%change%tolerance <= column%bounds%upper) return
             call set_error(error, exit_usage, "option --tolerance needs a number from "//to_text(column%bounds%lower)//" to "// &
                            to_text(column%bounds%upper)//" for ["//kind%name//"], got "//to_text(options%change%tolerance))
          end associate
-      end subroutine set_tolerance
+      end subroutine check_tolerance
 
    end subroutine apply_options
+
+   !> Give the scene the integrator of the command line.
+   subroutine set_method(method, scene, error)
+      character(*), intent(in) :: method                   !! its name
+      type(scene_t), intent(inout) :: scene                !! the method is changed
+      type(error_t), allocatable, intent(out) :: error     !! there is no integration, or no such integrator
+
+      character(:), allocatable :: known, nearest
+
+      if (scene%analysis /= analysis_dynamic) then
+         call set_error(error, exit_usage, "option --method needs [analysis.dynamic], not [analysis."// &
+                        trim(analysis_names(scene%analysis))//"]")
+         return
+      end if
+      known = scene%settings%dynamic%info%columns(column_of(scene%settings%dynamic%info, "method"))%choices
+      if (index(method, " ") > 0 .or. index(" "//known//" ", " "//method//" ") == 0) then
+         nearest = nearest_word(method, known)
+         if (len(nearest) > 0) nearest = "did you mean '"//nearest//"'? "
+         call set_error(error, exit_usage, "unknown method '"//method//"'"//new_line("a")//"  = "//nearest//"methods: "//known)
+         return
+      end if
+      scene%settings%integration%method = method
+      scene%settings%integration%places%method = location_t()
+   end subroutine set_method
 
 end module load

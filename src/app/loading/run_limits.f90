@@ -5,37 +5,34 @@ module run_limits
    use channels, only: list_scalars, match_word, selection_t
    use dimension_text, only: dimension_name
    use diagnostics, only: diagnostics_t
-   use guards, only: new_guards
    use item, only: condition_t, place_of
    use kind_info, only: dim_none, dim_t, same_dimension
-   use mechanism, only: mechanism_t
    use run_audit, only: limits_t
-   use scene, only: scene_t
-   use stop_condition, only: stop_t
+   use scene, only: analysis_dynamic, analysis_kinematic, scene_t
    use text, only: append_text, real_text, text_t
    use units, only: parse_unit, unit_t
    implicit none (type, external)
    private
-   public :: check_conditions, has_conditions, limits_of, twin_limits
+   public :: check_conditions, has_conditions, limits_of
 
 contains
 
    !> Limits of a run. Conditions on channels that its joints, taken as ideal, do not have are omitted, with a warning.
-   subroutine limits_of(scene, system, catalogue, limits, warnings)
+   subroutine limits_of(scene, catalogue, limits, warnings)
       type(scene_t), intent(in) :: scene                        !! the scene
-      type(mechanism_t), intent(in) :: system               !! the system that will run
       type(catalogue_t), intent(in) :: catalogue                !! what it can report
-      type(limits_t), intent(out) :: limits                     !! limits
+      type(limits_t), intent(out) :: limits                     !! limits, but for the guards, which follow from the system
       type(text_t), allocatable, intent(inout) :: warnings(:)   !! (any) appended to
 
       type(scalar_t), allocatable :: scalars(:)
       character(:), allocatable :: hint, message
       integer :: k
 
-      limits%energy = scene%settings%dynamic%number("energy_limit")
-      limits%violation = scene%settings%dynamic%number("violation_limit")
-      limits%cpu = scene%settings%dynamic%number("limit_cpu")
-      call new_guards(scene, system, limits%guards)
+      if (scene%analysis == analysis_kinematic) limits%cpu = scene%settings%kinematic%number("limit_cpu")
+      if (scene%analysis /= analysis_dynamic) return
+      limits%energy = scene%settings%integration%energy_limit
+      limits%violation = scene%settings%integration%violation_limit
+      limits%cpu = scene%settings%integration%cpu_limit
       associate (conditions => scene%settings%guards%values(place_of(scene%settings%guards, "stop"))%conditions)
          do k = 1, size(conditions)
             call find_scalars(conditions(k), catalogue, scalars, message, hint)
@@ -50,16 +47,6 @@ contains
          end do
       end associate
    end subroutine limits_of
-
-   !> Limits of an reference run with ideal joints: its processor time and guards only.
-   function twin_limits(scene, system) result(limits)
-      type(scene_t), intent(in) :: scene              !! the scene
-      type(mechanism_t), intent(in) :: system     !! the reference run's system
-      type(limits_t) :: limits                        !! limits
-
-      limits%cpu = scene%settings%dynamic%number("limit_cpu")
-      call new_guards(scene, system, limits%guards)
-   end function twin_limits
 
    !> Whether a scene has conditions that end a run.
    pure logical function has_conditions(scene)

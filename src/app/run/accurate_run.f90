@@ -6,19 +6,15 @@ module accurate_run
    use channel_names, only: scalar_name, scalar_t
    use channels, only: list_scalars, match_word, select_channels, selection_t
    use errors, only: error_t, exit_audit, exit_integration, exit_usage, set_error
-   use item, only: place_of
+   use integration_settings, only: takes_steps
+   use jobs, only: job_t
    use kept_run, only: numbers_of, sort_of
    use kinds, only: wp
    use load, only: loaded_t
-   use mechanism_catalogue, only: build_catalogue
    use options, only: options_t
    use output_plan, only: output_plan_t
-   use precision_info, only: setting_t
    use progress, only: progress_t
-   use run_audit, only: limits_t
-   use run_limits, only: limits_of
    use scene, only: analysis_dynamic
-   use setting_run, only: has_fixed_steps, job_t
    use text, only: real_text, text_t
    use time_budget, only: time_budget_t
    use time_plan, only: last_instant
@@ -49,7 +45,6 @@ contains
       type(error_t), allocatable, intent(out) :: error     !! what it does not go together with
 
       character(:), allocatable :: hint, maker
-      type(setting_t) :: setting
 
       if (options%digits%accuracy <= 0.0_wp) then
          if (options%digits%budget > 0.0_wp .and. .not. options%digits%with_horizon) then
@@ -64,20 +59,17 @@ contains
       else if (allocated(options%legacy%way)) then
          call set_error(error, exit_usage, "options --accuracy and --legacy exclude each other: --legacy takes fixed steps")
       else
-         maker = loaded%scene%settings%dynamic%word("method")
-         hint = "choose another method, as with --method verner"
-         setting%method = maker
-         setting%way = ""
-         setting%solver = ""
-         if (.not. has_fixed_steps(setting)) then
-            maker = loaded%scene%settings%dynamic%word("stabilise")
-            hint = "choose another stabilisation method, as stabilise = projection"
-            setting%way = maker
-         end if
-         if (has_fixed_steps(setting)) then
-            call set_error(error, exit_usage, "option --accuracy chooses a tolerance, but '"//maker//"' takes fixed steps"// &
-                           new_line("a")//"  = "//hint)
-         end if
+         associate (method => loaded%scene%settings%integration%method, way => loaded%scene%settings%integration%stabilisation%name)
+            maker = method
+            hint = "choose another method, as with --method verner"
+            if (.not. takes_steps(method, "")) then
+               maker = way
+               hint = "choose another stabilisation method, as stabilise = projection"
+            end if
+            if (.not. takes_steps(method, way)) return
+         end associate
+         call set_error(error, exit_usage, "option --accuracy chooses a tolerance, but '"//maker//"' takes fixed steps"// &
+                        new_line("a")//"  = "//hint)
       end if
    end subroutine check_accuracy
 
@@ -88,37 +80,26 @@ contains
       type(output_plan_t), intent(inout) :: plan           !! accuracy is set
       type(error_t), allocatable, intent(out) :: error     !! no run came to its end
 
-      type(catalogue_t) :: catalogue
       type(job_t) :: job
-      type(limits_t) :: limits
       type(progress_t) :: display
       type(scalar_t), allocatable :: scalars(:)
-      type(text_t), allocatable :: warnings(:)
       type(time_budget_t) :: budget
       integer, allocatable :: asked(:, :)
       integer :: k, stride
 
-      call build_catalogue(loaded%system, catalogue)
-      call find_asked(plan%channels, catalogue, scalars)
+      call find_asked(plan%channels, loaded%catalogue, scalars)
       if (size(scalars) == 0) then
          call set_error(error, exit_usage, "no channel selected in [output] has a numerical error: --accuracy controls "// &
                         "positions, velocities, forces and energies")
          return
       end if
-      allocate (warnings(0))
-      call limits_of(loaded%scene, loaded%system, catalogue, limits, warnings)
-      job%scene = loaded%scene
-      job%settings = loaded%scene%settings%dynamic%item_t
-      job%plan = loaded%plan
-      job%cpu = job%settings%number("limit_cpu")
-      job%stop = limits%stop
-      job%start = options%change%member
+      job = loaded%job_t
       asked = reshape([(scalars(k)%group, scalars(k)%component, scalars(k)%item, k=1, size(scalars))], [3, size(scalars)])
-      stride = ceiling(real(last_instant(loaded%plan) + 1, wp)*real(count_kept(catalogue) + 3*size(scalars), wp)/most_kept)
+      stride = ceiling(real(last_instant(loaded%plan) + 1, wp)*real(count_kept(loaded%catalogue) + 3*size(scalars), wp)/most_kept)
       plan%accuracy%asked = options%digits%accuracy
       call budget%begin(budget_of(options, loaded))
       call display%start(plan%with%progress)
-      call find_accuracy(job, budget, loaded%scene%settings%dynamic%word("method"), asked, stride, display, plan%accuracy)
+      call find_accuracy(job, budget, loaded%scene%settings%integration%method, asked, stride, display, plan%accuracy)
       call display%finish()
       if (plan%accuracy%end <= 0.0_wp) then
          if (len(plan%accuracy%reason) == 0) then
@@ -130,25 +111,13 @@ contains
          return
       end if
       do k = 1, size(plan%accuracy%extremes)
-         plan%accuracy%extremes(k)%name = scalar_name(catalogue, scalars(k))
-         plan%accuracy%extremes(k)%unit = catalogue%groups(scalars(k)%group)%channel%unit
+         plan%accuracy%extremes(k)%name = scalar_name(loaded%catalogue, scalars(k))
+         plan%accuracy%extremes(k)%unit = loaded%catalogue%groups(scalars(k)%group)%channel%unit
       end do
-      call put_number("tolerance", plan%accuracy%tolerance)
-      call put_number("step", 0.0_wp)
-
-   contains
-
-      !> Give a key of [analysis.dynamic] a number.
-      subroutine put_number(key, number)
-         character(*), intent(in) :: key     !! the key
-         real(wp), intent(in) :: number      !! its number [1 or s]
-
-         associate (value => loaded%scene%settings%dynamic%values(place_of(loaded%scene%settings%dynamic, key)))
-            value%number = number
-            value%given = number > 0.0_wp
-         end associate
-      end subroutine put_number
-
+      associate (controls => loaded%scene%settings%integration%controls)
+         controls%tolerance = plan%accuracy%tolerance
+         controls%fixed_step = 0.0_wp
+      end associate
    end subroutine choose_tolerance
 
    !> The channels that the deck's words name; without words positions, velocities and reactions.

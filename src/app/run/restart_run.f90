@@ -1,23 +1,17 @@
-!> Runs that are stopped and continue: what their options go together with, where they continue, the proof that it makes no
-!> difference.
+!> Runs that are stopped and continue: what their options go together with, the proof that it makes no difference.
 module restart_run
-   use checkpoint_file, only: checkpoint_name
    use errors, only: error_t, exit_different, exit_usage, set_error
    use hdf5_equal, only: compare_files
    use integrator, only: integrator_t
    use kinds, only: i8, wp
    use load, only: loaded_t
    use options, only: options_t
-   use output_directory, only: output_directory_t
-   use posix, only: path_exists, write_error
-   use recorder, only: status_complete
    use scene, only: analysis_dynamic, analysis_names
-   use source_text, only: read_source, source_t
    use standard_output, only: print_text
    use text, only: to_text
    implicit none (type, external)
    private
-   public :: check_restart, check_schedule, compare_restarted, open_directory
+   public :: check_restart, check_schedule, compare_restarted
 
 contains
 
@@ -65,44 +59,6 @@ contains
                                 "its integration method keeps an unsaved history", n_part > 1))//new_line("a")// &
                      "  = add to [analysis.dynamic]: checkpoint = 0.1 s, or checkpoint = 1 turns of a driver")
    end subroutine check_schedule
-
-   !> The directory of a run: a new one, or with `--resume` that of the run that continues.
-   subroutine open_directory(options, path, directory, goes_on, is_complete, error)
-      type(options_t), intent(in) :: options                 !! the command line
-      character(*), intent(in) :: path                       !! where it is
-      type(output_directory_t), intent(inout) :: directory   !! the directory
-      logical, intent(out) :: goes_on                        !! there is a checkpoint in it
-      logical, intent(out) :: is_complete                    !! there is a run in it that has come to its end: nothing is opened
-      type(error_t), allocatable, intent(out) :: error       !! it cannot be made, or is not free
-
-      goes_on = .false.
-      is_complete = .false.
-      if (options%restart%is_resumed) then
-         goes_on = path_exists(path//"/"//checkpoint_name)
-         is_complete = .not. goes_on .and. has_completed(path//"/summary.json")
-         if (is_complete) then
-            call write_error("note: the run in "//path//" is complete, there is nothing to resume"//new_line("a"))
-            return
-         end if
-         if (.not. goes_on) call write_error("note: no checkpoint in "//path//": the run starts at t = 0"//new_line("a"))
-      end if
-      if (goes_on) then
-         call directory%open_again(path, error)
-      else
-         call directory%open(path, error)
-      end if
-   end subroutine open_directory
-
-   !> Whether a run has come to its end, by its summary. One that failed, as for need of room on the disk, has not.
-   logical function has_completed(path)
-      character(*), intent(in) :: path      !! of the summary
-
-      character(:), allocatable :: message
-      type(source_t) :: summary
-
-      call read_source(path, summary, message, may_be_stream=.false.)
-      has_completed = message == "" .and. index(summary%text, """status"": """//status_complete//"""") > 0
-   end function has_completed
 
    !> Compare a run with one that was stopped and continued several times.
    subroutine compare_restarted(one, other, n_restart, is_quiet, error)

@@ -1,42 +1,22 @@
 !> `gudgeon run DECK`: which analysis, and the proof that a restart makes no difference.
 module verb_run
    use accurate_run, only: check_accuracy
+   use deck_run, only: run_analysis
    use errors, only: error_t, exit_stopped, exit_usage, set_error
    use exponent, only: horizon_t
    use kinds, only: wp
    use load, only: find_catalogue, load_deck, loaded_t
    use member_result, only: member_result_t
-   use motion_run, only: run_motion
    use options, only: options_t
    use output_size, only: check_size
    use output_tree, only: remove_run
    use processes, only: asked_by, take_memory
    use restart_run, only: check_restart, compare_restarted
    use run_place, only: directory_of
-   use scene, only: analysis_dynamic, analysis_kinematic, analysis_names, analysis_static
+   use scene, only: analysis_dynamic, analysis_names
    implicit none (type, external)
    private
    public :: run_deck, run_loaded
-
-   interface
-
-      !> Motion prescribed by drivers.
-      module subroutine run_prescribed(options, loaded, error)
-         implicit none (type, external)
-         type(options_t), intent(in) :: options               !! the command line
-         type(loaded_t), intent(inout) :: loaded              !! the deck
-         type(error_t), allocatable, intent(out) :: error     !! whatever went wrong
-      end subroutine run_prescribed
-
-      !> Equilibrium at rest.
-      module subroutine run_equilibrium(options, loaded, error)
-         implicit none (type, external)
-         type(options_t), intent(in) :: options               !! the command line
-         type(loaded_t), intent(inout) :: loaded              !! the deck
-         type(error_t), allocatable, intent(out) :: error     !! whatever went wrong
-      end subroutine run_equilibrium
-
-   end interface
 
 contains
 
@@ -72,17 +52,8 @@ contains
                         trim(analysis_names(loaded%scene%analysis)))
       end if
       if (allocated(error)) return
-      select case (loaded%scene%analysis)
-      case (analysis_kinematic)
-         call run_prescribed(options, loaded, error)
-      case (analysis_static)
-         call run_equilibrium(options, loaded, error)
-      case default
-         call run_motion(options, loaded, huge(1.0_wp), horizon, error, member)
-         if (options%restart%is_verified .and. .not. allocated(error)) then
-            call verify_restart(options, loaded%plan%end, horizon, error)
-         end if
-      end select
+      call run_analysis(options, loaded, huge(1.0_wp), horizon, error, member)
+      if (options%restart%is_verified .and. .not. allocated(error)) call verify_restart(options, loaded%plan%end, horizon, error)
    end subroutine run_loaded
 
    !> The run once more, stopped and resumed several times: it must be the same. Its horizon is that of the first one, as where the
@@ -110,7 +81,7 @@ contains
          if (allocated(error)) return
          if (k == 1) directory = directory_of(options, loaded)
          other%directory = directory//".restart"
-         call run_motion(other, loaded, merge(end*k/(n_restart + 1), huge(1.0_wp), k <= n_restart), horizon, error)
+         call run_analysis(other, loaded, merge(end*k/(n_restart + 1), huge(1.0_wp), k <= n_restart), horizon, error)
          deallocate (loaded)
          if (.not. allocated(error)) exit
          if (error%code /= exit_stopped .or. asked_by() /= 0) return

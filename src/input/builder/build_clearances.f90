@@ -6,9 +6,10 @@ module build_clearances
    use bearing_films, only: bearing_films_t, new_bearing_films
    use clearance_registry, only: n_clearance_kinds, new_clearance_set
    use clearance_set, only: clearance_set_t, clearance_slot_t
-   use columns, only: cell_index, cell_text, find_column
+   use columns, only: cell_index, cell_text
    use friction_law, only: friction_law_t
    use item, only: item_t, take_items
+   use joint_level, only: level_hybrid, level_ideal, level_lubricated, level_of
    use joint_registry, only: new_joint_set
    use joint_set, only: joint_set_t, joint_slot_t
    use kind_info, only: in_space, kind_info_t
@@ -52,7 +53,7 @@ contains
       n_ideal = 0
       do k = 1, n_clearance_kinds
          associate (items => scene%clearances(k)%items, info => scene%clearances(k)%info)
-            is_twin = [(is_ideal(scene, k, items(i), levels), i=1, size(items))]
+            is_twin = is_ideal(items, levels)
             is_done = is_twin
             do first = 1, size(items)
                if (is_done(first)) cycle
@@ -102,31 +103,22 @@ contains
    end function share_laws
 
    !> Whether a row becomes an ideal joint.
-   logical function is_ideal(scene, kind, item, levels)
-      type(scene_t), intent(in) :: scene  !! the scene
-      integer, intent(in) :: kind         !! number of the geometry
+   elemental logical function is_ideal(item, levels)
       type(item_t), intent(in) :: item    !! the row
       integer, intent(in) :: levels       !! how joints with clearance are taken
 
-      associate (info => scene%clearances(kind)%info)
-         is_ideal = find_column(info, "level") > 0
-         if (.not. is_ideal) return
-         is_ideal = levels == levels_ideal .or. (levels == levels_as_written .and. cell_text(info, item, "level") == "ideal")
-      end associate
+      is_ideal = (levels == levels_as_written .and. level_of(item) == level_ideal) .or. &
+                 (levels == levels_ideal .and. level_of(item) > 0)
    end function is_ideal
 
-   !> Whether any row, as it is written, becomes an ideal joint.
-   logical function has_ideal(scene)
+   !> Whether any row becomes an ideal joint.
+   logical function has_ideal(scene, levels)
       type(scene_t), intent(in) :: scene  !! the scene
+      integer, intent(in) :: levels       !! how joints with clearance are taken
 
-      integer :: i, k
+      integer :: k
 
-      has_ideal = .false.
-      do k = 1, n_clearance_kinds
-         do i = 1, size(scene%clearances(k)%items)
-            has_ideal = has_ideal .or. is_ideal(scene, k, scene%clearances(k)%items(i), levels_as_written)
-         end do
-      end do
+      has_ideal = any([(any(is_ideal(scene%clearances(k)%items, levels)), k=1, n_clearance_kinds)])
    end function has_ideal
 
    !> Rows of a geometry as the joint that it is without clearance.
@@ -182,7 +174,7 @@ contains
       call new_clearance_set(kind, slot%set)
       call choose_law(scene, scene%clearances(kind)%info, items(1), law)
       friction_law = cell_index(scene%clearances(kind)%info, items(1), "friction")
-      if (cell_text(scene%clearances(kind)%info, items(1), "level") == "lubricated") friction_law = 0  ! nothing touches
+      if (level_of(items(1)) == level_lubricated) friction_law = 0  ! nothing touches
       face_law = cell_index(scene%clearances(kind)%info, items(1), "face_law")
       if (friction_law > 0) allocate (friction, source=scene%frictions(friction_law)%law)
       ties = [(tie_of(scene, scene%clearances(kind)%info, items(i)), i=1, size(items))]
@@ -239,7 +231,7 @@ contains
       integer :: number
 
       number = cell_index(info, item, "law")
-      if (cell_text(info, item, "level") == "lubricated") number = 0
+      if (level_of(item) == level_lubricated) number = 0
       if (number == 0) then
          allocate (law_absent_t :: law)
          law%name = "none"
@@ -251,7 +243,7 @@ contains
          call new_law_part(law, 0.5_wp, part)
          call move_alloc(part, law)
       end if
-      if (cell_text(info, item, "level") /= "hybrid") return
+      if (level_of(item) /= level_hybrid) return
       if (.not. item%number("e_t0") > 0.0_wp) return
       call move_alloc(law, whole)
       allocate (faded)

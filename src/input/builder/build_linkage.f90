@@ -20,10 +20,10 @@ module build_linkage
    use scene, only: scene_t
    use scene_size, only: size_of_bodies
    use ties, only: find_joint, tie_of, tie_set, tie_t
-   use solver_registry, only: n_solver_kinds, new_solver
+   use solver_registry, only: choose_solver, find_solver
    implicit none (type, external)
    private
-   public :: add_joints, begin_linkage, choose_solver, count_sets, declare_rows
+   public :: add_joints, begin_linkage, count_sets, declare_rows, set_solver
 
    integer, parameter :: items_of_set = 256   !! of solved joints, at most: what a set computes stays in the processor's cache
 
@@ -49,7 +49,7 @@ contains
          call coordinates%find_masses(scene%bodies, linkage%mass)
       end associate
       linkage%scales%length = size_of_bodies(scene)
-      linkage%scales%tolerance = scene%settings%dynamic%number("tolerance")
+      linkage%scales%tolerance = scene%settings%integration%controls%tolerance
       linkage%scales%misfit = scene%settings%header%number("closing_tolerance")
       if (scene%settings%is_spatial) then
          call new_motion(n, linkage%motion, scene%bodies%spatial%own)
@@ -198,26 +198,22 @@ contains
       call linkage%make_storage
    end subroutine declare_rows
 
-   !> The solver the deck asks for; `auto` is the cheaper of the Schur complement and the sparse matrix.
-   subroutine choose_solver(scene, way, linkage)
+   !> The solver that is asked for, or that the stabilisation method needs; else the one that suits the equations.
+   subroutine set_solver(scene, needed, linkage)
       type(scene_t), intent(in) :: scene              !! the scene
-      character(*), intent(in) :: way                 !! word of the stabilisation method
+      character(*), intent(in) :: needed              !! solver of the stabilisation method; blank: any
       type(linkage_t), intent(inout) :: linkage       !! the solver is set
 
-      character(:), allocatable :: word
-      integer :: k
-
-      word = scene%settings%dynamic%word("solver")
-      if (word == "auto") then
-         word = "sparse"
-         if (schur_is_cheap(linkage%rows)) word = "schur"
-         if (way == "augmented_lagrangian") word = way
-      end if
-      do k = 1, n_solver_kinds
-         call new_solver(k, linkage%solution%solver)
-         if (linkage%solution%solver%name() == word) exit
-      end do
+      associate (asked => scene%settings%integration%solver%name)
+         if (asked /= "") then
+            call find_solver(asked, linkage%solution%solver)
+         else if (needed /= "") then
+            call find_solver(needed, linkage%solution%solver)
+         else
+            call choose_solver(schur_is_cheap(linkage%rows), linkage%solution%solver)
+         end if
+      end associate
       call linkage%solution%solver%prepare(linkage%bodies%n, linkage%rows)
-   end subroutine choose_solver
+   end subroutine set_solver
 
 end module build_linkage

@@ -7,7 +7,7 @@ module build_prescribed
    use find_one_dof, only: find_one_dof_bodies, guide_t
    use find_prescribed, only: find_prescribed_bodies, link_t
    use, intrinsic :: ieee_arithmetic, only: ieee_is_finite
-   use item, only: place_of
+   use integration_method, only: abilities_t
    use joint_registry, only: n_joint_kinds
    use joint_set, only: joint_set_t
    use kind_info, only: leaves_way
@@ -61,6 +61,7 @@ contains
       logical, intent(in) :: with_start_rows         !! whether rows that hold only at the start take part
       type(reduction_t), intent(out) :: reduction    !! what leaves
 
+      type(abilities_t) :: can
       logical :: is_known(0:scene%bodies%n)
       integer :: k
 
@@ -72,7 +73,7 @@ contains
       if (scene%analysis /= analysis_dynamic) return
       call find_prescribed_bodies(scene, reduction%links)
       reduction%is_driven(reduction%links%body) = .true.
-      if (scene%settings%dynamic%word("coordinates") == "full") reduction%links = reduction%links(:0)
+      if (.not. scene%settings%integration%is_reduced) reduction%links = reduction%links(:0)
       ! without any unknown nothing would control the step, and the works would be as good as chance; what else moves, and has
       ! nothing to do with them, knows nothing of the step that they need
       if (size(reduction%links) == scene%bodies%n) then
@@ -87,10 +88,9 @@ contains
             if (links(k)%driver > 0) reduction%choices(links(k)%driver)%is_fixing(links(k)%driving) = .true.
          end do
          if (with_start_rows) return
-         if (scene%settings%dynamic%word("coordinates") == "full") return
-         associate (method => scene%settings%dynamic%values(place_of(scene%settings%dynamic, "method"))%text)
-            if (method == "ida" .or. (method == "bdf" .and. is_large(scene))) return
-         end associate
+         if (.not. scene%settings%integration%is_reduced) return
+         can = scene%settings%integration%can()
+         if (can%solves_dae .or. (can%has_sparse_newton .and. is_large(scene))) return
          is_known = .false.
          is_known([0, links%body]) = .true.
       end associate

@@ -4,7 +4,7 @@
 module build_system
    use build_clearances, only: add_clearances, levels_as_written, levels_ideal, levels_clearance_joints
    use build_prescribed, only: choose_bodies, reduction_t, set_one_dof, set_prescribed, start_angles
-   use build_linkage, only: add_joints, begin_linkage, choose_solver, count_sets, declare_rows
+   use build_linkage, only: add_joints, begin_linkage, count_sets, declare_rows, set_solver
    use clearance_set, only: clearance_set_t, n_integrand
    use contact_places, only: place_of_film_loss, slip_function, touch_function, transition_function, turn_function
    use find_prescribed, only: has_smooth_cells
@@ -12,8 +12,8 @@ module build_system
    use friction_law, only: memory_bristle, memory_slip
    use stick_slip_forces, only: new_stick_slip_forces
    use stabilisation, only: stabilisation_t
-   use stabilisation_registry, only: n_stabilisation_kinds, new_stabilisation
-   use item, only: option_t, place_of
+   use stabilisation_registry, only: choose_stabilisation, find_stabilisation
+   use integration_method, only: abilities_t
    use joint_registry, only: n_joint_kinds
    use kinds, only: wp
    use loading, only: loading_t, start_loads
@@ -38,6 +38,7 @@ contains
       type(mechanism_t), intent(out) :: system  !! the system
       logical, intent(in), optional :: is_for_start !! with the rows that hold only at the start; absent: without
 
+      type(abilities_t) :: can
       type(reduction_t) :: reduction
       logical :: is_taken(n_joint_kinds), with_start_rows
       integer :: k, n
@@ -49,7 +50,7 @@ contains
       do k = 1, n_joint_kinds
          is_taken(k) = with_start_rows .or. .not. scene%joints(k)%info%is_start_only
       end do
-      system%ledger%is_kept = scene%settings%dynamic%flag("ledger") .and. scene%analysis == analysis_dynamic
+      system%ledger%is_kept = scene%settings%integration%has_ledger .and. scene%analysis == analysis_dynamic
       system%ledger%has_energies = system%ledger%is_kept .or. scene%analysis /= analysis_dynamic
       call choose_bodies(scene, levels, with_start_rows, reduction)
       associate (choices => reduction%choices, linkage => system%linkage)
@@ -68,8 +69,8 @@ contains
          system%n_row = linkage%rows%n_solve
          system%n_position = linkage%n_position
          if (linkage%coordinates%turns_in_body) system%traits%n_turning = linkage%rows%n_unknown
-         call choose_stabilisation(scene, system)
-         call choose_solver(scene, system%way%name(), linkage)
+         call set_stabilisation(scene, system)
+         call set_solver(scene, system%way%solver(), linkage)
       end associate
       call system%set_step(huge(1.0_wp))  ! gains and penalties that do not wait for a step
       call add_loads(scene, system%linkage%coordinates%n_v, system%clearance_joints%n, system%linkage%motion, system%loading)
@@ -87,7 +88,8 @@ contains
       system%is_large = is_large(scene) .and. system%linkage%reduced%one_dof%n == 0 .and. system%friction%rubbing%n == 0 &
                         .and. system%friction%stick_slips%n_bristle == 0 .and. .not. sees_motion(scene)
       ! forces of contacts that stick hang on all that they are joined with, which the pattern of a Newton matrix does not know
-      if (system%friction%stick_slips%n_slip > 0 .and. scene%settings%dynamic%word("method") == "ida") system%is_large = .false.
+      can = scene%settings%integration%can()
+      if (system%friction%stick_slips%n_slip > 0 .and. can%solves_dae) system%is_large = .false.
       call bind_reactions(system)
       call system%choose_form()
    end subroutine new_system
@@ -175,38 +177,25 @@ contains
       end do
    end subroutine add_loads
 
-   !> The stabilisation method that the deck asks for. `auto` is projection, which leaves neither violations nor the
-   !> traces of gains in the motion; nothing where there is nothing to hold or the integrator holds by itself; Baumgarte's
-   !> stabilisation where a driver jumps, because a jump cannot be projected.
-   subroutine choose_stabilisation(scene, system)
+   !> The stabilisation method that is asked for, or the one that suits the system.
+   subroutine set_stabilisation(scene, system)
       type(scene_t), intent(in) :: scene              !! the scene
       type(mechanism_t), intent(inout) :: system  !! the way is set
 
       class(stabilisation_t), allocatable :: way
-      character(:), allocatable :: word
-      integer :: k
+      type(abilities_t) :: can
 
-      associate (value => scene%settings%dynamic%values(place_of(scene%settings%dynamic, "stabilise")), &
-                 tolerance => scene%settings%dynamic%number("tolerance"))
-         word = value%text
-         if (word == "auto") then
-            word = "projection"
-            if (.not. all_smooth(scene)) word = "baumgarte"
-            if (system%linkage%rows%n_solve == 0 .or. &
-                scene%settings%dynamic%word("method") == "ida") word = "none"
-         end if
-         do k = 1, n_stabilisation_kinds
-            call new_stabilisation(k, way)
-            if (way%name() == word) exit
-         end do
-         if (allocated(value%options)) then
-            call way%configure(value%options, tolerance)
+      can = scene%settings%integration%can()
+      associate (asked => scene%settings%integration%stabilisation)
+         if (asked%name /= "") then
+            call find_stabilisation(asked%name, way)
          else
-            call way%configure([option_t ::], tolerance)
+            call choose_stabilisation(system%linkage%rows%n_solve > 0 .and. .not. can%solves_dae, all_smooth(scene), way)
          end if
+         call way%configure(asked%options, scene%settings%integration%controls%tolerance)
       end associate
       call system%take_way(way)
-   end subroutine choose_stabilisation
+   end subroutine set_stabilisation
 
    !> Whether no driver jumps.
    pure logical function all_smooth(scene)

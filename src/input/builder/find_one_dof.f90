@@ -71,7 +71,7 @@ contains
       do k = 1, n_clearance_kinds
          associate (items => scene%clearances(k)%items)
             do i = 1, size(items)
-               if (.not. is_ideal(scene, k, items(i), levels)) cycle
+               if (.not. is_ideal(items(i), levels)) cycle
                tie = tie_of(scene, scene%clearances(k)%info, items(i))
                call count_pair(tie%body)
             end do

@@ -293,6 +293,7 @@ contains
       one%lubrication = scene%lubrication
       one%analysis = scene%analysis
       one%settings%dynamic = scene%settings%dynamic
+      one%settings%integration = scene%settings%integration
       one%settings%is_spatial = scene%settings%is_spatial
       one%settings%header = scene%settings%header
       do k = 1, n_joint_kinds

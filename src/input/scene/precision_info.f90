@@ -6,15 +6,18 @@
 module precision_info
    use columns, only: column_of
    use diagnostics, only: diagnostics_t
+   use integration_method, only: abilities_t
+   use integration_settings, only: chosen, integration_t, places_t, takes_steps
+   use integrator_registry, only: abilities_of, reference_methods
    use item, only: item_t, place_of
    use kind_info, only: add_number, add_word, add_words, dim_none, dim_time, kind_info_t
    use kinds, only: min_tolerance, wp
    use section_info, only: dynamic_info
    use spelling, only: nearest_word
-   use text, only: append_text, segment, split_blank, text_t
+   use text, only: append_text, split_blank, text_t
    implicit none (type, external)
    private
-   public :: check_precision, check_setting_word, precision_section, setting_t, settings_of
+   public :: check_precision, check_setting_word, precision_section, reference_setting, setting_t, settings_of
 
    character(*), parameter :: keys(3) = [character(9) :: "method", "stabilise", "solver"]      !! of [analysis.dynamic]
    character(*), parameter :: sorts(3) = [character(30) :: "method", "stabilisation method", "solver"]  !! as text
@@ -25,6 +28,8 @@ module precision_info
       character(:), allocatable :: way     !! of holding the constraints, or blank
       character(:), allocatable :: solver  !! of the augmented equations, or blank
    contains
+      procedure :: apply
+      procedure :: has_fixed_steps
       procedure :: word
    end type setting_t
 
@@ -82,13 +87,46 @@ contains
    end function choices_of
 
    !> What a star stands for: all words of a key but `auto`, which is one of the others, chosen for the deck.
-   function all_of(key) result(words)
-      character(*), intent(in) :: key         !! method, stabilise or solver
-      character(:), allocatable :: words      !! blank-separated
+   function all_of(key) result(list)
+      character(*), intent(in) :: key           !! method, stabilise or solver
+      type(text_t), allocatable :: list(:)      !! (n) words
 
-      words = choices_of(key)
-      if (index(words, "auto ") == 1) words = segment(words, 6)
+      type(abilities_t) :: can
+      type(text_t), allocatable :: words(:)
+      integer :: k
+
+      words = split_blank(choices_of(key))
+      allocate (list(0))
+      do k = 1, size(words)
+         if (key == keys(1)) can = abilities_of(words(k)%s)
+         if (words(k)%s /= chosen .and. can%parts == "") call append_text(list, words(k)%s)
+      end do
    end function all_of
+
+   !> Give settings of an integration this one; with a tolerance or a step.
+   subroutine apply(self, asked, settings)
+      class(setting_t), intent(in) :: self               !! the setting
+      real(wp), intent(in) :: asked                      !! tolerance, or length of fixed steps [1 or s]
+      type(integration_t), intent(inout) :: settings     !! changed
+
+      settings%method = self%method
+      call settings%stabilisation%take(self%way)
+      call settings%solver%take(self%solver)
+      settings%controls%fixed_step = 0.0_wp
+      if (self%has_fixed_steps()) then
+         settings%controls%fixed_step = asked
+      else
+         settings%controls%tolerance = asked
+      end if
+      settings%places = places_t()
+   end subroutine apply
+
+   !> Whether its sequence is one of steps.
+   logical function has_fixed_steps(self)
+      class(setting_t), intent(in) :: self    !! the setting
+
+      has_fixed_steps = takes_steps(self%method, self%way)
+   end function has_fixed_steps
 
    !> The word that names a setting.
    pure function word(self) result(name)
@@ -99,6 +137,18 @@ contains
       if (self%way /= "") name = name//"."//self%way
       if (self%solver /= "") name = name//"."//self%solver
    end function word
+
+   !> The setting of runs that report something of a motion before others: the first method that confirms others.
+   type(setting_t) function reference_setting(way) result(setting)
+      character(*), intent(in) :: way      !! stabilisation method; blank: as the deck has it
+
+      type(text_t), allocatable :: names(:)
+
+      names = reference_methods(with_stiff=.false.)
+      setting%method = names(1)%s  ! one by one: of the constructor gfortran 12 makes the length zero
+      setting%way = way
+      setting%solver = ""
+   end function reference_setting
 
    !> What is wrong with the section.
    subroutine check_precision(item, diagnostics)
@@ -194,7 +244,7 @@ contains
          if (place > size(parts)) then
             call append_text(list, "")
          else if (parts(place)%s == "*") then
-            list = split_blank(all_of(keys(place)))
+            list = all_of(keys(place))
          else
             call append_text(list, parts(place)%s)
          end if

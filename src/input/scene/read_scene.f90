@@ -9,6 +9,7 @@ module read_scene
    use force_registry, only: n_force_kinds
    use item, only: place_of
    use imsl_names, only: fold_imsl_names
+   use integration_settings, only: read_integration
    use joint_registry, only: n_joint_kinds
    use kind_info, only: is_of_space, kind_info_t
    use kind_list, only: clearance_info, force_info, joint_info, kind_named, known
@@ -80,6 +81,7 @@ contains
 
       integer :: k
 
+      call read_integration(scene%settings%dynamic%item_t, scene%settings%integration)
       scene%analysis = findloc(scene%settings%has_analysis, .true., dim=1)
       scene%title = scene%settings%header%word("title")
       scene%gravity = scene%settings%header%values(place_of(scene%settings%header, "gravity"))%vector%x

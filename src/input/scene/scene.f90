@@ -8,6 +8,7 @@ module scene
    use film_registry, only: n_film_kinds
    use force_registry, only: n_force_kinds
    use function_registry, only: n_function_kinds
+   use integration_settings, only: integration_t
    use item, only: item_t
    use joint_registry, only: n_joint_kinds
    use kind_info, only: kind_info_t
@@ -64,7 +65,8 @@ module scene
       type(section_t) :: header                       !! of the scene itself
       logical :: is_spatial = .false.                 !! whether bodies move in space, not in the plane x, y
       logical :: has_analysis(n_analysis) = .false.   !! (analyses) which analyses the deck has
-      type(section_t) :: dynamic                      !! [analysis.dynamic]
+      type(section_t) :: dynamic                      !! [analysis.dynamic] as the deck has it
+      type(integration_t) :: integration              !! what it and the command line set, as values
       type(section_t) :: kinematic                    !! [analysis.kinematic]
       type(section_t) :: static                       !! [analysis.static]
       type(section_t) :: guards                       !! limits and conditions of a run

@@ -2,7 +2,7 @@
 module scene_checks
    use clearance_registry, only: n_clearance_kinds, new_clearance_set
    use clearance_set, only: clearance_set_t
-   use columns, only: cell_index, cell_text, column_of, find_column
+   use columns, only: cell_index, column_of, find_column
    use deck_types, only: add_default, deck_t
    use diagnostics, only: diagnostics_t
    use film_law, only: film_bearing_t, n_film_parameter
@@ -10,6 +10,7 @@ module scene_checks
    use friction_law, only: memory_slip
    use force_registry, only: n_force_kinds
    use item, only: item_t
+   use joint_level, only: level_clearance, level_ideal, level_of
    use joint_registry, only: n_joint_kinds
    use kind_info, only: dim_angle, dim_length, dim_t, kind_info_t, leaves_turn, leaves_way, same_dimension
    use kinds, only: wp
@@ -303,7 +304,7 @@ contains
       column = 0
       message = ""
       help = ""
-      if (cell_text(info, item, "level") == "ideal") return
+      if (level_of(item) == level_ideal) return
       call set%describe(item, scene%materials, pair)
       law_number = cell_index(info, item, "law")
       if (law_number > 0) call scene%laws(law_number)%law%fit(pair, parameters, message, help)
@@ -339,7 +340,7 @@ contains
       integer :: film
 
       film = cell_index(info, item, "film")
-      if (film == 0 .or. cell_text(info, item, "level") == "clearance") return
+      if (film == 0 .or. level_of(item) == level_clearance) return
       bearing = film_bearing_of(pair, place_of_film(item, scene%lubrication%oils))
       associate (law => scene%lubrication%films(film)%law)
          call law%fit(bearing, parameters, message, help)

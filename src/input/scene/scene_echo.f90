@@ -15,6 +15,8 @@ contains
       type(scene_t), intent(in) :: scene   !! the scene
       character(:), allocatable :: text    !! a deck
 
+      type(section_t) :: dynamic
+
       text = "# the deck with all defaults, in SI units"//new_line("a")//echo_start(deck)//new_line("a")// &
              echo_settings(scene%settings%header%info, scene%settings%header%item_t)
       call add(scene%tables%functions)
@@ -26,7 +28,9 @@ contains
       call add(scene%tables%frictions)
       call add(scene%tables%films)
       call add(scene%tables%requests)
-      call add_section(scene%settings%has_analysis(analysis_dynamic), scene%settings%dynamic)
+      dynamic = scene%settings%dynamic
+      call scene%settings%integration%write(dynamic%item_t)
+      call add_section(scene%settings%has_analysis(analysis_dynamic), dynamic)
       call add_section(scene%settings%has_analysis(analysis_kinematic), scene%settings%kinematic)
       call add_section(scene%settings%has_analysis(analysis_static), scene%settings%static)
       call add_section(scene%settings%guards%is_present, scene%settings%guards)

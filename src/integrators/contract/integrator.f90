@@ -6,8 +6,8 @@
 module integrator
    use archive, only: archive_t
    use integrator_controls, only: controls_t, norm_absolute, norm_euclidean, norm_mixed, norm_relative, onset_located
+   use integration_method, only: method_t
    use interpolation, only: fit_inner, inner_places, interpolate, step_t
-   use kind_info, only: kind_info_t
    use kinds, only: i8, wp
    use ode_system, only: ode_system_t
    implicit none (type, external)
@@ -16,7 +16,6 @@ module integrator
       kept_places
    public :: advance_event, advance_failed_evaluation, advance_no_memory, advance_step, advance_too_many_evaluations, &
       advance_too_many_steps, advance_too_small
-   public :: steps_any, steps_fixed, steps_variable
 
    integer, parameter :: advance_step = 0                   !! a step was made
    integer, parameter :: advance_event = 1                  !! a step was made, to an event
@@ -25,10 +24,6 @@ module integrator
    integer, parameter :: advance_too_many_evaluations = -3  !! MXFCN reached
    integer, parameter :: advance_failed_evaluation = -4     !! the right-hand side cannot be evaluated
    integer, parameter :: advance_no_memory = -5             !! no memory for the method's matrices
-
-   integer, parameter :: steps_any = 0        !! fixed steps, or variable ones
-   integer, parameter :: steps_fixed = 1      !! fixed steps only
-   integer, parameter :: steps_variable = 2   !! variable steps only
 
    integer, parameter :: base_version = 2     !! of the form of what every integrator saves
    integer, parameter :: kept_places = 5      !! places of a step that a search keeps at once
@@ -77,7 +72,7 @@ module integrator
    end type step_count_t
 
    !> An integrator with its state.
-   type, abstract :: integrator_t
+   type, abstract, extends(method_t) :: integrator_t
       type(controls_t) :: controls              !! what the user set
       type(step_t) :: step                      !! the last step; its end is the present state
       real(wp) :: t = 0.0_wp                    !! present time [s]
@@ -88,14 +83,10 @@ module integrator
       type(onset_values_t) :: onset             !! those of onsets, if they are not located
       type(step_count_t) :: count               !! steps and evaluations
    contains
-      procedure(info_interface), nopass, deferred :: info
       procedure(start_interface), deferred :: start
       procedure(advance_interface), deferred :: advance
       procedure(restart_interface), deferred :: restart
       procedure(refine_interface), deferred :: refine
-      procedure, nopass :: steps => integrator_steps
-      procedure :: is_explicit => integrator_is_explicit
-      procedure, nopass :: begins_anew => integrator_begins_anew
       procedure :: prepare_output => integrator_prepare_output
       procedure :: within => integrator_within
       procedure, non_overridable :: state_at => integrator_state_at
@@ -108,13 +99,6 @@ module integrator
    end type integrator_t
 
    abstract interface
-      !> Description of the method.
-      function info_interface() result(info)
-         import :: kind_info_t
-         implicit none (type, external)
-         type(kind_info_t) :: info  !! name and help
-      end function info_interface
-
       !> Start at a state.
       subroutine start_interface(self, system, t, y, t_end, status)
          import :: integrator_t, ode_system_t, wp
@@ -256,23 +240,6 @@ contains
       if (.not. system%traits%with_quadratures) n = n - system%n_quadrature
       call interpolate(self%step, system%n_position, system%traits%n_turning, s, n, y)
    end subroutine integrator_within
-
-   !> Whether what decays fast keeps the steps short, however little it moves; a method for stiff equations overrides this.
-   pure logical function integrator_is_explicit(self)
-      class(integrator_t), intent(in) :: self  !! the integrator
-
-      integrator_is_explicit = .true.
-   end function integrator_is_explicit
-
-   !> Which steps a method makes.
-   pure integer function integrator_steps() result(steps)
-      steps = steps_any
-   end function integrator_steps
-
-   !> Whether a method that takes back what it remembers starts anew, as its history is not saved: most have none.
-   pure logical function integrator_begins_anew() result(begins_anew)
-      begins_anew = .false.
-   end function integrator_begins_anew
 
    !> Storage for states and event functions, made once.
    subroutine make_storage(self, system)

@@ -11,7 +11,7 @@ module integrator_controls
    private
    public :: add_control_columns, add_onset_options, controls_t, read_controls
    public :: norm_absolute, norm_euclidean, norm_mixed, norm_relative, norm_scaled
-   public :: onset_interpolate, onset_located, onset_reject, onset_uncontrolled
+   public :: onset_interpolate, onset_located, onset_reject, onset_uncontrolled, onset_words
 
    integer, parameter :: norm_mixed = 0       !! IMSL INORM = 0: |e| / max(|y|, 1), maximum entry
    integer, parameter :: norm_absolute = 1    !! IMSL INORM = 1: |e|, maximum entry
@@ -23,6 +23,10 @@ module integrator_controls
    integer, parameter :: onset_interpolate = 1   !! linear interpolation back to the onset
    integer, parameter :: onset_reject = 2        !! steps that penetrate more than a limit are halved
    integer, parameter :: onset_uncontrolled = 3  !! a contact starts where the step ends that finds it
+
+   !> The norms and the treatments of onsets as text.
+   character(*), parameter :: norm_words(-1:3) = [character(9) :: "scaled", "mixed", "absolute", "relative", "euclidean"]
+   character(*), parameter :: onset_words(0:3) = [character(12) :: "located", "interpolate", "reject", "uncontrolled"]
 
    real(wp), parameter :: default_limit = 1.0e-7_wp  !! penetration at an onset found by rejection [m]
 
@@ -108,20 +112,9 @@ contains
       controls%maximum_steps = int(item%number("maximum_steps"), i8)
       controls%maximum_evaluations = int(item%number("maximum_evaluations"), i8)
       controls%floor = item%number("floor")
-      select case (item%word("norm"))
-      case ("mixed"); controls%norm = norm_mixed
-      case ("absolute"); controls%norm = norm_absolute
-      case ("relative"); controls%norm = norm_relative
-      case ("euclidean"); controls%norm = norm_euclidean
-      case default; controls%norm = norm_scaled
-      end select
+      controls%norm = findloc(norm_words == item%word("norm"), .true., dim=1) - 1 + lbound(norm_words, 1)
       associate (value => item%values(place_of(item, "contact_onset")))
-         select case (value%text)
-         case ("interpolate"); controls%onset = onset_interpolate
-         case ("reject"); controls%onset = onset_reject
-         case ("uncontrolled"); controls%onset = onset_uncontrolled
-         case default; controls%onset = onset_located
-         end select
+         controls%onset = findloc(onset_words == value%text, .true., dim=1) - 1 + lbound(onset_words, 1)
          if (allocated(value%options)) then
             do k = 1, size(value%options)
                controls%onset_limit = value%options(k)%number

@@ -16,7 +16,6 @@ contains
 
    !> Write what every integrator keeps: time, state, derivative, event functions, contacts passed over and counters.
    module procedure save_base
-      type(kind_info_t) :: info
       integer :: k
 
       call archive%begin("the state", base_version)
@@ -39,8 +38,7 @@ contains
          call archive%put(self%events%is_hidden(k))
          call archive%put(self%onset%is_waiting(k))
       end do
-      info = self%info()
-      call archive%begin("method = "//info%name, self%memory_version())
+      call archive%begin("method = "//self%name(), self%memory_version())
    end procedure save_base
 
    !> Read what every integrator keeps. The last step itself is over: its length is set to zero.

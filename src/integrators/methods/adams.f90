@@ -9,6 +9,7 @@
 !> Source: A. C. Hindmarsh et al., SUNDIALS, ACM Trans. Math. Softw. 31 (2005) 363-396.
 module adams
    use cvode_library, only: cvode_library_t
+   use integration_method, only: abilities_t, steps_variable
    use kind_info, only: kind_info_t
    use multistep, only: multistep_t
    implicit none (type, external)
@@ -19,6 +20,7 @@ module adams
    type, extends(multistep_t) :: adams_t
    contains
       procedure, nopass :: info => adams_info
+      procedure, nopass :: abilities => adams_abilities
       procedure :: make_library => adams_make_library
    end type adams_t
 
@@ -32,6 +34,11 @@ contains
       info%help = "Adams-Moulton, variable order and step (CVODE): implicit, for smooth motion at tight tolerances"
       info%source = "Hindmarsh et al. (2005)"
    end function adams_info
+
+   !> A method for smooth motion.
+   pure type(abilities_t) function adams_abilities() result(can)
+      can = abilities_t(steps=steps_variable, begins_anew=.true., reference_place=2)
+   end function adams_abilities
 
    !> CVODE.
    subroutine adams_make_library(self)

@@ -11,13 +11,13 @@
 !>
 !> Source: L. Petzold, Automatic selection of methods for solving stiff and nonstiff systems of ordinary differential
 !> equations, SIAM J. Sci. Stat. Comput. 4 (1983) 136-148; E. Hairer and G. Wanner, Solving Ordinary Differential Equations II,
-!> 2nd ed. (1996), section IV.2. Limits: fixed steps, and onsets of contacts that are not located, are those of `verner`
-!> throughout.
+!> 2nd ed. (1996), section IV.2. Limits: fixed steps, and onsets of contacts that are not located, are those of `verner`.
 module auto
    use archive, only: archive_t
    use dop853, only: dop853_t
    use dop853_stages, only: dop853_bound, dop853_stages_t
    use integrator, only: advance_failed_evaluation, advance_no_memory, advance_step, advance_too_small
+   use integration_method, only: abilities_t
    use integrator_controls, only: controls_t, norm_euclidean, onset_located
    use kind_info, only: kind_info_t
    use kinds, only: i8, wp
@@ -63,8 +63,9 @@ module auto
       procedure, nopass :: memory_version => auto_memory_version
       procedure :: save => auto_save
       procedure :: load => auto_load
-      procedure :: parts_in_words
-      procedure :: choice_in_words
+      procedure, nopass :: abilities => auto_abilities
+      procedure :: words => auto_says
+      procedure :: trial_evaluations => auto_trial_evaluations
    end type auto_t
 
    interface
@@ -103,25 +104,27 @@ module auto
          real(wp), intent(in) :: t                     !! time [s]
          real(wp), intent(inout) :: y(system%n)        !! (n) state [any]
       end subroutine auto_reach
-   end interface
 
-   interface
-      !> What there is to choose from, by the controls.
-      module function parts_in_words(self) result(words)
-         implicit none (type, external)
-         class(auto_t), intent(in) :: self      !! the integrator, with its controls
-         character(:), allocatable :: words     !! a line
-      end function parts_in_words
-
-      !> What was chosen, when and why.
-      module function choice_in_words(self) result(words)
+      !> Evaluations of trials of the implicit method.
+      pure integer(i8) module function auto_trial_evaluations(self) result(n)
          implicit none (type, external)
          class(auto_t), intent(in) :: self      !! the integrator, after a run
-         character(:), allocatable :: words     !! part of a line
-      end function choice_in_words
-   end interface
+      end function auto_trial_evaluations
 
-   interface
+      !> What it can do.
+      pure module function auto_abilities() result(can)
+         implicit none (type, external)
+         type(abilities_t) :: can               !! it makes steps of others
+      end function auto_abilities
+
+      !> What there is to choose from, by the controls; or what was chosen, when and why.
+      module function auto_says(self, has_run) result(words)
+         implicit none (type, external)
+         class(auto_t), intent(in) :: self      !! the integrator, with its controls
+         logical, intent(in) :: has_run         !! after a run
+         character(:), allocatable :: words     !! part of a line
+      end function auto_says
+
       !> The implicit part gets what every integrator keeps; it is made when it is requested first.
       module subroutine lend_state(self, system, status)
          implicit none (type, external)
@@ -143,9 +146,7 @@ module auto
          implicit none (type, external)
          class(auto_t), intent(inout) :: self       !! the integrator
       end subroutine take_state
-   end interface
 
-   interface
       !> Version of the form of what is saved.
       pure integer module function auto_memory_version() result(version)
          implicit none (type, external)

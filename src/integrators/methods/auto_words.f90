@@ -6,23 +6,48 @@ submodule(auto) auto_words
 
 contains
 
-   !> What there is to choose from.
-   module procedure parts_in_words
-      logical :: may_change
+   !> Evaluations of trials.
+   module procedure auto_trial_evaluations
+      n = self%choice%n_tried
+   end procedure auto_trial_evaluations
 
-      may_change = self%controls%fixed_step <= 0.0_wp .and. self%controls%onset == onset_located
-      if (.not. may_change) then
+   !> It makes the steps of its parts.
+   module procedure auto_abilities
+      can = abilities_t(parts="dop853 verner radau")
+   end procedure auto_abilities
+
+   !> What there is to choose from, or what was chosen.
+   module procedure auto_says
+      if (has_run) then
+         words = self%name()//" ("//what_was_chosen(self)//")"
+      else
+         words = what_there_is(self)
+      end if
+   end procedure auto_says
+
+   !> What there is to choose from.
+   function what_there_is(self) result(words)
+      class(auto_t), intent(in) :: self      !! the integrator, with its controls
+      character(:), allocatable :: words     !! a line
+
+      logical :: changes
+
+      changes = self%controls%fixed_step <= 0.0_wp .and. self%controls%onset == onset_located
+      if (.not. changes) then
          words = "steps of verner, as they are fixed or the contact onset is not located"
       else if (self%controls%tolerance <= order_8_up_to) then
          words = "explicit steps of order 8 (dop853: the tolerance is at most "//real_text(order_8_up_to, 1)//")"
       else
          words = "explicit steps of order 6 (verner: the tolerance is above "//real_text(order_8_up_to, 1)//")"
       end if
-      if (may_change) words = words//"; implicit steps (radau) while stability limits these and radau takes fewer evaluations"
-   end procedure parts_in_words
+      if (changes) words = words//"; implicit steps (radau) while stability limits these and radau takes fewer evaluations"
+   end function what_there_is
 
    !> What was chosen, when and why.
-   module procedure choice_in_words
+   function what_was_chosen(self) result(words)
+      class(auto_t), intent(in) :: self      !! the integrator, after a run
+      character(:), allocatable :: words     !! part of a line
+
       integer :: k
 
       words = trim(merge("dop853", "verner", self%is_eighth))
@@ -37,6 +62,6 @@ contains
          if (choice%n_change > most_changes) words = words//", "//to_text(choice%n_change)//" switches in total"
          words = words//")"
       end associate
-   end procedure choice_in_words
+   end function what_was_chosen
 
 end submodule auto_words

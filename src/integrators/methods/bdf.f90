@@ -11,6 +11,7 @@
 !> Source: A. C. Hindmarsh et al., SUNDIALS, ACM Trans. Math. Softw. 31 (2005) 363-396.
 module bdf
    use cvode_library, only: cvode_library_t
+   use integration_method, only: abilities_t, steps_variable
    use kind_info, only: kind_info_t
    use multistep, only: multistep_t
    implicit none (type, external)
@@ -21,7 +22,7 @@ module bdf
    type, extends(multistep_t) :: bdf_t
    contains
       procedure, nopass :: info => bdf_info
-      procedure :: is_explicit => bdf_is_explicit
+      procedure, nopass :: abilities => bdf_abilities
       procedure :: make_library => bdf_make_library
    end type bdf_t
 
@@ -48,10 +49,9 @@ contains
    end subroutine bdf_make_library
 
    !> A method for stiff equations.
-   pure logical function bdf_is_explicit(self)
-      class(bdf_t), intent(in) :: self  !! the integrator
-
-      bdf_is_explicit = .false.
-   end function bdf_is_explicit
+   pure type(abilities_t) function bdf_abilities() result(can)
+      can = abilities_t(steps=steps_variable, begins_anew=.true., is_explicit=.false., is_stiff=.true., has_sparse_newton=.true., &
+                        reference_place=3)
+   end function bdf_abilities
 
 end module bdf

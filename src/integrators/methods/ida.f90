@@ -16,6 +16,7 @@
 !> of all rows, is refused there.
 module ida
    use ida_library, only: ida_library_t
+   use integration_method, only: abilities_t, steps_variable
    use kind_info, only: kind_info_t
    use multistep, only: multistep_t
    implicit none (type, external)
@@ -26,7 +27,7 @@ module ida
    type, extends(multistep_t) :: ida_t
    contains
       procedure, nopass :: info => ida_info
-      procedure :: is_explicit => ida_is_explicit
+      procedure, nopass :: abilities => ida_abilities
       procedure :: make_library => ida_make_library
    end type ida_t
 
@@ -55,10 +56,9 @@ contains
    end subroutine ida_make_library
 
    !> A method for stiff equations.
-   pure logical function ida_is_explicit(self)
-      class(ida_t), intent(in) :: self  !! the integrator
-
-      ida_is_explicit = .false.
-   end function ida_is_explicit
+   pure type(abilities_t) function ida_abilities() result(can)
+      can = abilities_t(steps=steps_variable, begins_anew=.true., is_explicit=.false., is_stiff=.true., has_sparse_newton=.true., &
+                        solves_dae=.true.)
+   end function ida_abilities
 
 end module ida

@@ -5,15 +5,16 @@ module integrator_registry
    use bdf, only: bdf_t
    use dop853, only: dop853_t
    use ida, only: ida_t
+   use integration_method, only: abilities_t
    use integrator, only: integrator_t
-   use kind_info, only: kind_info_t
    use radau, only: radau_t
    use rk4, only: rk4_t
    use rock4, only: rock4_t
+   use text, only: append_text, text_t
    use verner, only: verner_t
    implicit none (type, external)
    private
-   public :: find_integrator, n_integrator_kinds, new_integrator
+   public :: abilities_of, find_integrator, find_stiff_integrator, n_integrator_kinds, new_integrator, reference_methods
 
    integer, parameter :: n_integrator_kinds = 9  !! number of methods
 
@@ -42,14 +43,56 @@ contains
       character(*), intent(in) :: name                          !! the method's name
       class(integrator_t), allocatable, intent(out) :: method   !! the integrator, not started
 
-      type(kind_info_t) :: info
       integer :: k
 
       do k = 1, n_integrator_kinds
          call new_integrator(k, method)
-         info = method%info()
-         if (info%name == name) exit
+         if (method%name() == name) exit
       end do
    end subroutine find_integrator
+
+   !> What the integrator of a name can do.
+   type(abilities_t) function abilities_of(name) result(can)
+      character(*), intent(in) :: name      !! the method's name
+
+      class(integrator_t), allocatable :: method
+
+      call find_integrator(name, method)
+      can = method%abilities()
+   end function abilities_of
+
+   !> The one-step method for stiff equations.
+   subroutine find_stiff_integrator(method)
+      class(integrator_t), allocatable, intent(out) :: method   !! the integrator, not started
+
+      type(abilities_t) :: can
+      integer :: k
+
+      do k = 1, n_integrator_kinds
+         call new_integrator(k, method)
+         can = method%abilities()
+         if (can%is_stiff .and. .not. can%begins_anew) exit
+      end do
+   end subroutine find_stiff_integrator
+
+   !> Names of the methods that confirm the results of others, in the order in which they are tried.
+   function reference_methods(with_stiff) result(names)
+      logical, intent(in) :: with_stiff       !! with those that are made for stiff equations, too
+      type(text_t), allocatable :: names(:)   !! (n) names
+
+      class(integrator_t), allocatable :: method
+      type(abilities_t) :: can
+      integer :: k, place
+
+      allocate (names(0))
+      do place = 1, n_integrator_kinds
+         do k = 1, n_integrator_kinds
+            call new_integrator(k, method)
+            can = method%abilities()
+            if (can%reference_place /= place .or. (can%is_stiff .and. .not. with_stiff)) cycle
+            call append_text(names, method%name())
+         end do
+      end do
+   end function reference_methods
 
 end module integrator_registry

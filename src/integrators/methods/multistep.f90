@@ -21,7 +21,8 @@ module multistep
    use archive, only: archive_t
    use event_location, only: find_first_event
    use integrator, only: advance_event, advance_failed_evaluation, advance_no_memory, advance_step, advance_too_many_evaluations, &
-      advance_too_many_steps, advance_too_small, integrator_t, steps_variable
+      advance_too_many_steps, advance_too_small, integrator_t
+   use integration_method, only: abilities_t, steps_variable
    use interpolation, only: interpolate
    use kinds, only: eps, wp
    use ode_system, only: ode_system_t
@@ -52,7 +53,7 @@ module multistep
       type(library_step_t) :: last               !! the library's last step
    contains
       procedure(make_library_interface), deferred :: make_library
-      procedure, nopass :: steps => multistep_steps
+      procedure, nopass :: abilities => multistep_abilities
       procedure :: start => multistep_start
       procedure :: advance => multistep_advance
       procedure :: restart => multistep_restart
@@ -62,7 +63,6 @@ module multistep
       procedure :: load => multistep_load
       procedure :: evaluate_end
       procedure :: held_state
-      procedure, nopass :: begins_anew => multistep_begins_anew
    end type multistep_t
 
    abstract interface
@@ -90,15 +90,10 @@ module multistep
 
 contains
 
-   !> Variable steps only.
-   pure integer function multistep_steps() result(steps)
-      steps = steps_variable
-   end function multistep_steps
-
-   !> The history of past steps is not saved.
-   pure logical function multistep_begins_anew() result(begins_anew)
-      begins_anew = .true.
-   end function multistep_begins_anew
+   !> Variable steps only; the history of past steps is not saved.
+   pure type(abilities_t) function multistep_abilities() result(can)
+      can = abilities_t(steps=steps_variable, begins_anew=.true.)
+   end function multistep_abilities
 
    !> Start at a state.
    subroutine multistep_start(self, system, t, y, t_end, status)

@@ -33,6 +33,7 @@ module radau
    use anderson, only: anderson_t
    use integrator, only: advance_failed_evaluation, advance_no_memory, advance_step
    use interpolation, only: step_t
+   use integration_method, only: abilities_t
    use kind_info, only: kind_info_t
    use kinds, only: eps, wp
    use krylov_solver, only: krylov_solver_t
@@ -81,7 +82,7 @@ module radau
       real(wp) :: contraction = 1.0_wp          !! theta/(1 - theta) of the last iteration [1]
    contains
       procedure, nopass :: info => radau_info
-      procedure :: is_explicit => radau_is_explicit
+      procedure, nopass :: abilities => radau_abilities
       procedure :: prepare => radau_prepare
       procedure :: restart => radau_restart
       procedure :: advance => radau_advance
@@ -232,11 +233,9 @@ contains
    end function radau_info
 
    !> A method for stiff equations.
-   pure logical function radau_is_explicit(self)
-      class(radau_t), intent(in) :: self  !! the integrator
-
-      radau_is_explicit = .false.
-   end function radau_is_explicit
+   pure type(abilities_t) function radau_abilities() result(can)
+      can = abilities_t(is_explicit=.false., is_stiff=.true.)
+   end function radau_abilities
 
    !> Storage for the stages.
    subroutine radau_prepare(self, n)

@@ -9,7 +9,7 @@
 !> Source: W. Kutta, Beitrag zur naeherungsweisen Integration totaler Differentialgleichungen,
 !> Z. Math. Phys. 46 (1901) 435-453. Limits: not for stiff equations; no control of the error.
 module rk4
-   use integrator, only: steps_fixed
+   use integration_method, only: abilities_t, steps_fixed
    use kind_info, only: kind_info_t
    use kinds, only: wp
    use ode_system, only: ode_system_t
@@ -25,7 +25,7 @@ module rk4
       real(wp), allocatable :: y(:)      !! (n) state of a stage [any]
    contains
       procedure, nopass :: info => rk4_info
-      procedure, nopass :: steps => rk4_steps
+      procedure, nopass :: abilities => rk4_abilities
       procedure :: prepare => rk4_prepare
       procedure :: make_stages => rk4_make_stages
       procedure :: error_norm => rk4_error_norm
@@ -44,9 +44,9 @@ contains
    end function rk4_info
 
    !> Fixed steps only.
-   pure integer function rk4_steps() result(steps)
-      steps = steps_fixed
-   end function rk4_steps
+   pure type(abilities_t) function rk4_abilities() result(can)
+      can = abilities_t(steps=steps_fixed)
+   end function rk4_abilities
 
    !> Storage for the stages.
    subroutine rk4_prepare(self, n)

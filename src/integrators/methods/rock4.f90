@@ -22,6 +22,7 @@
 module rock4
    use integrator, only: advance_event, advance_step
    use integrator_controls, only: norm_euclidean, onset_located
+   use integration_method, only: abilities_t
    use kind_info, only: kind_info_t
    use kinds, only: eps, wp
    use archive, only: archive_t
@@ -55,7 +56,7 @@ module rock4
       integer :: age = n_step_radius                !! steps since it was found
    contains
       procedure, nopass :: info => rock4_info
-      procedure :: is_explicit => rock4_is_explicit
+      procedure, nopass :: abilities => rock4_abilities
       procedure :: prepare => rock4_prepare
       procedure :: restart => rock4_restart
       procedure :: advance => rock4_advance
@@ -80,11 +81,9 @@ contains
    end function rock4_info
 
    !> What decays fast does not keep its steps short.
-   pure logical function rock4_is_explicit(self)
-      class(rock4_t), intent(in) :: self  !! the integrator
-
-      rock4_is_explicit = .false.
-   end function rock4_is_explicit
+   pure type(abilities_t) function rock4_abilities() result(can)
+      can = abilities_t(is_explicit=.false.)
+   end function rock4_abilities
 
    !> Storage for the stages.
    subroutine rock4_prepare(self, n)

@@ -9,6 +9,7 @@
 module verner
    use integrator_controls, only: norm_euclidean
    use interpolation, only: step_t
+   use integration_method, only: abilities_t
    use kind_info, only: kind_info_t
    use kinds, only: i8, wp
    use ode_system, only: ode_system_t
@@ -56,6 +57,7 @@ module verner
       type(verner_stages_t) :: stages               !! of the step in hand
    contains
       procedure, nopass :: info => verner_info
+      procedure, nopass :: abilities => verner_abilities
       procedure :: prepare => verner_prepare
       procedure :: make_stages => verner_make_stages
       procedure :: error_norm => verner_error_norm
@@ -72,6 +74,11 @@ contains
       info%help = "Runge-Kutta-Verner 5(6) as in IMSL's IVPRK: explicit, eight stages, events located by re-stepping"
       info%source = "Verner (1978); Hull, Enright and Jackson (1976)"
    end function verner_info
+
+   !> The first method that confirms others.
+   pure type(abilities_t) function verner_abilities() result(can)
+      can = abilities_t(reference_place=1)
+   end function verner_abilities
 
    !> Storage for the stages.
    subroutine verner_prepare(self, n)

@@ -15,6 +15,7 @@ module bearing_films
       parameter_length
    use film_places, only: film_bearing_of, film_place_t, film_state_t, finish_state, place_of_film, share_of
    use item, only: item_t
+   use joint_level, only: level_hybrid, level_lubricated, level_of
    use kinds, only: two_pi, wp
    use lubricant, only: oil_t, viscosity_at
    use motion, only: loads_t, motion_t
@@ -69,8 +70,8 @@ contains
       allocate (films%law, source=law)
       allocate (films%parameters(n_film_parameter, n), films%eps_max(n), films%roughness(n), films%place(n), films%motion(n))
       allocate (films%f(2, n), films%s(2, 2, n), films%oil(n))
-      films%acts = items(1)%word("level") == "lubricated" .or. items(1)%word("level") == "hybrid"
-      films%is_alone = items(1)%word("level") == "lubricated"
+      films%is_alone = level_of(items(1)) == level_lubricated
+      films%acts = films%is_alone .or. level_of(items(1)) == level_hybrid
       do k = 1, n
          if (items(k)%reference("lubricant") > 0) films%oil(k) = oils(items(k)%reference("lubricant"))
          films%place(k) = place_of_film(items(k), oils)

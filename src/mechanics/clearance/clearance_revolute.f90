@@ -13,6 +13,7 @@
 module clearance_revolute
    use bodies, only: material_t
    use item, only: item_t, place_of
+   use joint_level, only: level_lubricated, level_of
    use kind_info, only: add_channel, add_number, add_reference, add_word, dim_length, in_plane, kind_info_t
    use kinds, only: wp
    use point_contacts, only: add_contact_channels, of_eccentricity, of_force

@@ -2,6 +2,7 @@
 module film_places
    use film_law, only: film_bearing_t, film_motion_t, max_eccentricity, parameter_clearance, parameter_length, parameter_radius
    use item, only: find_place, item_t
+   use joint_level, only: level_hybrid, level_lubricated, level_of
    use kinds, only: not_a_number, wp
    use lubricant, only: oil_t
    use surfaces, only: surfaces_t
@@ -59,12 +60,11 @@ contains
       type(oil_t), intent(in) :: oils(:)   !! (lubricants) all of them
       type(film_place_t) :: place          !! how it acts
 
-      character(:), allocatable :: level
-      integer :: oil
+      integer :: level, oil
 
-      level = item%word("level")
-      if (level == "hybrid") place%depth = item%number("e_t0")
-      if (level == "hybrid") place%extra = item%number("e_t1")
+      level = level_of(item)
+      if (level == level_hybrid) place%depth = item%number("e_t0")
+      if (level == level_hybrid) place%extra = item%number("e_t1")
       oil = item%reference("lubricant")
       if (oil > 0) place%viscosity = oils(oil)%viscosity
       if (oil > 0) place%temperature = oils(oil)%temperature
@@ -73,7 +73,7 @@ contains
       place%has_torque = item%flag("film_torque")
       if (find_place(item, "entrain") > 0) place%is_relative = item%word("entrain") == "book"
       if (find_place(item, "heat") > 0) then
-         place%is_heated = item%word("heat") == "balance" .and. (level == "lubricated" .or. level == "hybrid")
+         place%is_heated = item%word("heat") == "balance" .and. any(level == [level_lubricated, level_hybrid])
       end if
    end function place_of_film
 

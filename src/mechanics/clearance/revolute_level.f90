@@ -2,6 +2,7 @@
 module revolute_level
    use bodies, only: material_t
    use item, only: find_place, item_t, place_of
+   use joint_level, only: level_clearance, level_hybrid, level_ideal, level_lubricated, level_of
    use kind_info, only: add_channel, add_flag, add_number, add_reference, add_word, dim_length, dim_none, kind_info_t
    use kinds, only: wp
    use surfaces, only: put_inside, surfaces_t, take_materials
@@ -123,7 +124,7 @@ contains
       type(surfaces_t), intent(out) :: pair         !! its surfaces
 
       call put_inside(pair, item%number("bearing_radius"), item%number("clearance"), &
-                      merge(item%number("eps_max"), 1.0_wp, item%word("level") == "lubricated"))
+                      merge(item%number("eps_max"), 1.0_wp, level_of(item) == level_lubricated))
       call take_materials(pair, materials, item%reference("material"), item%reference("journal_material"))
    end subroutine describe_hole
 
@@ -134,18 +135,18 @@ contains
       character(:), allocatable, intent(out) :: message      !! what is wrong
       character(:), allocatable, intent(out) :: help         !! what would be right
 
-      character(:), allocatable :: level
+      integer :: level
 
       column = 0
       message = ""
       help = ""
-      level = item%word("level")
-      if (level == "ideal") return
-      if (level /= "lubricated") then
+      level = level_of(item)
+      if (level == level_ideal) return
+      if (level /= level_lubricated) then
          if (item%reference("law") == 0) call find("law", "no contact law", "name a row of a contact table in column law")
          if (item%reference("material") == 0) call find("material", "no material", "name a row of [material] in column material")
       end if
-      if (level /= "clearance") then
+      if (level /= level_clearance) then
          if (item%reference("film") == 0) call find("film", "no film", "name a row of a film table in column film")
          if (item%reference("lubricant") == 0) then
             call find("lubricant", "no lubricant", "name a row of [lubricant] in column lubricant")
@@ -156,7 +157,7 @@ contains
             end if
          end if
       end if
-      if (level /= "hybrid") return
+      if (level /= level_hybrid) return
       if (.not. item%number("e_t1") > item%number("e_t0") .and. item%number("e_t0") > 0.0_wp) then
          call find("e_t1", "an e_t1 not greater than e_t0", "the film must vanish at c + e_t0, before its clearance "// &
             "ends at c + e_t1")
@@ -175,7 +176,7 @@ contains
 
          if (column > 0) return
          column = place_of(item, name)
-         message = "joint '"//item%name//"' with level = "//level//" has "//what
+         message = "joint '"//item%name//"' with level = "//item%word("level")//" has "//what
          help = advice
       end subroutine find
 

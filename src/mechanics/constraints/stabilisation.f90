@@ -22,6 +22,8 @@ module stabilisation
       procedure(info_interface), nopass, deferred :: info
       procedure(words_interface), deferred :: words
       procedure :: name => stabilisation_name
+      procedure, nopass :: needs_fixed_step => stabilisation_needs_no_step
+      procedure, nopass :: solver => stabilisation_solver
       procedure :: configure => stabilisation_configure
       procedure :: begin_step => stabilisation_begin_step
       procedure :: correct_stage => stabilisation_correct
@@ -61,6 +63,18 @@ contains
       info = self%info()
       name = info%name
    end function stabilisation_name
+
+   !> Whether the way needs steps of a fixed length: it does not, unless it says otherwise.
+   pure logical function stabilisation_needs_no_step() result(needs_step)
+      needs_step = .false.
+   end function stabilisation_needs_no_step
+
+   !> Name of the solver that the way needs; blank: any.
+   pure function stabilisation_solver() result(name)
+      character(:), allocatable :: name     !! as in `solver = name`
+
+      name = ""
+   end function stabilisation_solver
 
    !> Value of an option of a deck, or what stands for it.
    pure real(wp) function option_number(options, name, default) result(number)

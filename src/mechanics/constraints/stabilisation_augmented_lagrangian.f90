@@ -22,6 +22,7 @@ module stabilisation_augmented_lagrangian
       real(wp) :: mu = 1.0_wp         !! its damping ratio [1]
    contains
       procedure, nopass :: info => lagrangian_info
+      procedure, nopass :: solver => lagrangian_solver
       procedure :: words => lagrangian_words
       procedure :: configure => lagrangian_configure
       procedure :: begin_step => lagrangian_begin_step
@@ -41,6 +42,13 @@ contains
       call add_number(info, "omega", dim_frequency, "gain on the violation", default="", lower=0.0_wp)
       call add_number(info, "mu", dim_none, "damping: the gain on the rate of violation is omega mu", default="", lower=0.0_wp)
    end function lagrangian_info
+
+   !> The solver that iterates with the penalty.
+   pure function lagrangian_solver() result(name)
+      character(:), allocatable :: name     !! as in `solver = name`
+
+      name = "augmented_lagrangian"
+   end function lagrangian_solver
 
    !> What is done, as text.
    function lagrangian_words(self) result(words)

@@ -20,6 +20,7 @@ module stabilisation_baumgarte_step
       real(wp) :: beta = sqrt(2.0_wp)      !! factor of the gain on the violation [1]
    contains
       procedure, nopass :: info => step_info
+      procedure, nopass :: needs_fixed_step => step_needs_fixed_step
       procedure :: words => step_words
       procedure :: configure => step_configure
       procedure :: begin_step => step_begin_step
@@ -37,6 +38,11 @@ contains
       call add_number(info, "alpha", dim_none, "gain on the rate of violation, times the step", default="", lower=0.0_wp)
       call add_number(info, "beta", dim_none, "gain on the violation, times the step", default="", lower=0.0_wp)
    end function step_info
+
+   !> The gains would force ever smaller variable steps.
+   pure logical function step_needs_fixed_step() result(needs_step)
+      needs_step = .true.
+   end function step_needs_fixed_step
 
    !> What is done, as text.
    function step_words(self) result(words)

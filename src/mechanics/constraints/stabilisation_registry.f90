@@ -10,7 +10,8 @@ module stabilisation_registry
    use stabilisation_projection, only: stabilisation_projection_t
    implicit none (type, external)
    private
-   public :: n_stabilisation_kinds, new_stabilisation
+   public :: choose_stabilisation, exact_stabilisation, find_stabilisation, n_stabilisation_kinds, new_stabilisation
+   public :: reason_of_stabilisation
 
    integer, parameter :: n_stabilisation_kinds = 7  !! number of ways
 
@@ -31,5 +32,58 @@ contains
       case (7); allocate (stabilisation_projection_t :: way)
       end select
    end subroutine new_stabilisation
+
+   !> Way by its name in a deck, which must be one of them.
+   subroutine find_stabilisation(name, way)
+      character(*), intent(in) :: name                              !! the way's name
+      class(stabilisation_t), allocatable, intent(out) :: way       !! the way, not configured
+
+      integer :: k
+
+      do k = 1, n_stabilisation_kinds
+         call new_stabilisation(k, way)
+         if (way%name() == name) exit
+      end do
+   end subroutine find_stabilisation
+
+   !> The way that suits a system: projection, which leaves neither violations nor the traces of gains in the motion; Baumgarte's
+   !> stabilisation where a driver jumps, because a jump cannot be projected; none where there is nothing to enforce.
+   subroutine choose_stabilisation(is_needed, is_smooth, way)
+      logical, intent(in) :: is_needed                              !! there are constraints that the integrator does not enforce
+      logical, intent(in) :: is_smooth                              !! no driver jumps
+      class(stabilisation_t), allocatable, intent(out) :: way       !! the way, not configured
+
+      if (.not. is_needed) then
+         allocate (stabilisation_none_t :: way)
+      else if (is_smooth) then
+         allocate (stabilisation_projection_t :: way)
+      else
+         allocate (stabilisation_baumgarte_t :: way)
+      end if
+   end subroutine choose_stabilisation
+
+   !> Why a way was chosen.
+   function reason_of_stabilisation(way) result(words)
+      class(stabilisation_t), intent(in) :: way    !! the way that `choose_stabilisation` has chosen
+      character(:), allocatable :: words           !! the reason
+
+      select type (way)
+      type is (stabilisation_none_t)
+         words = "not needed: no constraints, or the integrator enforces them"
+      type is (stabilisation_baumgarte_t)
+         words = "a driver jumps, and projection cannot follow a jump"
+      class default
+         words = "removes all constraint violation without adding gains"
+      end select
+   end function reason_of_stabilisation
+
+   !> Name of the way that leaves no violation.
+   function exact_stabilisation() result(name)
+      character(:), allocatable :: name   !! as in a deck
+
+      type(stabilisation_projection_t) :: way
+
+      name = way%name()
+   end function exact_stabilisation
 
 end module stabilisation_registry

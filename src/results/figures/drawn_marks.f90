@@ -9,6 +9,7 @@ module drawn_marks
       mark_load, mark_pin, mark_plane, mark_slide, mark_spring, mark_t, part_t, round_part, start_part
    use drawn_axes, only: axis_of, direction_in_plane, start_frame
    use item, only: find_place, item_t, place_of
+   use joint_level, only: level_ideal, level_of
    use kind_info, only: kind_info_t, leaves_angles, leaves_more, leaves_turn, leaves_way
    use kinds, only: wp
    use rotations, only: axes_across
@@ -86,7 +87,7 @@ contains
 
       if (any([find_place(item, "gap"), find_place(item, "length"), find_place(item, "height")] == 0)) return
       mark%sides = 0.5_wp*[item%number("length"), item%number("height")]
-      if (item%word("level") == "ideal") return
+      if (level_of(item) == level_ideal) return
       mark%half_length = 0.5_wp*item%number("length")
       mark%gaps = item%number("gap")
       if (find_place(item, "slider_axis") > 0) then
@@ -130,8 +131,7 @@ contains
 
       logical :: are_apart, is_ideal, is_round
 
-      is_ideal = .true.
-      if (find_place(item, "level") > 0) is_ideal = item%word("level") == "ideal"
+      is_ideal = any(level_of(item) == [0, level_ideal])
       is_round = info%leaves == leaves_more .and. (find_place(item, "radius") > 0 .or. find_place(item, "radius_i") > 0)
       are_apart = .false.
       if (all(tie%point > 0) .and. .not. any(info%leaves == [leaves_angles, leaves_turn])) then

@@ -25,7 +25,10 @@ module accuracy_search
    use precision_results, only: precision_t
    use precision_twins, only: run_twins
    use progress, only: progress_t
-   use setting_run, only: job_t
+   use integration_method, only: abilities_t
+   use integrator_registry, only: abilities_of, reference_methods
+   use jobs, only: job_t
+   use text, only: text_t
    use time_budget, only: time_budget_t
    implicit none (type, external)
    private
@@ -47,7 +50,6 @@ module accuracy_search
    real(wp), parameter :: rounding = 4.0_wp*eps     !! of the start of what confirms, as a part of each coordinate [1]
    real(wp), parameter :: beside = 1.0e-9_wp         !! perturbation of reference runs that report why digits end [1]
 
-   character(*), parameter :: others(3) = [character(6) :: "verner", "adams", "bdf"]       !! what confirms, in this order
    character(*), parameter :: no_gain = "tighter tolerances do not reduce the error: round-off"      !! the same
    character(*), parameter :: no_tighter = "the minimum tolerance is reached"               !! the same
    character(*), parameter :: ends_apart = &
@@ -157,24 +159,28 @@ contains
       type(time_budget_t), intent(in) :: budget       !! the time
       type(search_t), intent(inout) :: search         !! what confirms it is set
 
+      type(abilities_t) :: can
+      type(text_t), allocatable :: others(:)
       type(trial_t) :: next
       real(wp) :: best(2), pair(2)
       integer :: k
 
       pair = agreement(search%taken%run, search%coarser%run, search)
       best = [-2.0_wp, huge(1.0_wp)]
-      job%rounding = rounding
+      job%perturbed%rounding = rounding
       associate (own => search%taken%what)
+         can = abilities_of(own%setting%method)
+         others = reference_methods(with_stiff=.true.)
          do k = 1, size(others)
-            if (others(k) == own%setting%method .or. search%other%is_there) cycle
-            if (own%setting%method == "auto" .and. others(k) == "verner") cycle  ! whose steps these may be
-            call confirm_by(trim(others(k)), own%asked)
+            if (others(k)%s == own%setting%method .or. search%other%is_there) cycle
+            if (index(" "//can%parts//" ", " "//others(k)%s//" ") > 0) cycle  ! whose steps these may be
+            call confirm_by(others(k)%s, own%asked)
          end do
          if (best(1) < pair(1) .and. own%asked > same*min_tolerance .and. .not. search%is_false_end) then
             call take(own%setting%method, max(min_tolerance, tightest_part*own%asked), 1.0_wp)
          end if
       end associate
-      job%rounding = 0.0_wp
+      job%perturbed%rounding = 0.0_wp
       if (best(1) >= pair(1) .and. pair(2) <= search%limit) search%reason = ""
       if (best(1) < pair(1) .and. search%reason == "") search%reason = no_tighter
 

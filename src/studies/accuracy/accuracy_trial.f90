@@ -4,9 +4,10 @@ module accuracy_trial
    use kept_channels, only: kept_channels_t
    use kinds, only: min_tolerance, wp
    use precision_info, only: setting_t
-   use precision_reference, only: arms_of, last_within, reference_t
+   use precision_reference, only: last_within, reference_t
    use run_difference, only: ends_elsewhere
-   use setting_run, only: job_t, outcome_t, run_setting
+   use jobs, only: job_t, outcome_t
+   use setting_run, only: run_setting
    use time_budget, only: time_budget_t
    implicit none (type, external)
    private
@@ -50,18 +51,15 @@ contains
       type(trial_t), intent(out) :: trial             !! the run
 
       type(outcome_t) :: outcome
-      real(wp) :: begun
 
-      begun = budget%elapsed()
       trial%what%setting = setting
       trial%what%asked = tolerance
       trial%run%asked = search%asked
       trial%run%stride = search%stride
-      trial%run%arm = arms_of(job)
       trial%run%wants_contact_rows = .true.  ! extremes are those of all rows
-      job%clock = budget%clock_left(until)
+      job%limits%clock = budget%clock_left(until)
       call run_setting(job, setting, tolerance, trial%run, outcome)
-      trial%what%wall = budget%elapsed() - begun
+      trial%what%wall = outcome%wall
       trial%is_there = outcome%reason == ""
       trial%is_late = outcome%is_late
       search%runs = search%runs + 1

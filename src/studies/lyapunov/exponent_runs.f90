@@ -6,19 +6,20 @@
 !> contacts remember.
 !>
 !> Source: G. Benettin, L. Galgani, A. Giorgilli, J.-M. Strelcyn, Meccanica 15 (1980) 9-30 and 21-30.
-!> Limits: `verner` only; groups of bodies are one mechanism, whose exponent is the largest of theirs.
+!> Limits: the first reference method only; groups of bodies are one mechanism, whose exponent is the largest of theirs.
 module exponent_runs
    use batch_means, only: mean_of_series
    use contact_stick_slip, only: sticks
    use errors, only: error_t
-   use exponent, only: digits_of, exponent_t, find_exponent, horizon_t
+   use exponent, only: digits_of, find_exponent, horizon_t
    use friction_law, only: memory_none
    use item, only: item_t
    use kinds, only: eps, not_a_number, wp
    use mechanism, only: mechanism_t
    use mover, only: mover_t
-   use precision_info, only: setting_t
-   use setting_run, only: first_line, job_t
+   use precision_info, only: reference_setting, setting_t
+   use stabilisation_registry, only: exact_stabilisation
+   use jobs, only: first_line, job_t
    use tangent, only: tangent_t
    implicit none (type, external)
    private
@@ -29,8 +30,6 @@ module exponent_runs
    real(wp), parameter :: far = 1.0e-3_wp                  !! distance at which it is no longer beside the motion [1]
    integer, parameter :: fewest_output_times = 64              !! reached before the time was up, for an exponent up to there
    real(wp), parameter :: out_of_reach = 3.0_wp            !! distance, over the one requested, from which it is brought back [1]
-   character(*), parameter :: on_constraints = "projection"  !! way of holding: both motions are on them, as a neighbouring
-                                                             !! trajectory that is put back
 
 contains
 
@@ -71,7 +70,7 @@ contains
 
       allocate (logs(2, size(horizon%t)), source=0.0_wp)
       horizon%tangent%reason = ""
-      call mover%start(job, setting_t("verner", on_constraints, ""), horizon%tolerance, horizon%t(size(horizon%t)), error)
+      call mover%start(job, on_constraints(), horizon%tolerance, horizon%t(size(horizon%t)), error)
       if (.not. allocated(error)) then
          call tangent%begin(mover%system, mover%method, 1.0_wp/horizon%t(size(horizon%t)), status)
          if (status /= 0) horizon%tangent%reason = "no coordinate is free to be perturbed"
@@ -132,9 +131,9 @@ contains
 
       horizon%with_twin = .true.
       horizon%twin%reason = ""
-      call base%start(job, setting_t("verner", on_constraints, ""), horizon%tolerance, horizon%t(size(horizon%t)), error)
+      call base%start(job, on_constraints(), horizon%tolerance, horizon%t(size(horizon%t)), error)
       if (.not. allocated(error)) then
-         call twin%start(job, setting_t("verner", on_constraints, ""), horizon%tolerance, horizon%t(size(horizon%t)), error)
+         call twin%start(job, on_constraints(), horizon%tolerance, horizon%t(size(horizon%t)), error)
       end if
       if (.not. allocated(error)) then
          call first%begin(base%system, base%method, 1.0_wp/horizon%t(size(horizon%t)), status)
@@ -175,6 +174,11 @@ contains
       call find_exponent(horizon%t, horizon%after, horizon%twin)
       call compare(horizon)
    end subroutine horizon_with_twin
+
+   !> The setting of the motions: they stay on the constraints, as a neighbouring trajectory that is brought back does.
+   type(setting_t) function on_constraints() result(setting)
+      setting = reference_setting(exact_stabilisation())
+   end function on_constraints
 
    !> How far two motions of one mechanism are apart in positions, and in rates [1 and s^-1].
    function distances_of(a, b, scale) result(d)

@@ -2,18 +2,20 @@
 !>
 !> It is one part, whatever groups its bodies are in, and nothing of it is recorded.
 module mover
+   use build_system, only: new_system
    use cpu_budget, only: cpu_budget_t
    use errors, only: error_t, exit_integration, set_error
    use guards, only: guards_t, new_guards
    use output_times, only: output_times_t, new_output_times
    use integrator, only: advance_event, integrator_t
+   use integration_settings, only: integration_t
+   use jobs, only: job_t, start_job, started_t
    use kept_run, only: kept_run_t
    use kinds, only: wp
    use mechanism, only: mechanism_t
    use moving_part, only: advance_part, begin_part, handle_part_events, moving_part_t, new_part, pass_part_instant
    use precision_info, only: setting_t
    use run_tally, only: run_tally_t
-   use setting_run, only: job_t, prepare_run
    use tangent, only: tangent_t
    use text, only: real_text
    use tangent_events, only: cross_events, cross_instant
@@ -41,7 +43,7 @@ contains
    !> Start at the start of a scene.
    subroutine start(self, job, setting, asked, end, error)
       class(mover_t), target, intent(inout) :: self       !! the mechanism, new
-      type(job_t), intent(inout) :: job                   !! scene and time
+      type(job_t), intent(inout) :: job                   !! scene and time; left as it is
       type(setting_t), intent(in) :: setting              !! of the integration
       real(wp), intent(in) :: asked                       !! tolerance, or length of fixed steps [1 or s]
       real(wp), intent(in) :: end                         !! end of the motion [s]
@@ -49,16 +51,22 @@ contains
 
       type(guards_t) :: guards
       type(output_times_t) :: output_times
-      real(wp), allocatable :: y(:)
+      type(integration_t) :: settings
+      type(started_t) :: begin
 
-      call self%budget%begin(job%cpu, clock=job%clock)
-      call prepare_run(job, setting, asked, self%system, self%method, y, error)
+      call self%budget%begin(job%limits%cpu, clock=job%limits%clock)
+      settings = job%scene%settings%integration
+      call setting%apply(asked, job%scene%settings%integration)
+      call new_system(job%scene, job%levels, self%system)
+      call start_job(job, self%system, begin, error)
+      job%scene%settings%integration = settings
       if (allocated(error)) return
+      call move_alloc(begin%method, self%method)
       call new_output_times(job%scene, end, self%system%clearance_joints%n > 0, output_times)
       call new_guards(job%scene, self%system, guards)
       call new_part(self%system, self%method, output_times, guards, self%part)
       self%nothing%is_kept = .false.
-      call begin_part(self%part, y, end, self%tally, self%nothing, error)
+      call begin_part(self%part, begin%y, end, self%tally, self%nothing, error)
    end subroutine start
 
    !> Continue to a time; events and instants up to it, and at it, are behind then. A change of the motion goes along.

@@ -7,17 +7,16 @@ module precision_reference
    use, intrinsic :: ieee_arithmetic, only: ieee_is_finite
    use kept_run, only: kept_run_t, n_sort, sort_positions, sort_reactions, sort_velocities
    use kinds, only: not_a_number, wp
-   use perturbation, only: arm_of
    use precision_info, only: setting_t
    use precision_results, only: error_motion, error_onsets, error_peaks, error_positions, error_reactions, error_restitution, &
       error_velocities, precision_t, tol_run_done, tol_run_other, tol_run_t
-   use run_difference, only: compare_contacts, compare_sorts, distances, ends_elsewhere, scales_of
+   use run_difference, only: compare_contacts, compare_sorts, distances, ends_elsewhere
    use scene_size, only: extent_of_scene, size_of_bodies
-   use setting_run, only: job_t
+   use jobs, only: job_t
    use text, only: real_text
    implicit none (type, external)
    private
-   public :: agreement, arms_of, described, last_within, kept_tol_sweep_t, measure_all, measure_tol_run, motion_of, reference_t, &
+   public :: agreement, described, last_within, kept_tol_sweep_t, measure_all, measure_tol_run, motion_of, reference_t, &
       set_bar, size_of
 
    real(wp), parameter :: part_wanted = 0.1_wp  !! of the error requested that the reference may have [1]
@@ -38,18 +37,6 @@ module precision_reference
    end type reference_t
 
 contains
-
-   !> Radii of gyration of the bodies of a scene.
-   function arms_of(job) result(arm)
-      type(job_t), intent(in) :: job       !! what runs share
-      real(wp), allocatable :: arm(:)      !! (bodies) radii [m]
-
-      integer :: k
-
-      associate (bodies => job%scene%bodies)
-         arm = [(arm_of(bodies, k), k=1, bodies%n)]
-      end associate
-   end function arms_of
 
    !> Size of the mechanism of a scene; 1 m if all of it is one place.
    real(wp) function size_of(job) result(length)

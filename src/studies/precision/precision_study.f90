@@ -11,7 +11,7 @@ module precision_study
    use kinds, only: not_a_number, wp
    use precision_bends, only: find_bends
    use precision_choice, only: choose_best, find_orders
-   use precision_info, only: setting_t, settings_of
+   use precision_info, only: reference_setting, setting_t, settings_of
    use precision_tol_sweeps, only: min_rise, new_tol_sweeps, run_tol_sweeps, run_tol_run
    use precision_reference, only: kept_tol_sweep_t, measure_all, measure_tol_run, reference_t
    use precision_results, only: median, precision_t, tol_run_done, tol_run_other, tol_run_t
@@ -19,12 +19,10 @@ module precision_study
    use precision_twins, only: run_twins
    use progress, only: progress_t
    use reference_search, only: find_reference
-   use scene, only: scene_t
-   use setting_run, only: job_t, outcome_t, run_setting
-   use stop_condition, only: stop_t
+   use jobs, only: job_t, outcome_t
+   use setting_run, only: run_setting
    use text, only: text_t
    use time_budget, only: time_budget_t
-   use time_plan, only: time_plan_t
    implicit none (type, external)
    private
    public :: study_precision
@@ -41,40 +39,47 @@ module precision_study
 contains
 
    !> Compare the settings that a scene's section [precision], or a list of words, names.
-   subroutine study_precision(scene, plan, stop, words, display, study, error)
-      type(scene_t), intent(in) :: scene                 !! the scene, with a section [precision] or its defaults
-      type(time_plan_t), intent(in) :: plan              !! times of the motion
-      type(stop_t), intent(in) :: stop                   !! conditions that end it
+   !> The instants compared are equal parts of the motion, whatever the deck's output is.
+   subroutine study_precision(job, words, display, study, error)
+      type(job_t), intent(inout) :: job                  !! the run, with a section [precision] or its defaults
       type(text_t), intent(in) :: words(:)               !! (n) settings, checked
       type(progress_t), intent(inout) :: display         !! shows how far it is
       type(precision_t), intent(inout) :: study          !! budget and accuracy are set, the rest follows
       type(error_t), allocatable, intent(out) :: error   !! a condition ends the motion as it starts
 
-      type(job_t) :: job
       type(kept_tol_sweep_t), allocatable :: kept(:)
       type(reference_t) :: reference
       type(setting_t), allocatable :: settings(:)
       type(time_budget_t) :: budget
+      real(wp) :: finest, perturbation
+      integer :: rounds
 
       call budget%begin(study%budget)
-      call new_job(scene, plan, stop, job)
-      study%end = plan%end
-      study%output_times = nint(scene%settings%precision%number("instants")) + 1
-      study%longest_step = scene%settings%dynamic%number("maximum_step")
-      call space_output_times(scene%settings%precision%number("finest"), budget, job, error)
+      associate (asked => job%scene%settings%precision)
+         finest = asked%number("finest")
+         rounds = nint(asked%number("rounds"))
+         perturbation = asked%number("perturbation")
+         study%output_times = nint(asked%number("instants")) + 1
+         job%plan%every = job%plan%end/asked%number("instants")
+      end associate
+      job%plan%first_output = 0.0_wp
+      job%plan%poincare_samples = [real(wp) ::]
+      study%end = job%plan%end
+      study%longest_step = job%scene%settings%integration%controls%maximum_step
+      call space_output_times(finest, budget, job, error)
       if (allocated(error)) return
       call settings_of(words, settings)
-      call new_tol_sweeps(scene, settings, study)
+      call new_tol_sweeps(job%scene, settings, study)
       call run_tol_sweeps(job, budget, display, study, kept)
-      call find_reference(job, budget, until_reference, scene%settings%precision%number("finest"), study, kept, reference)
+      call find_reference(job, budget, until_reference, finest, study, kept, reference)
       call display%update(0.4_wp)
       if (reference%is_there) call measure_all(study, kept, reference)
       call take_statistics(kept, reference, study)
-      call run_twins(job, budget, until_twins, scene%settings%precision%number("perturbation"), kept, reference, study)
+      call run_twins(job, budget, until_twins, perturbation, kept, reference, study)
       call raise_horizons(study)
       call find_exponents(job, budget, study)
       call display%update(0.5_wp)
-      call time_rounds(job, budget, nint(scene%settings%precision%number("rounds")), display, study)
+      call time_rounds(job, budget, rounds, display, study)
       call find_orders(study)
       call find_bends(study)
       call choose_best(study)
@@ -105,28 +110,11 @@ contains
 
       call plan_horizon(job%scene%settings%precision%item_t, job%plan%end, study%horizon)
       if (job%scene%settings%precision%number("perturbation") <= 0.0_wp) return
-      job%clock = budget%clock_left(until_tangent)
+      job%limits%clock = budget%clock_left(until_tangent)
       call find_horizon(job, study%horizon)
-      job%clock = budget%clock_left(until_exponent)
+      job%limits%clock = budget%clock_left(until_exponent)
       call horizon_with_twin(job, study%horizon)
    end subroutine find_exponents
-
-   !> What all runs share: the instants compared are equal parts of the motion, whatever the deck's output is.
-   subroutine new_job(scene, plan, stop, job)
-      type(scene_t), intent(in) :: scene       !! the scene
-      type(time_plan_t), intent(in) :: plan    !! times of the motion
-      type(stop_t), intent(in) :: stop         !! conditions that end it
-      type(job_t), intent(out) :: job          !! what runs share
-
-      job%scene = scene
-      job%settings = scene%settings%dynamic%item_t
-      job%cpu = job%settings%number("limit_cpu")
-      job%plan = plan
-      job%plan%first_output = 0.0_wp
-      job%plan%every = plan%end/scene%settings%precision%number("instants")
-      job%plan%poincare_samples = [real(wp) ::]
-      job%stop = stop
-   end subroutine new_job
 
    !> Where a condition ends the motion, the instants compared are equal parts of what there is of it; the last one comes before the
    !> end, which is another by a little in every run.
@@ -140,10 +128,10 @@ contains
       type(kept_run_t) :: nothing
       type(outcome_t) :: outcome
 
-      if (job%stop%n == 0) return
+      if (job%limits%stop%n == 0) return
       nothing%is_kept = .false.
-      job%clock = budget%clock_left(until_stop)
-      call run_setting(job, setting_t("verner", "", ""), finest, nothing, outcome)
+      job%limits%clock = budget%clock_left(until_stop)
+      call run_setting(job, reference_setting(""), finest, nothing, outcome)
       if (outcome%reason /= "" .or. .not. outcome%summary%time_end < job%plan%end) return
       if (outcome%summary%time_end <= 0.0_wp) then
          call set_error(error, exit_integration, "nothing to compare: the motion is "//outcome%summary%message// &
@@ -171,7 +159,7 @@ contains
          all_walls = all_walls + sum(study%tol_sweeps(k)%tol_runs%wall, mask=is_timed(study%tol_sweeps(k)%tol_runs%state))
       end do
       timed = 0.0_wp
-      job%clock = 0.0_wp
+      job%limits%clock = 0.0_wp
       nothing%is_kept = .false.
       do round = 1, rounds
          do k = 1, size(study%tol_sweeps)
@@ -224,7 +212,7 @@ contains
          again%asked = tol_sweep%tol_runs(study%choice%tol_run)%asked
          again%error = not_a_number()
          if (tol_sweep%tol_runs(study%choice%tol_run)%wall*min_rise > budget%left(until_choice)) return
-         job%clock = 0.0_wp
+         job%limits%clock = 0.0_wp
          call run_tol_run(job, budget, tol_sweep%setting, again, run, is_late)
          if (again%state /= tol_run_done) return
          call measure_tol_run(run, reference, study, again)

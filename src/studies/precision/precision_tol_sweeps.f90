@@ -2,13 +2,14 @@
 module precision_tol_sweeps
    use kept_run, only: kept_run_t
    use kinds, only: not_a_number, wp
-   use precision_info, only: setting_t
-   use precision_reference, only: arms_of, kept_tol_sweep_t
+   use precision_info, only: reference_setting, setting_t
+   use precision_reference, only: kept_tol_sweep_t
    use precision_results, only: error_ledger, error_violation, tol_sweep_t, precision_t, tol_run_done, tol_run_failed, &
         tol_run_t, tol_run_unrun
    use progress, only: progress_t
    use scene, only: scene_t
-   use setting_run, only: has_fixed_steps, job_t, outcome_t, run_setting
+   use jobs, only: job_t, outcome_t
+   use setting_run, only: run_setting
    use time_budget, only: time_budget_t
    implicit none (type, external)
    private
@@ -41,7 +42,7 @@ contains
             associate (tol_sweep => study%tol_sweeps(k))
                tol_sweep%setting = settings(k)
                tol_sweep%name = settings(k)%word()
-               tol_sweep%is_fixed = has_fixed_steps(settings(k))
+               tol_sweep%is_fixed = settings(k)%has_fixed_steps()
                finest = coarsest*10.0_wp**(-asked%number("step_decades"))
                if (.not. tol_sweep%is_fixed) finest = min(coarsest, asked%number("finest"))
                n = 1 + floor(per_decade*log10(coarsest/finest) + 1.0e-6_wp)
@@ -122,7 +123,7 @@ contains
                if (i == 1) time = max(time, for_first*budget%left(until_tol_sweeps))
                until = min(until, budget%part_after(time))
             end if
-            job%clock = budget%clock_left(until)
+            job%limits%clock = budget%clock_left(until)
             call run_tol_run(job, budget, study%tol_sweeps(k)%setting, tol_run, kept(k)%runs(i), is_over(k))
             spent(k) = spent(k) + tol_run%wall
             if (.not. (is_over(k) .and. pass == in_shares)) return
@@ -159,12 +160,9 @@ contains
       logical, intent(out) :: is_late                 !! it failed because its time was up
 
       type(outcome_t) :: outcome
-      real(wp) :: begun
 
-      begun = budget%elapsed()
-      run%arm = arms_of(job)
       call run_setting(job, setting, tol_run%asked, run, outcome, is_audited=.true.)
-      tol_run%wall = budget%elapsed() - begun
+      tol_run%wall = outcome%wall
       is_late = outcome%is_late
       tol_run%reason = outcome%reason
       if (is_late) tol_run%reason = not_ready
@@ -185,7 +183,7 @@ contains
    end subroutine run_tol_run
 
    !> Steps of the tolerance sweeps with fixed ones: from the deck's, or from the mean step of the first variable tolerance sweep's
-   !> first run, brought to a whole number of quarter decades; without such a run from that of `verner`.
+   !> first run, brought to a whole number of quarter decades; without such a run from that of the first reference method.
    subroutine set_steps(job, budget, study)
       type(job_t), intent(inout) :: job                  !! what runs share
       type(time_budget_t), intent(in) :: budget          !! the time
@@ -207,8 +205,8 @@ contains
          end do
          if (all(study%tol_sweeps%is_fixed)) then
             nothing%is_kept = .false.
-            job%clock = budget%clock_left(until_tol_sweeps)
-            call run_setting(job, setting_t("verner", "", ""), job%scene%settings%precision%number("coarsest"), nothing, outcome)
+            job%limits%clock = budget%clock_left(until_tol_sweeps)
+            call run_setting(job, reference_setting(""), job%scene%settings%precision%number("coarsest"), nothing, outcome)
             if (outcome%summary%count%steps > 0) longest = study%end/real(outcome%summary%count%steps, wp)
          end if
          longest = 10.0_wp**(real(nint(4.0_wp*log10(longest)), wp)/4.0_wp)

@@ -9,7 +9,8 @@ module precision_twins
    use precision_reference, only: kept_tol_sweep_t, motion_of, reference_t, size_of
    use precision_results, only: precision_t, tol_run_done, tol_run_unrun
    use text, only: real_text, to_text
-   use setting_run, only: has_fixed_steps, job_t, outcome_t, run_setting
+   use jobs, only: job_t, outcome_t
+   use setting_run, only: run_setting
    use time_budget, only: time_budget_t
    implicit none (type, external)
    private
@@ -52,8 +53,8 @@ contains
       call choose_base(budget%left(until)/real(wanted + 1, wp), tight*perturbation, study, kept, reference, base, &
                        study%growth%reason)
       if (.not. base%is_there) return
-      job%length = perturbation*size_of(job)
-      job%speed = perturbation*base%scale(sort_velocities)
+      job%perturbed%length = perturbation*size_of(job)
+      job%perturbed%speed = perturbation*base%scale(sort_velocities)
       allocate (ratio(base%run%n, wanted), source=0.0_wp)
       maximum = 0.0_wp
       n = 0
@@ -61,10 +62,9 @@ contains
       study%growth%reason = no_time
       do k = 1, attempts
          if (budget%left(until) <= base%wall .or. n == wanted) exit
-         job%member = k
-         job%clock = budget%clock_left(until)
+         job%perturbed%member = k
+         job%limits%clock = budget%clock_left(until)
          twin = fresh
-         twin%arm = base%run%arm
          call run_setting(job, base%setting, base%asked, twin, outcome)
          study%growth%reason = "perturbed initial states failed: "//outcome%reason
          if (outcome%is_late) study%growth%reason = no_time
@@ -79,7 +79,7 @@ contains
          ratio(:size(distance), n) = distance/distance(1)
          maximum = max(maximum, distance(1))
       end do
-      job%member = 0
+      job%perturbed%member = 0
       study%growth%n_twin = n
       if (n == 0) return
       study%growth%reason = ""
@@ -105,7 +105,7 @@ contains
       shortest = huge(1.0_wp)
       base = reference
       base%is_there = .false.
-      if (has_fixed_steps(reference%setting) .or. reference%asked <= loosest) call consider(reference%wall)
+      if (reference%setting%has_fixed_steps() .or. reference%asked <= loosest) call consider(reference%wall)
       if (base%is_there) return
       do k = 1, size(kept)
          if (study%tol_sweeps(k)%setting%method /= reference%setting%method) cycle

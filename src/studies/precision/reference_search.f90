@@ -7,14 +7,16 @@
 !> one of each integrator: that which goes the same way as the tightest run of a setting of another integrator for the longest time,
 !> and of the two the tighter one if both can be.
 module reference_search
-   use kept_run, only: kept_run_t
    use kinds, only: min_tolerance, not_a_number, wp
    use precision_info, only: setting_t
    use precision_tol_sweeps, only: not_ready
-   use precision_reference, only: agreement, arms_of, described, kept_tol_sweep_t, reference_t, set_bar, size_of
+   use precision_reference, only: agreement, described, kept_tol_sweep_t, reference_t, set_bar, size_of
    use precision_results, only: precision_t, tol_run_done, tol_run_t, tol_run_unrun
    use run_difference, only: scales_of
-   use setting_run, only: job_t, outcome_t, run_setting
+   use integration_method, only: abilities_t
+   use integrator_registry, only: abilities_of, reference_methods
+   use jobs, only: job_t, outcome_t
+   use setting_run, only: run_setting
    use text, only: append_text, text_t
    use time_budget, only: time_budget_t
    implicit none (type, external)
@@ -85,6 +87,7 @@ contains
       type(precision_t), intent(in) :: study                     !! with its tolerance sweeps
       type(reference_t), allocatable, intent(out) :: runs(:)     !! (n) the tightest run of each that came to its end
 
+      type(abilities_t) :: can
       type(text_t), allocatable :: untried(:)
       logical :: has_ended
       real(wp) :: part
@@ -92,10 +95,11 @@ contains
 
       allocate (runs(0))
       has_ended = any([(any(study%tol_sweeps(k)%tol_runs%state == tol_run_done), k=1, size(study%tol_sweeps))])
-      untried = [text_t("verner"), text_t("adams")]
+      untried = reference_methods(with_stiff=.false.)
       do k = 1, size(study%tol_sweeps)
          associate (tol_sweep => study%tol_sweeps(k))
-            if (tol_sweep%is_fixed .or. tol_sweep%setting%method == "auto") cycle
+            can = abilities_of(tol_sweep%setting%method)
+            if (tol_sweep%is_fixed .or. can%parts /= "") cycle
             if (any([(untried(i)%s == tol_sweep%setting%method, i=1, size(untried))])) cycle
             call append_text(untried, tol_sweep%setting%method)
          end associate
@@ -147,7 +151,7 @@ contains
 
       type(outcome_t) :: outcome
       type(reference_t) :: best(0:1), fresh, next
-      real(wp) :: begun, minimum
+      real(wp) :: minimum
       integer :: k, n
 
       n = 0
@@ -157,11 +161,9 @@ contains
          next%setting = setting_t(name, "", "")
          next%asked = min_in_time(study, best(1:n), name, minimum, for_one*budget%left(part))
          if (next%asked <= 0.0_wp) exit
-         next%run%arm = arms_of(job)
-         begun = budget%elapsed()
-         job%clock = budget%clock_left(part)
+         job%limits%clock = budget%clock_left(part)
          call run_setting(job, next%setting, next%asked, next%run, outcome)
-         next%wall = budget%elapsed() - begun
+         next%wall = outcome%wall
          next%is_there = outcome%reason == ""
          if (outcome%is_late) exit
          if (next%is_there) then
@@ -242,7 +244,7 @@ contains
       tells_time = tol_run%state /= tol_run_unrun .and. tol_run%reason /= not_ready .and. tol_run%wall > 0.0_wp
    end function tells_time
 
-   !> Append the tightest run of a tolerance sweep that came to its end. `auto` makes the steps of others, and confirms none of
+   !> Append the tightest run of a tolerance sweep that came to its end. A method that makes the steps of others confirms none of
    !> them.
    subroutine append_tightest(study, kept, k, runs)
       type(precision_t), intent(in) :: study                     !! with its tolerance sweeps
@@ -250,12 +252,14 @@ contains
       integer, intent(in) :: k                                   !! the tolerance sweep
       type(reference_t), allocatable, intent(inout) :: runs(:)   !! (n) grown, if there is such a run
 
+      type(abilities_t) :: can
       type(reference_t) :: found
       integer :: i
 
       associate (tol_sweep => study%tol_sweeps(k))
          i = findloc(tol_sweep%tol_runs%state == tol_run_done, .true., dim=1, back=.true.)
-         if (i == 0 .or. tol_sweep%setting%method == "auto") return
+         can = abilities_of(tol_sweep%setting%method)
+         if (i == 0 .or. can%parts /= "") return
          found%is_there = .true.
          found%setting = tol_sweep%setting
          found%asked = tol_sweep%tol_runs(i)%asked
