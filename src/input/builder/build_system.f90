@@ -41,9 +41,8 @@ contains
       type(abilities_t) :: can
       type(reduction_t) :: reduction
       logical :: is_taken(n_joint_kinds), with_start_rows
-      integer :: k, n
+      integer :: k
 
-      n = scene%bodies%n
       system%requests = scene%requests
       with_start_rows = .false.
       if (present(is_for_start)) with_start_rows = is_for_start

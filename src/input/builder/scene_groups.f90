@@ -292,7 +292,6 @@ contains
       one%frictions = scene%frictions
       one%lubrication = scene%lubrication
       one%analysis = scene%analysis
-      one%settings%dynamic = scene%settings%dynamic
       one%settings%integration = scene%settings%integration
       one%settings%is_spatial = scene%settings%is_spatial
       one%settings%header = scene%settings%header
