@@ -16,9 +16,11 @@ from random_friction import KINDS, METHODS, draw  # noqa: E402
 
 EACH = 2  # scenes of a kind
 ENDLESS = (  # slow slip in space against its direction, and slip at a vanishing normal force
-    ("block", 38, "radau"), ("disc", 28, "bdf"), ("disc", 75, "adams"), ("bushing", 40, "bdf"), ("block", 92, "bdf"))
+    ("block", 38, "radau"), ("disc", 28, "bdf"), ("disc", 75, "adams"), ("bushing", 40, "bdf"), ("block", 92, "bdf"),
+    ("block", 38, "bdf"), ("socket", 43, "dop853"))
 REGULAR = [("disc", seed) for seed in (12, 18, 65, 67, 79, 83, 98)] + [("socket", 25), ("socket", 99)]  # few contacts
 CREEPING = (("block", 11), ("block", 18))  # corners on one face slide against one another as the block turns
+HELD = (20, 24, 28, 43, 53, 81, 98)  # sockets: two contacts stick, the third one is at its limit and next to rest
 
 PIN = """deck = 1
 [scene]
@@ -99,6 +101,13 @@ def test_random_scenes_end(gudgeon, kind, method):
 def test_creeping_needs_no_small_steps(gudgeon, kind, seed):
     """An explicit method follows contacts that creep against one another with few steps."""
     mistakes = mistakes_of(gudgeon, draw(kind, seed), "verner", scratch())
+    assert not mistakes, "; ".join(mistakes)
+
+
+@pytest.mark.parametrize("seed", HELD)
+def test_contacts_that_others_hold_need_no_small_steps(gudgeon, seed):
+    """An explicit method follows a slip next to rest, whose direction turns fast."""
+    mistakes = mistakes_of(gudgeon, draw("socket", seed), "verner", scratch())
     assert not mistakes, "; ".join(mistakes)
 
 

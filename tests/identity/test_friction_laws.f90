@@ -4,7 +4,7 @@ module test_friction_laws
    use contact_registry, only: n_friction_kinds, new_friction_law
    use errors, only: error_t
    use fixed_random, only: random_t, seed_of
-   use friction_law, only: friction_law_t, memory_none
+   use friction_law, only: friction_law_t, memory_none, memory_slip
    use generic_item, only: column_number, fill_item, set_number
    use item, only: item_t
    use kind_info, only: kind_info_t
@@ -155,7 +155,9 @@ contains
       call check_close(error, f, [0.0_wp, 0.75_wp, 3.0_wp, 0.0_wp, 3.0_wp], 1.0e-15_wp, "with a ramp")
       call make_named("constant", [3.0_wp, 0.0_wp], " ", law)
       call law%force(3, [1.0_wp, 1.0_wp, 1.0e6_wp], [0.0_wp, 1.0e-12_wp, 7.0_wp], f(1:3))
-      call check_close(error, f(1:3), [0.0_wp, 3.0_wp, 3.0_wp], 0.0_wp, "as printed")
+      call check_close(error, f(1:3), [3.0_wp, 3.0_wp, 3.0_wp], 0.0_wp, "as printed, sliding at any speed")
+      call check_true(error, law%memory == memory_slip, "sticks")
+      call check_close(error, [law%stick_limit(1.0_wp), law%stick_limit(0.0_wp)], [3.0_wp, 0.0_wp], 0.0_wp, "what it holds")
    end subroutine test_constant
 
    !> In proportion to the speed up to v1, then all of c_f F_N.

@@ -39,7 +39,7 @@ contains
       real(wp), intent(in) :: slope           !! of the plane [rad]
       logical, intent(in) :: is_block         !! a block, not a disc
       character(*), intent(in) :: motion      !! vx[m/s] and omega[rad/s]
-      character(*), intent(in) :: friction    !! coulomb, lugre, dahl or ambrosio
+      character(*), intent(in) :: friction    !! coulomb, constant, lugre, dahl or ambrosio
       character(*), intent(in) :: settings    !! lines of [analysis.dynamic] and tables
       character(:), allocatable :: deck       !! the deck
 
@@ -59,6 +59,7 @@ contains
              "[clearance.plane]"//nl//"name plane ball axis radius[m] material law friction"//nl//feet// &
              "[contact.lankarani_nikravesh]"//nl//"name restitution stiffness[N/m^1.5]"//nl//"normal 0.5 1e9"//nl// &
              "[friction.coulomb]"//nl//"name coefficient static_coefficient"//nl//"coulomb 0.3 0.4"//nl// &
+             "[friction.constant]"//nl//"name force[N] v1[m/s]"//nl//"constant "//real_text(0.15_wp*g, 17)//" 0"//nl// &
              "[friction.lugre]"//nl//"name coefficient static_coefficient viscosity[s/m]"//nl//"lugre 0.3 0.4 0.01"//nl// &
              "[friction.dahl]"//nl//"name coefficient stiffness[m^-1]"//nl//"dahl 0.3 1e4"//nl// &
              "[friction.ambrosio]"//nl//"name coefficient v0[m/s] v1[m/s]"//nl//"ambrosio 0.3 1e-4 1e-3"//nl// &
@@ -94,15 +95,24 @@ contains
       place = 0
    end function place_of
 
-   !> A block that slides at 1 m/s stops after v/(mu g) and v^2/(2 mu g), and sticks.
+   !> A block that slides at 1 m/s stops after v/(mu g) and v^2/(2 mu g), and sticks; so it does by a constant force of that size.
    subroutine test_stopping(error)
       type(error_t), allocatable, intent(out) :: error  !! what failed
+
+      call stop_block("coulomb", error)
+      if (.not. allocated(error)) call stop_block("constant", error)
+   end subroutine test_stopping
+
+   !> The same by one law.
+   subroutine stop_block(friction, error)
+      character(*), intent(in) :: friction                 !! coulomb or constant
+      type(error_t), allocatable, intent(inout) :: error   !! what failed
 
       type(keeper_t) :: keeper
       type(loaded_t) :: loaded
       type(summary_t) :: summary
 
-      call run_deck(on_plane(0.0_wp, .true., "1 0", "coulomb", "end = 0.5 s"//nl//"tolerance = 1e-10"), loaded, keeper, &
+      call run_deck(on_plane(0.0_wp, .true., "1 0", friction, "end = 0.5 s"//nl//"tolerance = 1e-10"), loaded, keeper, &
                     summary, error)
       if (allocated(error)) return
       call check_true(error, place_of(keeper, "stick", 2) > 0 .and. place_of(keeper, "stick", 3) == 0, "both feet stick once")
@@ -113,7 +123,7 @@ contains
          call check_close(error, y(4), 0.0_wp, 1.0e-12_wp, "at rest")
       end associate
       call check_true(error, summary%quality%energy_residual_max < 1.0e-8_wp, "the ledger closes")
-   end subroutine test_stopping
+   end subroutine stop_block
 
    !> The same by the other methods that solve for accelerations.
    subroutine test_methods(error)

@@ -370,9 +370,10 @@ contains
          call self%lay(k, motion)
          associate (tangent => self%stick_slip%tangent(k))
             tangent%way = tangent%t(:, 1)
-            if (self%stick_slip%slip(k) /= 1 .or. tangent%v(1) < self%stick_slip%still(k)) cycle
+            if (self%stick_slip%slip(k) /= 1 .or. tangent%v(1) < max(self%stick_slip%still(k), self%stick_slip%slow(k))) cycle
             call self%slip_toward(k, tangent%v)
             self%stick_slip%band(k) = 0.0_wp
+            self%stick_slip%slow(k) = 0.0_wp
          end associate
       end do
    end subroutine clearance_follow_sliding

@@ -312,16 +312,18 @@ contains
    end subroutine slip_toward
 
    !> When it was decided, and the speed the wrong way at which its slip is to end next.
-   pure subroutine note_decision(self, k, t, band, still)
+   pure subroutine note_decision(self, k, t, band, still, slow)
       class(contact_states_t), intent(inout) :: self  !! the set
       integer, intent(in) :: k                        !! contact of the set
       real(wp), intent(in) :: t                       !! time [s]
       real(wp), intent(in) :: band                    !! speed against the slip at which it ends [m/s]
       real(wp), intent(in) :: still                   !! speed that is next to none [m/s]
+      real(wp), intent(in) :: slow                    !! the same until it has been exceeded [m/s]
 
       self%stick_slip%since(k) = t
       self%stick_slip%band(k) = band
       self%stick_slip%still(k) = still
+      self%stick_slip%slow(k) = slow
    end subroutine note_decision
 
    !> The friction force of a contact that sticks is not unique at a time.

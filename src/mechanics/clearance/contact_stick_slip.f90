@@ -10,8 +10,10 @@
 !>
 !> In space a contact has two tangents. The first lies along `way`, the direction in which it slid at the end of the last step: slip
 !> is 1 and ends where the velocity along it does. Sliding friction is against the velocity; where that is next to none along the
-!> way (`still`), the way stays as it was decided, and friction is as if the velocity along it were that. The deflection of bristles
-!> is a vector of the tangent plane, which the normal takes along as it turns (with the mean spin of both bodies about it):
+!> way (`still`), the way stays as it was decided, and friction is as if the velocity along it were that. So it is for a slip that
+!> starts from next to none, up to a greater speed (`slow`): a contact may creep that others hold, and the direction of its sliding
+!> would change faster than steps can follow. The deflection of bristles is a vector of the tangent plane, which the normal takes
+!> along as it turns (with the mean spin of both bodies about it):
 !>
 !> F_T = -F (v_T + ...)/|v_T|,   z' = (rate by the law) + w x z,   w = n x n' + n (n . (w_i + w_j))/2
 !>
@@ -54,6 +56,7 @@ module contact_stick_slip
       real(wp), allocatable :: band(:)               !! (contacts) speed against the slip at which it ends [m/s]
       real(wp), allocatable :: since(:)              !! (contacts) time of the last decision [s]
       real(wp), allocatable :: still(:)              !! (contacts) in space: speed that is next to none [m/s]
+      real(wp), allocatable :: slow(:)               !! (contacts) in space: the same until it has been exceeded; 0: none [m/s]
       real(wp), allocatable :: shared_from(:)        !! (contacts) first time at which a friction force was not unique [s]
       real(wp), allocatable :: z(:, :)               !! (n_component, contacts) deflections, along t or in the world's frame [m]
       real(wp), allocatable :: origin(:, :)          !! (n_component, contacts) what the state was when they started [m]
@@ -82,7 +85,7 @@ contains
          stick_slip%n_tangent = 2
          stick_slip%n_component = 3
       end if
-      allocate (stick_slip%band(n), stick_slip%since(n), stick_slip%still(n), source=0.0_wp)
+      allocate (stick_slip%band(n), stick_slip%since(n), stick_slip%still(n), stick_slip%slow(n), source=0.0_wp)
       allocate (stick_slip%shared_from(n), source=huge(1.0_wp))
       allocate (stick_slip%z(stick_slip%n_component, n), stick_slip%z_rate(stick_slip%n_component, n), &
                 stick_slip%origin(stick_slip%n_component, n), source=0.0_wp)
@@ -100,6 +103,7 @@ contains
       self%band(k) = 0.0_wp
       self%since(k) = -huge(1.0_wp)
       self%still(k) = 0.0_wp
+      self%slow(k) = 0.0_wp
       self%origin(:, k) = self%origin(:, k) + self%z(:, k)
       self%z(:, k) = 0.0_wp
       self%z_rate(:, k) = 0.0_wp
@@ -118,6 +122,7 @@ contains
       self%band(k) = other%band(k_other)
       self%since(k) = other%since(k_other)
       self%still(k) = other%still(k_other)
+      self%slow(k) = other%slow(k_other)
       self%shared_from(k) = other%shared_from(k_other)
       self%origin(:, k) = other%origin(:, k_other)
       self%tangent(k)%way = other%tangent(k_other)%way
@@ -143,7 +148,7 @@ contains
             if (self%n_tangent == 1) then
                tangent%f_t(1) = -self%slip(k)*f(1)
             else
-               along = max(tangent%v(1), self%still(k), tiny(1.0_wp))
+               along = max(tangent%v(1), self%still(k), self%slow(k), tiny(1.0_wp))
                tangent%f_t = -f(1)*[along, tangent%v(2)]/hypot(along, tangent%v(2))
             end if
          end select
@@ -181,7 +186,7 @@ contains
       do k = 1, size(self%slip)
          call archive%put(self%slip(k))
          call archive%put([self%band(k), self%since(k), self%shared_from(k), self%origin(:, k)])
-         if (self%n_tangent > 1) call archive%put([self%still(k), self%tangent(k)%way])
+         if (self%n_tangent > 1) call archive%put([self%still(k), self%slow(k), self%tangent(k)%way])
       end do
    end subroutine stick_slip_save
 
@@ -203,6 +208,7 @@ contains
          end do
          if (self%n_tangent == 1) cycle
          call archive%get(self%still(k))
+         call archive%get(self%slow(k))
          do i = 1, 3
             call archive%get(self%tangent(k)%way(i))
          end do

@@ -4,10 +4,11 @@
 !>
 !> Signs: against the sliding velocity. Source: Flores et al. (2008), eq. (3.12), after Dubowsky, Journal of Engineering for
 !> Industry 96 (1974), 317-323. As printed the force jumps from -c_c to c_c where the sliding turns; the ramp up to v1 is
-!> there so that an integration can pass that place. v1 = 0 is as printed.
-!> Limits: no sticking; the force jumps where a contact starts or ends.
+!> there so that an integration can pass that place. With v1 = 0, as printed, surfaces stick where that takes at most c_c, by
+!> located events as of `friction_coulomb`.
+!> Limits: no sticking with a ramp; the force jumps where a contact starts or ends.
 module friction_constant
-   use friction_law, only: friction_law_t
+   use friction_law, only: friction_law_t, memory_slip
    use item, only: item_t
    use kind_info, only: add_number, dim_force, dim_speed, kind_info_t
    use kinds, only: wp
@@ -24,6 +25,7 @@ module friction_constant
       procedure :: prepare => constant_prepare
       procedure :: is_active => constant_is_active
       procedure :: force => constant_force
+      procedure :: stick_limit => constant_stick_limit
    end type friction_constant_t
 
 contains
@@ -36,8 +38,8 @@ contains
       info%help = "friction force of constant magnitude, independent of the normal force"
       info%source = "Flores et al. (2008), eq. (3.12)"
       call add_number(info, "force", dim_force, "friction force while the surfaces touch and slide; 0: frictionless", lower=0.0_wp)
-      call add_number(info, "v1", dim_speed, "sliding speed of full friction, linear ramp below; 0: jump, as printed in Flores "// &
-         "et al. (2008)", &
+      call add_number(info, "v1", dim_speed, "sliding speed of full friction, linear ramp below; 0: sticks, with stick-slip "// &
+         "events", &
                       default="1 mm/s", lower=0.0_wp)
    end function constant_info
 
@@ -49,6 +51,7 @@ contains
       self%name = item%name
       self%constant = item%number("force")
       self%v1 = item%number("v1")
+      if (.not. self%v1 > 0.0_wp) self%memory = memory_slip
    end subroutine constant_prepare
 
    !> Without a coefficient there is no friction.
@@ -69,9 +72,17 @@ contains
       integer :: k
 
       do k = 1, n
-         f(k) = 0.0_wp
-         if (normal_force(k) > 0.0_wp .and. speed(k) > 0.0_wp) f(k) = self%constant*min(speed(k)/max(self%v1, speed(k)), 1.0_wp)
+         f(k) = merge(self%constant, 0.0_wp, normal_force(k) > 0.0_wp)
+         if (speed(k) < self%v1) f(k) = f(k)*(speed(k)/self%v1)
       end do
    end subroutine constant_force
+
+   !> Maximum force of a contact that sticks.
+   pure real(wp) function constant_stick_limit(self, normal_force) result(f)
+      class(friction_constant_t), intent(in) :: self  !! the law
+      real(wp), intent(in) :: normal_force            !! normal force [N]
+
+      f = merge(self%constant, 0.0_wp, normal_force > 0.0_wp)
+   end function constant_stick_limit
 
 end module friction_constant

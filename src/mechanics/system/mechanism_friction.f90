@@ -244,16 +244,6 @@ contains
       end associate
    end function rest_speed
 
-   !> Sliding velocity below which a contact in space keeps the way of its decision: nearer to rest its direction would turn faster
-   !> than steps can follow.
-   real(wp) function still_speed(self, slot, k) result(speed)
-      class(mechanism_t), intent(in) :: self   !! the system
-      integer, intent(in) :: slot              !! set of the contact
-      integer, intent(in) :: k                 !! contact of the set
-
-      speed = max(rest_speed(self, slot, k), widest_band*own_speed(self))
-   end function still_speed
-
    !> Sliding velocity at which slip ends, without a chatter.
    real(wp) function end_speed(self, slot, k) result(speed)
       class(mechanism_t), intent(in) :: self   !! the system

@@ -158,7 +158,7 @@ contains
          if (t - set%stick_slip%since(k) < chatter_time*own_time(self, slot, k, delta(set%before%contacts + k))) then
             band = speed*min(max(2.0_wp*set%stick_slip%band(k)/speed, min_band), widest_band)
          end if
-         call set%note_decision(k, t, band, still_speed(self, slot, k))
+         call set%note_decision(k, t, band, rest_speed(self, slot, k), 0.0_wp)
       end associate
    end subroutine note
 
@@ -179,8 +179,8 @@ contains
                   along = dot_product(matmul(tangent%t, tangent%v), tangent%way)
                   if (along > still) cycle
                   minimum = end_speed(self, slot, k) - merge(less_of_speed, more_of_speed, along > 0.0_wp)*along
-                  call set%note_decision(k, set%stick_slip%since(k), max(set%stick_slip%band(k), minimum), &
-                                         still_speed(self, slot, k))
+                  call set%note_decision(k, set%stick_slip%since(k), max(set%stick_slip%band(k), minimum), still, &
+                                         widest_band*own_speed(self))
                end associate
             end do
          end associate
@@ -202,7 +202,7 @@ contains
                associate (tangent => set%stick_slip%tangent(k))
                   if (.not. set%contact(k)%is_touching .or. set%stick_slip%slip(k) /= sticks .or. .not. tangent%is_driven) cycle
                   if (set%stick_slip%was(k) == sticks) cycle
-                  call set%note_decision(k, t, 0.0_wp, still)
+                  call set%note_decision(k, t, 0.0_wp, still, 0.0_wp)
                   call go_with_drivers(self, t, y, slot, k, still)
                   if (set%stick_slip%was(k) == gives_way .and. set%stick_slip%slip(k) == sticks .and. &
                       size_of(tangent%f_t) > set%laws%friction%stick_limit(tangent%f_n)) call set%slip_toward(k, -tangent%f_t)
