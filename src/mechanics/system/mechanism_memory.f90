@@ -8,7 +8,7 @@ submodule(mechanism_state) mechanism_memory
    integer, parameter :: equations_version = 2  !! of the counters, the characteristic rate, the largest energy and the stretch of
                                                 !! smooth time
    integer, parameter :: joint_version = 1      !! of sets of joints and drivers
-   integer, parameter :: contact_version = 2    !! of sets of joints with clearance
+   integer, parameter :: contact_version = 3    !! of sets of joints with clearance
    integer, parameter :: solver_version = 1     !! of solvers of the augmented equations
 
 contains
