@@ -257,21 +257,6 @@ contains
       end if
    end function end_speed
 
-   !> Whether a contact slides slower than its speed of rest.
-   logical function slides_slowly(self, slot, k) result(is_slow)
-      class(mechanism_t), intent(in) :: self   !! the system, its contacts laid
-      integer, intent(in) :: slot              !! set of the contact
-      integer, intent(in) :: k                 !! contact of the set
-
-      is_slow = .false.
-      associate (set => self%clearance_joints%sets(slot)%set)
-         if (set%stick_slip%memory /= memory_slip) return
-         if (.not. set%contact(k)%is_touching .or. abs(set%stick_slip%slip(k)) /= 1) return
-         is_slow = size_of(set%stick_slip%tangent(k)%v) < merge(0.5_wp, 1.0_wp, set%stick_slip%n_tangent == 1) &
-                   *rest_speed(self, slot, k)
-      end associate
-   end function slides_slowly
-
    !> Length of a vector of the tangents.
    pure real(wp) function size_of(x)
       real(wp), intent(in) :: x(2)   !! (2) the vector [any]

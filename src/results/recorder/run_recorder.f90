@@ -268,8 +268,7 @@ contains
       if (is_added) return
       self%is_broken = .true.
       call set_error(error, exit_file, "not enough memory for more than "//to_text(self%events%n)//" events (ulimit -v); the "// &
-         "results "// &
-                     "so far are saved. Raise the limit, or end the run earlier.")
+                     "results so far are saved. Raise the limit, or end the run earlier.")
    end subroutine event_run
 
    !> Show how far the run is.

@@ -73,6 +73,7 @@ contains
    end function min_error
 
    !> All runs, setting by setting.
+   !> Length: a line or two for each column.
    function table_of_tol_runs(study) result(table)
       type(precision_t), intent(in) :: study      !! results
       type(result_table_t) :: table               !! a row for each run
@@ -111,7 +112,7 @@ contains
       call table%put("asked", "1 or s", "tolerance, or length of fixed steps", tol_runs%asked, heading="tol. or step", digits=2)
       call table%put("state", "1", "0 not run, 1 done, 2 failed, 3 different contact sequence or end time", &
                      integers=tol_runs%state, formats=in_hdf5)
-      call table%put("state", "1", "in words", texts=states, formats=in_text_files, heading="state")
+      call table%put("state", "1", "as text", texts=states, formats=in_text_files, heading="state")
       call table%put("error", join(units, " "), "errors by type", [(tol_runs(k)%error, k=1, n)], shape=[n_error], &
                      parts=errors, heading="error", digits=2)
       call table%put("cpu", "s", "CPU time of the integration, median of the rounds", tol_runs%cpu, heading="CPU", digits=3)
