@@ -40,6 +40,13 @@ def test_path_of_a_point(gudgeon, tmp_path):
     np.testing.assert_allclose(found[0]["line"][0], [[0, 0], [0.5 * np.cos(7), 0.5 * np.sin(7)]], atol=1e-5)
 
 
+@pytest.mark.parametrize(("every", "is_told"), [("10 ms", False), ("100 ms", True)])
+def test_a_path_of_few_rows_says_so(gudgeon, tmp_path, every, is_told):
+    """Chords of a path that turns by 0.7 rad from row to row are no circle: the figure says what they are."""
+    folder = run(gudgeon, tmp_path, changed(CRANK, "output", every=every), "coupler(tip)")
+    assert ("straight lines between output times" in (folder / "coupler.tip.gp").read_text()) == is_told
+
+
 def test_strip_over_the_last_turn(gudgeon, tmp_path):
     """Positions at equal parts of the last turn, at the output instants nearest to them."""
     found = strokes(run(gudgeon, tmp_path, CRANK, "strip(n=5)") / "strip.n.5.dat")

@@ -28,6 +28,7 @@ module scene_plot
    integer, parameter :: width_still = 1200    !! of a picture, in units of layout
    integer, parameter :: width_moving = 640    !! of an animation, in pixels
    integer, parameter :: seconds_moving = 6    !! that an animation takes, about
+   real(wp), parameter :: corner = 0.2_wp       !! turn of a path at a row that can be seen [rad]
 
    !> Everything about one figure that its parts need.
    type :: scene_figure_t
@@ -65,7 +66,7 @@ contains
       if (figure%kind == figure_animation) then
          call moving_script(figure, title, list, plot, has_style, script)
       else
-         call still_script(figure, title, list, plot, has_style, script)
+         call still_script(figure, title, list, plot, has_chords(path), has_style, script)
       end if
       call write_file(folder//"/"//figure%name//".dat", data%get(), error)
       if (allocated(error)) return
@@ -153,6 +154,25 @@ contains
          end do
       end do
    end subroutine write_data
+
+   !> Whether rows are too far apart for a path: the lines from row to row turn by more than `corner` at most of them.
+   pure logical function has_chords(path)
+      type(track_t), intent(in) :: path   !! the path, perhaps none
+
+      real(wp) :: before(3), after(3)
+      integer :: k, n, n_corner
+
+      n = 0
+      n_corner = 0
+      do k = 2, path%n - 1
+         before = path%x(:, k) - path%x(:, k - 1)
+         after = path%x(:, k + 1) - path%x(:, k)
+         if (.not. min(norm2(before), norm2(after)) > 0.0_wp) cycle
+         n = n + 1
+         if (dot_product(before, after) < cos(corner)*norm2(before)*norm2(after)) n_corner = n_corner + 1
+      end do
+      has_chords = 2*n_corner > n
+   end function has_chords
 
    !> The path of a point.
    subroutine draw_path(path, view, scale, canvas)
@@ -261,11 +281,12 @@ contains
    end function height_of
 
    !> A picture.
-   subroutine still_script(figure, title, list, plot, has_style, script)
+   subroutine still_script(figure, title, list, plot, is_of_chords, has_style, script)
       type(figure_t), intent(in) :: figure          !! the figure
       character(*), intent(in) :: title             !! of the scene, any text
       type(frame_t), intent(in) :: list(:)          !! (1 or more) frames
       type(scene_figure_t), intent(in) :: plot      !! the plan
+      logical, intent(in) :: is_of_chords           !! the path has a corner at most rows
       logical, intent(in) :: has_style(n_style)     !! which styles occur
       type(buffer_t), intent(inout) :: script       !! the script
 
@@ -278,6 +299,7 @@ contains
       call frame_lines(script, plot)
       words = short_legend(plot%symbols)
       if (figure%kind == figure_coupler) words = "path of "//figure%motion%point
+      if (is_of_chords) words = words//", straight lines between output times: use a smaller every"
       if (plot%cells == 1 .and. figure%kind /= figure_coupler) then
          if (len(words) > 0) words = ",  "//words
          if (figure%kind == figure_strip) then
