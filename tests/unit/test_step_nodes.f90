@@ -177,7 +177,6 @@ contains
       type(archive_t) :: archive
       type(step_nodes_t) :: again, nodes
       type(step_t) :: step
-      integer :: place
 
       call nodes%open(1)
       call again%open(1)
