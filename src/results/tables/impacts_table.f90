@@ -23,7 +23,7 @@ contains
       type(text_t), allocatable :: contacts(:), items(:), joints(:)
       integer, allocatable :: list(:)
       character(:), allocatable :: missing
-      integer :: k, n
+      integer :: i, k, n
 
       list = events%order_by_onset()
       list = pack(list, [(events%word(list(k), 1) == kind_contact, k=1, size(list))])
@@ -47,8 +47,8 @@ contains
       do k = 1, n_event_numbers
          missing = "-"
          if (number_names(k) == "duration") missing = "in contact"
-         call table%put(trim(number_names(k)), trim(number_units(k)), trim(number_long_names(k)), events%numbers(k, list(:n)), &
-                        formats=in_text_files, missing=missing)
+         call table%put(trim(number_names(k)), trim(number_units(k)), trim(number_long_names(k)), &
+                        [(events%numbers(k, list(i)), i=1, n)], formats=in_text_files, missing=missing)
       end do
       do k = 1, size(headings)
          table%columns(k + 3)%heading = trim(headings(k))
