@@ -48,7 +48,7 @@ def known(values):
     return [None if math.isnan(x) else x for x in map(float, values)]
 
 
-@pytest.fixture(name="run", scope="module")
+@pytest.fixture(name="run")
 def short_run(gudgeon):
     """A short run with statistics and a page."""
     text = changed(plain_deck(), "analysis.dynamic", end="12 ms")

@@ -265,7 +265,7 @@ def test_one_instant_has_no_means(gudgeon):
     """Of an equilibrium summary and page tell values: nothing has a mean over no time, nor a part of it in contact."""
     result = run(gudgeon, PENDULUM.replace("MORE", "[output]\nchannels = rod.* pin.*\nreport = on\n"))
     text = (result.directory / "summary.txt").read_text()
-    assert "\nvalues\n" in text and "extremes " not in text
+    assert re.search(r"^values +value$", text, re.M) and "extremes " not in text
     assert re.search(r"pin\.force\.y \[N\] +-19\.62\n", text)
     for told in (text, (result.directory / "report.html").read_text()):
         assert not re.search(r"\bNaN\b", told) and "in contact" not in told

@@ -117,7 +117,6 @@ contains
       call apply_options(options, loaded%scene, error)
       if (allocated(error)) return
       loaded%levels = merge(levels_ideal, levels_as_written, loaded%scene%analysis == analysis_kinematic)
-      loaded%perturbed%start = options%change%member
       call new_system(loaded%scene, loaded%levels, loaded%system)
       if (allocated(loaded%catalogue)) deallocate (loaded%catalogue)
       if (needs_catalogue(options, loaded%scene)) call find_catalogue(loaded)

@@ -57,6 +57,7 @@ contains
 
       is_motion = loaded%scene%analysis == analysis_dynamic
       call check_member(options, loaded, error)
+      loaded%perturbed%start = options%change%member
       if (.not. allocated(error)) call start_job(loaded%job_t, loaded%system, start, error, ideal)
       if (allocated(error)) return
       call open_place(options, loaded, directory, goes_on, is_complete, error)
