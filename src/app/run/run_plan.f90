@@ -43,7 +43,7 @@ contains
       type(output_directory_t), intent(in) :: directory  !! of the run
       type(assembly_t), intent(in) :: assembly     !! how the start was found
       type(output_plan_t), intent(out) :: plan     !! the plan
-      type(figure_t), allocatable, intent(out) :: figures(:)   !! (n) figures of the run, bound to its catalogue; those of a sweep last
+      type(figure_t), allocatable, intent(out) :: figures(:)   !! (n) figures of the run, bound; those of a sweep last
 
       logical :: is_drawn
 

@@ -301,7 +301,8 @@ contains
    end subroutine clearance_take_surfaces
 
    !> Fit normal law and film of an item to its surfaces, at the start and after any change of them. A law that does not match was
-   !> an error of the deck, unless the joint is an ideal one that has a clearance for its channels only: no contact is evaluated then.
+   !> an error of the deck, unless the joint is an ideal one that has a clearance for its channels only: no contact is evaluated
+   !> then.
    subroutine clearance_fit(self, k)
       class(clearance_set_t), intent(inout) :: self  !! the set
       integer, intent(in) :: k                       !! the item
