@@ -1,4 +1,4 @@
-!> What an integrator says of itself: name, help, and what it can do. It is found in the registry and asked, so that no other file
+!> Description of an integrator: name, help, and what it can do. It is found in the registry and asked, so that no other file
 !> names a method.
 module integration_method
    use kind_info, only: kind_info_t
@@ -17,7 +17,7 @@ module integration_method
       logical :: is_explicit = .true.            !! stability limits its steps where something decays fast
       logical :: is_stiff = .false.              !! made for stiff equations: implicit, damps any decay
       logical :: begins_anew = .false.           !! restarts from a checkpoint without its history, which is not saved
-      logical :: solves_dae = .false.            !! enforces the constraints by itself, and omits dependent rows
+      logical :: solves_dae = .false.            !! enforces the constraints, and omits dependent rows
       logical :: has_sparse_newton = .false.     !! Newton matrix of large systems follows the pattern of all coordinates
       integer :: reference_place = 0             !! place among the methods that confirm others; 0: not among them
       character(24) :: parts = ""                !! methods whose steps it makes, by its choice; blank: its own only

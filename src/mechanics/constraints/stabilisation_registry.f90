@@ -33,7 +33,7 @@ contains
       end select
    end subroutine new_stabilisation
 
-   !> Way by its name in a deck, which must be one of them.
+   !> Stabilisation by its name in a deck, which must be one of them.
    subroutine find_stabilisation(name, way)
       character(*), intent(in) :: name                              !! the way's name
       class(stabilisation_t), allocatable, intent(out) :: way       !! the way, not configured
@@ -46,7 +46,7 @@ contains
       end do
    end subroutine find_stabilisation
 
-   !> The way that suits a system: projection, which leaves neither violations nor the traces of gains in the motion; Baumgarte's
+   !> The stabilisation that suits a system: projection, which leaves neither violations nor the traces of gains in the motion; Baumgarte's
    !> stabilisation where a driver jumps, because a jump cannot be projected; none where there is nothing to enforce.
    subroutine choose_stabilisation(is_needed, is_smooth, way)
       logical, intent(in) :: is_needed                              !! there are constraints that the integrator does not enforce

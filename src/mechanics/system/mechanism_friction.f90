@@ -163,7 +163,7 @@ contains
       end associate
    end function decay_rate
 
-   !> Time in which a contact swings against its bodies, without the numbers of a whole swing; 0 where that is not known.
+   !> Reciprocal of the angular frequency of a contact, sqrt(delta/(F_N sum of 1/m)); 0 without a penetration or force.
    pure real(wp) function own_time(self, slot, k, delta) result(time)
       class(mechanism_t), intent(in) :: self   !! the system
       integer, intent(in) :: slot                  !! set of the contact

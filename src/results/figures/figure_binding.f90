@@ -67,7 +67,7 @@ contains
 
    !> Start a hint with the figure of another kind that was probably meant, if that would be understood.
    recursive subroutine take_nearest_call(word, catalogue, hint)
-      character(*), intent(in) :: word                       !! a figure of the deck that is none
+      character(*), intent(in) :: word                       !! a word of the deck that names no figure
       type(catalogue_t), intent(in) :: catalogue             !! what can be recorded
       character(:), allocatable, intent(inout) :: hint       !! what may have been meant
 

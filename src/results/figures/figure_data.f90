@@ -22,7 +22,7 @@ module figure_data
       integer :: number = 0                !! of the channel among those of the figure
       integer :: x = 1                     !! column of the abscissa
       integer :: y = 0                     !! column of the ordinate
-      integer :: series(2) = -1            !! the numbers of both columns among the rows of the run; -1: there are none
+      integer :: series(2) = -1            !! columns of both coordinates in the rows of the run; -1: none
       character(:), allocatable :: x_label !! what stands over the column of the abscissa
       character(:), allocatable :: y_label !! over that of the ordinate
       real(wp) :: x_range(2) = 0.0_wp      !! (2) minimum and maximum abscissa, SI [any]
