@@ -57,7 +57,7 @@ contains
       type(random_t) :: random
       integer :: c, k, kind
 
-      do kind = 1, n_film_kinds
+      do kind = 1, n_film_kinds()
          call new_film_law(kind, case%law)
          info = case%law%info()
          if (info%name == "film."//name) exit

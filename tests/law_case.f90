@@ -38,7 +38,7 @@ contains
       type(random_t) :: random
       integer :: c, k, kind
 
-      do kind = 1, n_law_kinds
+      do kind = 1, n_law_kinds()
          call new_normal_law(kind, case%law)
          info = case%law%info()
          if (info%name == "contact."//name) exit

@@ -19,7 +19,7 @@ program film_errors
       end do
    end do
    write (output_unit, "(a)") column_names
-   do kind = 1, n_journal_film_kinds
+   do kind = 1, n_journal_film_kinds()
       do k = 1, size(motion_names)
          do i = 1, size(ratios)
             do j = 1, size(steps_of_eps)

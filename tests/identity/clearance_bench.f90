@@ -78,11 +78,11 @@ contains
       integer :: form, friction, kind, law, n, n_law
 
       n = 0
-      do kind = 1, n_clearance_kinds
+      do kind = 1, n_clearance_kinds()
          if (.not. is_planar_clearance(kind)) cycle
          n_law = n
-         do law = 1, n_law_kinds
-            do friction = 0, n_friction_kinds
+         do law = 1, n_law_kinds()
+            do friction = 0, n_friction_kinds()
                do form = 1, n_form
                   call make_bench(kind, law, friction, form, bench)
                   if (.not. bench%has_form) cycle
@@ -93,7 +93,7 @@ contains
                end do
             end do
          end do
-         call check_true(error, n - n_law >= 2*(n_friction_kinds + 1), "two laws at least fit each geometry")
+         call check_true(error, n - n_law >= 2*(n_friction_kinds() + 1), "two laws at least fit each geometry")
       end do
    end subroutine claim_all
 
@@ -250,7 +250,7 @@ contains
       integer :: k
 
       bench%has_form = .false.
-      do k = 1, n_law_kinds
+      do k = 1, n_law_kinds()
          call new_normal_law(k, law)
          info = law%info()
          if (info%name /= "contact.plane_face") cycle

@@ -77,7 +77,7 @@ contains
       class(force_set_t), allocatable :: set
       type(kind_info_t) :: info
 
-      do kind = 1, n_force_kinds
+      do kind = 1, n_force_kinds()
          call new_force_set(kind, set)
          info = set%info()
          if (info%name == name .and. is_planar_force(kind)) return

@@ -40,7 +40,7 @@ contains
       call system%evaluate(t, y, reference, status)
       call check_equal(error, status, 0, what//", reference")
       lambda = system%linkage%solution%lambda(:system%linkage%rows%n_solve)
-      do k = 1, n_solver_kinds
+      do k = 1, n_solver_kinds()
          call new_solver(k, system%linkage%solution%solver)
          call system%linkage%solution%solver%prepare(system%linkage%bodies%n, system%linkage%rows)
          ydot = 0.0_wp
@@ -67,7 +67,7 @@ contains
 
       integer :: k
 
-      do k = 1, n_solver_kinds
+      do k = 1, n_solver_kinds()
          call new_solver(k, system%linkage%solution%solver)
          if (system%linkage%solution%solver%name() == name) exit
       end do

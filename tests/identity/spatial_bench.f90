@@ -50,7 +50,7 @@ contains
       integer :: k
 
       allocate (kinds(0))
-      do k = 1, n_joint_kinds
+      do k = 1, n_joint_kinds()
          call new_joint_set(k, set)
          if (is_of_space(set%info(), .true.)) kinds = [kinds, k]
       end do
@@ -134,7 +134,7 @@ contains
 
       if (column_number(bench%info, "joint") == 0) return
       do k = 1, n_item
-         do kind = 1, n_joint_kinds
+         do kind = 1, n_joint_kinds()
             call new_joint_set(kind, joint)
             info = joint%info()
             if (info%name == "joint.revolute" .and. is_of_space(info, .true.)) exit

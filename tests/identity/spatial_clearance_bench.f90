@@ -66,11 +66,11 @@ contains
       integer :: ends, friction, kind, law, n
 
       n = 0
-      do kind = 1, n_clearance_kinds
+      do kind = 1, n_clearance_kinds()
          call new_clearance_set(kind, set)
          if (.not. is_of_space(set%info(), .true.)) cycle
-         do law = 1, n_law_kinds
-            do friction = 0, n_friction_kinds
+         do law = 1, n_law_kinds()
+            do friction = 0, n_friction_kinds()
                do ends = 1, n_end
                   call make_bench(kind, law, friction, ends, bench)
                   if (.not. bench%fits) cycle
@@ -207,7 +207,7 @@ contains
       integer :: c, kind
 
       kinds = split_blank(bench%info%columns(column_number(bench%info, "joint"))%refers_to)
-      do kind = 1, n_joint_kinds
+      do kind = 1, n_joint_kinds()
          call new_joint_set(kind, joint)
          info = joint%info()
          if (info%name == kinds(ends)%s .and. is_of_space(info, .true.)) exit

@@ -68,7 +68,7 @@ contains
       info = dynamic_info()
       call check_equal(error, " "//info%columns(column_of(info, "stabilise"))%options, all_names, "options of the key")
       option%number = 0.1234_wp
-      do k = 1, n_stabilisation_kinds
+      do k = 1, n_stabilisation_kinds()
          do i = 1, size(names)
             option%name = trim(names(i))
             call new_stabilisation(k, set)

@@ -71,7 +71,7 @@ contains
       real(wp) :: by_delta, by_rate, delta, f, near(4, 2), rate, speed
       integer :: k, kind, row, sample
 
-      do kind = 1, n_law_kinds
+      do kind = 1, n_law_kinds()
          do row = 1, n_row
             call make_law(kind, row, law, parameters, name)
             do sample = 1, n_sample
@@ -104,7 +104,7 @@ contains
       real(wp) :: by_delta, by_rate, elastic, f, rate
       integer :: kind, row, sample
 
-      do kind = 1, n_law_kinds
+      do kind = 1, n_law_kinds()
          do row = 1, n_row
             call make_law(kind, row, law, parameters, name)
             do sample = 1, n_sample
@@ -133,7 +133,7 @@ contains
       real(wp) :: by_delta, by_rate, elastic, f
       integer :: i, k, kind
 
-      do kind = 1, n_law_kinds
+      do kind = 1, n_law_kinds()
          call make_law(kind, 1, law, parameters, name)
          do k = 1, size(apart)
             do i = 1, size(rates)
@@ -157,7 +157,7 @@ contains
       real(wp) :: delta, elastic, energy(4), f
       integer :: k, kind, row, sample
 
-      do kind = 1, n_law_kinds
+      do kind = 1, n_law_kinds()
          do row = 1, n_row
             call make_law(kind, row, law, parameters, name)
             do sample = 1, n_sample
@@ -187,7 +187,7 @@ contains
       real(wp), dimension(1) :: by_delta_1, by_rate_1, elastic_1, f_1
       integer :: k, kind
 
-      do kind = 1, n_law_kinds
+      do kind = 1, n_law_kinds()
          call make_law(kind, 1, law, parameters, name)
          delta = random%vector(n, -1.0e-5_wp, 3.0e-5_wp)
          rate = random%vector(n, -2.0_wp, 2.0_wp)
@@ -221,7 +221,7 @@ contains
       integer :: i, k, kind
       logical :: has_restitution
 
-      do kind = 1, n_law_kinds
+      do kind = 1, n_law_kinds()
          do k = 1, size(ce)
             call make_restitution(kind, ce(k), law, parameters, has_restitution)
             info = law%info()
@@ -275,7 +275,7 @@ contains
       logical :: has_restitution
 
       n_found = 0
-      do kind = 1, n_law_kinds
+      do kind = 1, n_law_kinds()
          call make_restitution(kind, 0.9_wp, law, parameters, has_restitution)
          info = law%info()
          select case (info%name)
@@ -363,7 +363,7 @@ contains
       real(wp) :: parameters(n_law_parameter), time
       integer :: k, kind
 
-      do kind = 1, n_law_kinds
+      do kind = 1, n_law_kinds()
          call make_law(kind, 1, law, parameters, name)
          do k = 1, size(speeds)
             call check_close(error, law%contact_time(parameters, speeds(k), 0.0_wp), 0.0_wp, 0.0_wp, name//": without mass")

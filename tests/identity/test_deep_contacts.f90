@@ -83,7 +83,7 @@ contains
       character(:), allocatable :: name
       integer :: k, kind, side
 
-      do kind = 1, n_law_kinds
+      do kind = 1, n_law_kinds()
          call make_law(kind, 2, law, parameters, name)
          parameters(parameter_gentle) = gentle**2/steel_mass
          do k = 1, size(slow)
@@ -117,7 +117,7 @@ contains
       integer :: k, kind, n_family
 
       n_family = 0
-      do kind = 1, n_law_kinds
+      do kind = 1, n_law_kinds()
          call make_law(kind, 2, law, parameters, name)
          parameters(parameter_gentle) = gentle**2/steel_mass
          call law%force(2, spread(delta, 1, 2), spread(0.1_wp, 1, 2), [1.0_wp, 2.0_wp], spread(parameters, 2, 2), f(:2), &

@@ -137,7 +137,7 @@ contains
       real(wp) :: f(2), eps, eps_dot, om
       integer :: bits, kind
 
-      do kind = 1, n_film_kinds
+      do kind = 1, n_film_kinds()
          call make_film_kind(kind, unit_bearing(), case)
          call check_equal(error, case%message, "", case%name//" fits")
          do bits = 0, 7
@@ -183,7 +183,7 @@ contains
       real(wp) :: angle, f(2), other(2), rotation(2, 2)
       integer :: kind, sample
 
-      do kind = 1, n_film_kinds
+      do kind = 1, n_film_kinds()
          call make_film_kind(kind, unit_bearing(), case)
          do sample = 1, 20
             motion = motion_of(case, random%between(0.05_wp, 0.9_wp), 0.0_wp, random%between(-2.0_wp, 2.0_wp), 0.0_wp)
@@ -213,7 +213,7 @@ contains
       type(film_motion_t) :: motion
       integer :: kind
 
-      do kind = 1, n_film_kinds
+      do kind = 1, n_film_kinds()
          call make_film_kind(kind, unit_bearing(), case)
          motion%e = [0.3_wp, -0.5_wp]
          motion%e_dot = 1.7_wp*[0.5_wp, 0.3_wp]
@@ -230,7 +230,7 @@ contains
       real(wp) :: far(2), here(2)
       integer :: kind
 
-      do kind = 1, n_film_kinds
+      do kind = 1, n_film_kinds()
          call make_film_kind(kind, unit_bearing(), case)
          here = components(case, case%bearing%eps_max, 0.1_wp, 0.0_wp)
          far = components(case, 1.5_wp, 0.1_wp, 0.0_wp)
@@ -250,7 +250,7 @@ contains
       real(wp) :: f(2, 2)
       integer :: kind
 
-      do kind = 1, n_film_kinds
+      do kind = 1, n_film_kinds()
          call make_film_kind(kind, unit_bearing(), case)
          call make_film_kind(kind, film_bearing_t(9.8e-3_wp, 0.2e-3_wp, 15.0e-3_wp, 0.4_wp, 0.999_wp), other)
          motions = [motion_of(case, 0.4_wp, 0.2_wp, 1.0_wp, 0.3_wp), motion_of(other, 0.8_wp, -4.0_wp, 50.0_wp, -1.0_wp)]

@@ -43,7 +43,7 @@ contains
       type(motion_t) :: present_motion
       integer :: body, k, kind
 
-      do kind = 1, n_force_kinds
+      do kind = 1, n_force_kinds()
          if (.not. is_planar_force(kind)) cycle
          call make_bench(kind, bench)
          call bench%set%evaluate(now, bench%motion, bench%loads, bench%power)
@@ -98,7 +98,7 @@ contains
 
       rot = reshape([cos(turn), sin(turn), -sin(turn), cos(turn)], [2, 2])
       n_kind = 0
-      do kind = 1, n_force_kinds
+      do kind = 1, n_force_kinds()
          if (.not. is_planar_force(kind)) cycle
          call make_bench(kind, bench)
          info = bench%set%info()
@@ -142,7 +142,7 @@ contains
       real(wp) :: power
       integer :: body, kind
 
-      do kind = 1, n_force_kinds
+      do kind = 1, n_force_kinds()
          if (.not. is_planar_force(kind)) cycle
          call make_bench(kind, bench)
          call bench%set%evaluate(now, bench%motion, bench%loads, bench%power)
@@ -167,7 +167,7 @@ contains
       type(archive_t) :: archive
       integer :: kind
 
-      do kind = 1, n_force_kinds
+      do kind = 1, n_force_kinds()
          if (.not. is_planar_force(kind)) cycle
          call make_bench(kind, bench)
          archive = archive_t()
@@ -188,7 +188,7 @@ contains
       type(random_t) :: random
       integer :: c, kind
 
-      do kind = 1, n_force_kinds
+      do kind = 1, n_force_kinds()
          if (.not. is_planar_force(kind)) cycle
          call make_bench(kind, bench)
          info = bench%set%info()

@@ -65,7 +65,7 @@ contains
       real(wp), dimension(n) :: f, force, limit, twice
       integer :: c, k, kind, row
 
-      do kind = 1, n_friction_kinds
+      do kind = 1, n_friction_kinds()
          do row = 1, n_row
             call make_friction(kind, row, law, item)
             info = law%info()
@@ -133,7 +133,7 @@ contains
       type(kind_info_t) :: info
       integer :: kind
 
-      do kind = 1, n_friction_kinds
+      do kind = 1, n_friction_kinds()
          call make_friction(kind, 1, law, item)
          info = law%info()
          if (info%name == "friction."//name) exit
@@ -271,7 +271,7 @@ contains
       type(kind_info_t) :: info
       integer :: kind
 
-      do kind = 1, n_friction_kinds
+      do kind = 1, n_friction_kinds()
          call make_friction(kind, 1, law, item)
          info = law%info()
          if (info%name == "friction.ambrosio") exit

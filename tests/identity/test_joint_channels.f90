@@ -34,7 +34,7 @@ contains
       real(wp) :: axis(2), d(2), rate, value
       integer :: k, kind
 
-      do kind = 1, n_joint_kinds
+      do kind = 1, n_joint_kinds()
          if (.not. is_planar_joint(kind)) cycle
          call make_bench(kind, 2, bench)
          call evaluate_after(bench, 0.0_wp)
@@ -62,7 +62,7 @@ contains
       type(archive_t) :: archive
       integer :: kind
 
-      do kind = 1, n_joint_kinds
+      do kind = 1, n_joint_kinds()
          if (.not. is_planar_joint(kind)) cycle
          call make_bench(kind, 1, bench)
          archive = archive_t()
@@ -84,7 +84,7 @@ contains
       integer :: c, k, kind
 
       coordinates = new_planar_coordinates()
-      do kind = 1, n_joint_kinds
+      do kind = 1, n_joint_kinds()
          if (.not. is_planar_joint(kind)) cycle
          call make_bench(kind, 1, bench)
          call evaluate_after(bench, 0.0_wp)

@@ -37,7 +37,7 @@ contains
       real(wp) :: direction(3, n_body), q(3, n_body)
       integer :: body, c, k, kind, row, seed
 
-      do kind = 1, n_joint_kinds
+      do kind = 1, n_joint_kinds()
          if (.not. is_planar_joint(kind)) cycle
          do seed = 1, n_seed
             call make_bench(kind, seed, bench)
@@ -72,7 +72,7 @@ contains
       real(wp), allocatable :: phi(:, :)
       integer :: k, kind, row, seed
 
-      do kind = 1, n_joint_kinds
+      do kind = 1, n_joint_kinds()
          if (.not. is_planar_joint(kind)) cycle
          do seed = 1, n_seed
             call make_bench(kind, seed, bench)
@@ -97,7 +97,7 @@ contains
       real(wp), allocatable :: rate(:, :)
       integer :: k, kind, row, seed
 
-      do kind = 1, n_joint_kinds
+      do kind = 1, n_joint_kinds()
          if (.not. is_planar_joint(kind)) cycle
          do seed = 1, n_seed
             call make_bench(kind, seed, bench)
@@ -123,7 +123,7 @@ contains
       real(wp) :: rate, unused, value(6)
       integer :: item, k, kind
 
-      do kind = 1, n_joint_kinds
+      do kind = 1, n_joint_kinds()
          if (.not. is_planar_joint(kind)) cycle
          call make_bench(kind, 1, bench)
          do item = 1, n_item

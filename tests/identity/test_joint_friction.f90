@@ -33,7 +33,7 @@ contains
       integer :: i, j, k, kind, n_kind, seed
 
       n_kind = 0
-      do kind = 1, n_joint_kinds
+      do kind = 1, n_joint_kinds()
          if (.not. is_planar_joint(kind)) cycle
          do seed = 1, n_seed
             call make_bench(kind, seed, bench)
@@ -63,7 +63,7 @@ contains
       real(wp) :: v
       integer :: k, kind, seed, side
 
-      do kind = 1, n_joint_kinds
+      do kind = 1, n_joint_kinds()
          if (.not. is_planar_joint(kind)) cycle
          do seed = 1, n_seed
             call make_bench(kind, seed, bench)
@@ -94,7 +94,7 @@ contains
       real(wp) :: above, below, lambda(most_rows), normal, slope(most_rows), unused(most_rows)
       integer :: c, k, kind, row
 
-      do kind = 1, n_joint_kinds
+      do kind = 1, n_joint_kinds()
          if (.not. is_planar_joint(kind)) cycle
          call make_bench(kind, 1, bench)
          if (bench%set%friction%n == 0) cycle

@@ -37,7 +37,7 @@ contains
       real(wp), parameter :: mark = 12345.0_wp
       integer :: item, kind, row
 
-      do kind = 1, n_joint_kinds
+      do kind = 1, n_joint_kinds()
          if (.not. is_planar_joint(kind)) cycle
          call make_bench(kind, 1, bench)
          associate (rows => bench%rows)
@@ -70,7 +70,7 @@ contains
       type(bench_t) :: bench
       integer :: kind, seed
 
-      do kind = 1, n_joint_kinds
+      do kind = 1, n_joint_kinds()
          if (.not. is_planar_joint(kind)) cycle
          do seed = 1, n_seed
             call make_bench(kind, seed, bench)
@@ -89,7 +89,7 @@ contains
       real(wp) :: turned
       integer :: first, k, kind, last, row, seed
 
-      do kind = 1, n_joint_kinds
+      do kind = 1, n_joint_kinds()
          if (.not. is_planar_joint(kind)) cycle
          do seed = 1, n_seed
             call make_bench(kind, seed, bench)
@@ -134,7 +134,7 @@ contains
       type(bench_t) :: large, small
       integer :: kind, seed
 
-      do kind = 1, n_joint_kinds
+      do kind = 1, n_joint_kinds()
          if (.not. is_planar_joint(kind)) cycle
          do seed = 1, n_seed
             call make_bench(kind, seed, small)
@@ -157,7 +157,7 @@ contains
       integer :: item, kind, n_kind
 
       n_kind = 0
-      do kind = 1, n_joint_kinds
+      do kind = 1, n_joint_kinds()
          if (.not. is_planar_joint(kind)) cycle
          call make_bench(kind, 1, bench)
          call evaluate_after(bench, 0.0_wp)
@@ -187,7 +187,7 @@ contains
       integer :: kind, row
 
       row = before + 2
-      do kind = 1, n_joint_kinds
+      do kind = 1, n_joint_kinds()
          if (.not. is_planar_joint(kind)) cycle
          call make_bench(kind, 1, bench)
          ! item 2: ground and body 1

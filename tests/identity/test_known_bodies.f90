@@ -208,7 +208,7 @@ contains
 
       integer :: k
 
-      do k = 1, n_solver_kinds
+      do k = 1, n_solver_kinds()
          call check_twins(k, "[force.spring]"//nl//"name i j stiffness[N/m]"//nl//"coil arm_0 hand_0 5"//nl)
          call check_twins(k, "elbow arm_1 hand_0"//nl)
       end do

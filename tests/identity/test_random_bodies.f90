@@ -95,13 +95,13 @@ contains
       do k = 1, 2
          do seed = 1, 5
             call new_problem(n_rates(k), all_unknown, tree(n_rates(k), all_unknown, seed), 0, 7*seed, problem)
-            do i = 1, n_solver_kinds
+            do i = 1, n_solver_kinds()
                call check_solver("unknown")
             end do
             call new_problem(n_rates(k), some_known, &
                              reshape([tree(n_rates(k), some_known, seed), 0, 2, 2, 5], &
                                      [2, size(tree(n_rates(k), some_known, seed))/2 + 2]), 2, 7*seed, problem)
-            do i = 1, n_solver_kinds
+            do i = 1, n_solver_kinds()
                call check_solver("known")
             end do
          end do
@@ -163,7 +163,7 @@ contains
                   end associate
                end do
             end do
-            do i = 1, n_solver_kinds
+            do i = 1, n_solver_kinds()
                call check_solver(.true., [1.0e-10_wp, 1.0e-9_wp])
                call check_solver(.false., [1.0e-8_wp, 1.0e-4_wp])
             end do
@@ -210,7 +210,7 @@ contains
 
       do k = 1, 2
          call new_problem(n_rates(k), some_known, tree(n_rates(k), some_known, 6), 0, 77, problem)
-         do i = 1, n_solver_kinds
+         do i = 1, n_solver_kinds()
             call new_solver(i, solver)
             call solver%prepare(problem%n_body, problem%rows)
             name = to_text(n_rates(k))//" rates, "//solver%name()
@@ -290,7 +290,7 @@ contains
             space%rows%jac(other(c), n + 3*(k - 1) + c) = 1.0_wp
          end do
       end do
-      do i = 1, n_solver_kinds
+      do i = 1, n_solver_kinds()
          call new_solver(i, solver)
          call solver%prepare(flat%n_body, flat%rows)
          if (allocated(flat_a)) deallocate (flat_a, a)

@@ -47,7 +47,7 @@ contains
       call use_solver(unique, "complete")
       call unique%evaluate(0.0_wp, y, ydot_twin, status)
       call check_equal(error, status, 0, "twin of "//what)
-      do k = 1, n_solver_kinds
+      do k = 1, n_solver_kinds()
          call new_solver(k, system%linkage%solution%solver)
          call system%linkage%solution%solver%prepare(system%linkage%bodies%n, system%linkage%rows)
          call system%evaluate(0.0_wp, y, ydot, status)
@@ -81,7 +81,7 @@ contains
          if (allocated(error)) return
          call start_text(deck//second, many, y, error)
          if (allocated(error)) return
-         do k = 1, n_solver_kinds
+         do k = 1, n_solver_kinds()
             call new_solver(k, many%linkage%solution%solver)
             call many%linkage%solution%solver%prepare(many%linkage%bodies%n, many%linkage%rows)
             call many%evaluate(0.0_wp, start, ydot, status)

@@ -68,7 +68,7 @@ contains
       type(random_t) :: random
       integer :: kind, option, sample
 
-      do kind = 1, n_film_kinds
+      do kind = 1, n_film_kinds()
          call new_film_law(kind, law)
          info = law%info()
          do option = 1, n_option

@@ -113,7 +113,7 @@ contains
       integer :: k, kind, n
 
       n = 0
-      do kind = 1, n_force_kinds
+      do kind = 1, n_force_kinds()
          if (.not. make_bench(kind, bench)) cycle
          n = n + 1
          given = 0.0_wp
@@ -144,7 +144,7 @@ contains
       real(wp) :: moment(3)
       integer :: k, kind
 
-      do kind = 1, n_force_kinds
+      do kind = 1, n_force_kinds()
          if (.not. make_bench(kind, bench)) cycle
          if (column_number(bench%info, "j") == 0) cycle
          call check_close(error, sum(bench%loads%force, 2), [0.0_wp, 0.0_wp, 0.0_wp], 1.0e-13_wp, bench%info%name//": forces")
@@ -165,7 +165,7 @@ contains
       real(wp), allocatable :: values(:, :)
       integer :: c, kind
 
-      do kind = 1, n_force_kinds
+      do kind = 1, n_force_kinds()
          if (.not. make_bench(kind, bench)) cycle
          do c = 1, size(bench%info%channels)
             associate (channel => bench%info%channels(c))

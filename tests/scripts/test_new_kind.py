@@ -23,25 +23,25 @@ KINDS = {
     "law": [
         ("law_power.f90", "src/mechanics/contact"),
         (CONTACT, "   use law_plane_face, only: law_plane_face_t", "   use law_power, only: law_power_t"),
-        (CONTACT, "   integer, parameter :: n_law_kinds = ", "+1"),
+        (CONTACT, "      n_law_kinds = ", "+1"),
         (CONTACT, "allocate (law_persson_t :: law)", "      case ({n}); allocate (law_power_t :: law)"),
     ],
     "joint": [
         ("joint_belt.f90", "src/mechanics/joints"),
         (JOINTS, "   use initial_speed, only: initial_speed_t", "   use joint_belt, only: joint_belt_t"),
-        (JOINTS, "   integer, parameter :: n_joint_kinds = ", "+1"),
+        (JOINTS, "      n_joint_kinds = ", "+1"),
         (JOINTS, "allocate (spatial_constant_velocity_t :: set)", "      case ({n}); allocate (joint_belt_t :: set)"),
     ],
     "geometry": [
         ("clearance_rollers.f90", "src/mechanics/clearance"),
         (CLEARANCE, "   use clearance_revolute, only: clearance_revolute_t", "   use clearance_rollers, only: clearance_rollers_t"),
-        (CLEARANCE, "   integer, parameter :: n_clearance_kinds = ", "+1"),
+        (CLEARANCE, "      n_clearance_kinds = ", "+1"),
         (CLEARANCE, "allocate (clearance_limits_t :: set)", "      case ({n}); allocate (clearance_rollers_t :: set)"),
     ],
     "method": [
         ("heun.f90", "src/integrators/methods"),
         (METHODS, "   use dop853, only: dop853_t", "   use heun, only: heun_t"),
-        (METHODS, "   integer, parameter :: n_integrator_kinds = ", "+1"),
+        (METHODS, "      n_integrator_kinds = ", "+1"),
         (METHODS, "allocate (radau_t :: method)", "      case ({n}); allocate (heun_t :: method)"),
     ],
     "verb": [
@@ -82,7 +82,7 @@ def apply(tree, edits):
 
 @pytest.fixture(scope="module")
 def program(tmp_path_factory):
-    """The program with all examples, built from the objects that are there: some 150 files are compiled anew."""
+    """The program with all examples, built from the objects that are there."""
     if not os.environ.get("GUDGEON_NEW_KIND"):
         pytest.skip("`make new-kind-test` builds the examples")
     tree = tmp_path_factory.mktemp("new_kind") / "tree"

@@ -56,7 +56,7 @@ contains
       real(wp) :: scale
       integer :: body, k, kind
 
-      do kind = 1, n_clearance_kinds
+      do kind = 1, n_clearance_kinds()
          if (.not. is_planar_clearance(kind)) cycle
          call make_bench(kind, 1, 0, 1, bench)
          associate (set => bench%set)

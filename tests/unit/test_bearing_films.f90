@@ -100,7 +100,7 @@ contains
                                               "lubricated on inertial 0mm 0mm", &
                                               "lubricated on book 0mm 0mm", "hybrid on inertial 5um 10um"]
 
-      do kind = 1, n_journal_film_kinds
+      do kind = 1, n_journal_film_kinds()
          call new_film_law(kind, law)
          info = law%info()
          do option = 1, size(values)

@@ -93,7 +93,7 @@ contains
       integer :: found, kind
 
       found = 0
-      do kind = 1, n_journal_film_kinds
+      do kind = 1, n_journal_film_kinds()
          call make_film_kind(kind, bearing, case)
          if (.not. case%law%has_field()) cycle
          found = found + 1
@@ -132,7 +132,7 @@ contains
 
       motion%e = bearing%clearance*0.6_wp*[cos(2.0_wp), sin(2.0_wp)]
       motion%angle = 0.7_wp
-      do kind = 1, n_journal_film_kinds
+      do kind = 1, n_journal_film_kinds()
          call make_film_kind(kind, bearing, case)
          call case%law%field(motion, case%parameters, 2.0_wp - 0.7_wp + [0.0_wp, 0.5_wp*pi, pi], [0.3_wp], p, h)
          call check_close(error, h(1, :)/bearing%clearance, [0.4_wp, 1.0_wp, 1.6_wp], 1.0e-12_wp, case%name)
@@ -151,7 +151,7 @@ contains
 
       motion%e = [1.0e-5_wp, 0.0_wp]
       motion%speed_sum = 1.0_wp
-      do kind = 1, n_journal_film_kinds
+      do kind = 1, n_journal_film_kinds()
          call make_film_kind(kind, bearing, case)
          call case%law%field(motion, case%parameters, [0.1_wp, 4.0_wp], [-0.5_wp, 0.0_wp], p, h)
          call check_true(error, all(ieee_is_nan(p)) .neqv. case%law%has_field(), case%name)

@@ -42,7 +42,7 @@ contains
       real(wp) :: f(3), near(3, 4)
       integer :: i, k, seed
 
-      do k = 1, n_function_kinds
+      do k = 1, n_function_kinds()
          call new_function_kind(k, kind)
          info = kind%info()
          do seed = 1, 3
@@ -180,7 +180,7 @@ contains
                            "[function.samples]"//nl//"name at value"//nl//"way ""0 1 2 3 s"" ""0 0 0 1 mm"""//nl// &
                            "[analysis.dynamic]"//nl//"end = 1 s", scene, error)
       if (allocated(error)) return
-      do k = 1, n_function_kinds
+      do k = 1, n_function_kinds()
          if (size(scene%tables%functions(k)%items) == 0) cycle
          call check_true(error, same_dimension(scene%tables%functions(k)%items(1)%values(2)%dimensions(1), dim_length), "a length")
       end do

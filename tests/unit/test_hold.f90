@@ -134,7 +134,7 @@ contains
       real(wp) :: drift, inner(2)
       integer :: k, status
 
-      do k = 1, n_integrator_kinds
+      do k = 1, n_integrator_kinds()
          system%pull = 0.0_wp
          call begin(k, .true., 2.0_wp, system, method, name)
          do while (method%t < t_end)
@@ -167,7 +167,7 @@ contains
       type(circle_t) :: system
       integer :: k, status
 
-      do k = 1, n_integrator_kinds
+      do k = 1, n_integrator_kinds()
          system%pull = 1.0e3_wp
          call begin(k, .true., 2.0_wp, system, method, name)
          do while (method%t < 1.0_wp)
@@ -187,7 +187,7 @@ contains
       type(circle_t) :: system
       integer :: k, n_event, status
 
-      do k = 1, n_integrator_kinds
+      do k = 1, n_integrator_kinds()
          system%pull = 0.0_wp
          call begin(k, .true., 2.0_wp, system, method, name)
          ! from the left of the circle, so that the first event is a rise
@@ -245,7 +245,7 @@ contains
       real(wp) :: told
       integer :: k, n_right, status
 
-      do k = 1, n_integrator_kinds
+      do k = 1, n_integrator_kinds()
          system%pull = 0.0_wp
          call begin(k, .false., 2.0_wp, system, method, name)
          system%n_set = 0
@@ -269,7 +269,7 @@ contains
       type(circle_t) :: system
       integer :: failure, k, status
 
-      do k = 1, n_integrator_kinds
+      do k = 1, n_integrator_kinds()
          do failure = -1, 1, 2
             system%pull = 0.0_wp
             call begin(k, .true., 2.0_wp, system, method, name)

@@ -45,7 +45,7 @@ contains
       call check_way("partitioning"//by_verner, 1.0e-7_wp, 1.0e-12_wp, 1.0e-7_wp)
       call check_way("projection"//by_verner, 1.0e-7_wp, 1.0e-12_wp, 1.0e-7_wp)
       call check_way("projection"//by_steps, 1.0e-6_wp, 1.0e-12_wp, 1.0e-5_wp)
-      call check_equal(error, n_way, n_stabilisation_kinds + 1, "ways that were looked at, one of them twice")
+      call check_equal(error, n_way, n_stabilisation_kinds() + 1, "ways that were looked at, one of them twice")
 
    contains
 

@@ -102,7 +102,7 @@ contains
       real(wp) :: e, f(2), size_b, size_k, tolerance
       integer :: i, kind
 
-      do kind = 1, n_journal_film_kinds
+      do kind = 1, n_journal_film_kinds()
          call make_film_kind(kind, bearing, case)
          if (case%name == "squeeze") cycle  ! no force of rotation
          tolerance = merge(2.0e-4_wp, 1.0e-7_wp, case%name == "grid")
@@ -162,7 +162,7 @@ contains
       type(film_slopes_t) :: slopes
       integer :: i, kind
 
-      do kind = 1, n_journal_film_kinds
+      do kind = 1, n_journal_film_kinds()
          call make_film_kind(kind, bearing, case)
          do i = 0, 1
             call case%law%linearise(motion_of(case, 0.6_wp*i, 0.0_wp, 0.0_wp, 0.0_wp), case%parameters, slopes)

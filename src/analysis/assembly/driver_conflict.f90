@@ -34,17 +34,17 @@ contains
       type(text_t), allocatable :: guilty(:)
       character(:), allocatable :: names, was
       integer :: i, k, n
-      logical :: is_driver(n_joint_kinds)
+      logical :: is_driver(n_joint_kinds())
 
       if (error%code /= exit_assembly) return
       n = 0
-      do k = 1, n_joint_kinds
+      do k = 1, n_joint_kinds()
          is_driver(k) = starts_with(scene%joints(k)%info%name, "driver.") .or. scene%joints(k)%info%is_start_only
          if (is_driver(k)) n = n + size(scene%joints(k)%items)
       end do
       if (n < 2 .or. n > most_drivers) return
       allocate (guilty(0))
-      do k = 1, n_joint_kinds
+      do k = 1, n_joint_kinds()
          if (.not. is_driver(k)) cycle
          do i = 1, size(scene%joints(k)%items)
             if (can_do_without(scene, levels, k, i, q, v)) call append_text(guilty, scene%joints(k)%items(i)%name)

@@ -86,8 +86,8 @@ contains
             reason = "a stop condition applies to all of them"
          else if (settings%controls%maximum_steps > 0 .or. settings%controls%maximum_evaluations > 0) then
             reason = "a limit applies to the sum of their steps or evaluations"
-         else if (any([(scene%forces(k)%info%counts_turns .and. size(scene%forces(k)%items) > 0, k=1, n_force_kinds)]) .or. &
-                  any([(scene%joints(k)%info%counts_turns .and. size(scene%joints(k)%items) > 0, k=1, n_joint_kinds)])) then
+         else if (any([(scene%forces(k)%info%counts_turns .and. size(scene%forces(k)%items) > 0, k=1, n_force_kinds())]) .or. &
+                  any([(scene%joints(k)%info%counts_turns .and. size(scene%joints(k)%items) > 0, k=1, n_joint_kinds())])) then
             reason = "accumulated angles need common steps"
          else if (sees_motion(scene)) then
             reason = "loads depend on the motion"

@@ -163,7 +163,7 @@ contains
       select case (name)
       case ("--analysis"); words = concatenated(analysis_names)
       case ("--method")
-         do k = 1, n_integrator_kinds
+         do k = 1, n_integrator_kinds()
             call new_integrator(k, method)
             info = method%info()
             words = words//" "//info%name

@@ -36,17 +36,17 @@ contains
 
       call all_kinds(sections)
       n = size(sections)
-      allocate (kinds(n + n_integrator_kinds + 1))
+      allocate (kinds(n + n_integrator_kinds() + 1))
       do k = 1, n
          kinds(k) = sections(k)
       end do
-      do k = 1, n_integrator_kinds
+      do k = 1, n_integrator_kinds()
          call new_integrator(k, method)
          kinds(n + k) = method%info()
          kinds(n + k)%name = "integrator."//kinds(n + k)%name
          kinds(n + k)%is_table = .false.
       end do
-      kinds(n + n_integrator_kinds + 1) = energy_info(with_works=.true., with_films=.true.)
+      kinds(n + n_integrator_kinds() + 1) = energy_info(with_works=.true., with_films=.true.)
    end subroutine known_kinds
 
    !> `gudgeon list`: one line per kind.

@@ -42,7 +42,7 @@ contains
       type(mechanism_t), intent(inout) :: system  !! clearances and ideal joints are set
 
       type(clearance_slot_t), allocatable :: slots(:)
-      type(joint_slot_t) :: twins(n_clearance_kinds)
+      type(joint_slot_t) :: twins(n_clearance_kinds())
       logical, allocatable :: is_done(:), is_twin(:)
       type(item_t), allocatable :: some(:)
       integer, allocatable :: chosen(:)
@@ -51,7 +51,7 @@ contains
       allocate (slots(count_clearances(scene)))
       n = 0
       n_ideal = 0
-      do k = 1, n_clearance_kinds
+      do k = 1, n_clearance_kinds()
          associate (items => scene%clearances(k)%items, info => scene%clearances(k)%info)
             is_twin = is_ideal(items, levels)
             is_done = is_twin
@@ -118,7 +118,7 @@ contains
 
       integer :: k
 
-      has_ideal = any([(any(is_ideal(scene%clearances(k)%items, levels)), k=1, n_clearance_kinds)])
+      has_ideal = any([(any(is_ideal(scene%clearances(k)%items, levels)), k=1, n_clearance_kinds())])
    end function has_ideal
 
    !> Rows of a geometry as the joint that it is without clearance.
@@ -151,7 +151,7 @@ contains
       integer :: k
 
       n = 0
-      do k = 1, n_clearance_kinds
+      do k = 1, n_clearance_kinds()
          n = n + size(scene%clearances(k)%items)
       end do
    end function count_clearances

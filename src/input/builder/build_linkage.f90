@@ -63,14 +63,14 @@ contains
    !> Places for the sets of joints and drivers.
    subroutine count_sets(scene, choices, is_taken, linkage)
       type(scene_t), intent(in) :: scene                      !! the scene
-      type(choice_t), intent(in) :: choices(n_joint_kinds)    !! (kinds) which rows of each table leave the equations
-      logical, intent(in) :: is_taken(n_joint_kinds)          !! (kinds) which kinds take part
+      type(choice_t), intent(in) :: choices(:)  !! (kinds) which rows of each table leave the equations
+      logical, intent(in) :: is_taken(:)        !! (kinds) which kinds take part
       type(linkage_t), intent(inout) :: linkage               !! joints are allocated
 
       integer :: k, n
 
       n = 0
-      do k = 1, n_joint_kinds
+      do k = 1, n_joint_kinds()
          if (size(scene%joints(k)%items) == 0 .or. .not. is_taken(k)) cycle
          if (any(choices(k)%is_fixing)) n = n + 1
          n = n + n_segment(count(.not. choices(k)%is_fixing))
@@ -89,8 +89,8 @@ contains
    !> solved ones that are many, one for each `items_of_set`.
    subroutine add_joints(scene, choices, is_taken, is_solved, linkage)
       type(scene_t), intent(in) :: scene                      !! the scene
-      type(choice_t), intent(in) :: choices(n_joint_kinds)    !! (kinds) which rows of each table leave the equations
-      logical, intent(in) :: is_taken(n_joint_kinds)          !! (kinds) which kinds take part
+      type(choice_t), intent(in) :: choices(:)  !! (kinds) which rows of each table leave the equations
+      logical, intent(in) :: is_taken(:)        !! (kinds) which kinds take part
       logical, intent(in) :: is_solved                        !! which of them
       type(linkage_t), intent(inout) :: linkage               !! joints are set
 
@@ -101,7 +101,7 @@ contains
       n = 0
       if (.not. is_solved) n = count([(allocated(linkage%joints(k)%set), k=1, size(linkage%joints))])
       column = 0
-      do k = 1, n_joint_kinds
+      do k = 1, n_joint_kinds()
          if (size(scene%joints(k)%items) == 0 .or. .not. is_taken(k)) cycle
          chosen = pack([(m, m=1, size(scene%joints(k)%items))], choices(k)%is_fixing .neqv. is_solved)
          most = merge(items_of_set, size(chosen), is_solved)

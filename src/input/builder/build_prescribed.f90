@@ -37,7 +37,7 @@ module build_prescribed
    type :: reduction_t
       type(link_t), allocatable :: links(:)        !! (prescribed bodies) how they are fixed
       type(guide_t), allocatable :: guides(:)      !! (bodies with one degree of freedom) how they are held
-      type(choice_t) :: choices(n_joint_kinds)     !! (kinds) which rows of each table leave the equations
+      type(choice_t), allocatable :: choices(:)    !! (kinds) which rows of each table leave the equations
       logical, allocatable :: is_driven(:)         !! (bodies) whether drivers alone say how they move, omitted or not
    end type reduction_t
 
@@ -65,7 +65,8 @@ contains
       logical :: is_known(0:scene%bodies%n)
       integer :: k
 
-      do k = 1, n_joint_kinds
+      allocate (reduction%choices(n_joint_kinds()))
+      do k = 1, size(reduction%choices)
          allocate (reduction%choices(k)%is_fixing(size(scene%joints(k)%items)), source=.false.)
       end do
       allocate (reduction%links(0), reduction%guides(0))
@@ -106,7 +107,7 @@ contains
    subroutine set_prescribed(scene, links, choices, linkage)
       type(scene_t), intent(in) :: scene                      !! the scene
       type(link_t), intent(in) :: links(:)                    !! (prescribed bodies) how they are fixed
-      type(choice_t), intent(in) :: choices(n_joint_kinds)    !! (kinds) which rows of each table leave the equations
+      type(choice_t), intent(in) :: choices(:)  !! (kinds) which rows of each table leave the equations
       type(linkage_t), intent(inout) :: linkage               !! prescribed bodies are set; joints are there
 
       class(prescribed_bodies_t), allocatable :: known
@@ -158,7 +159,7 @@ contains
    subroutine set_one_dof(scene, guides, choices, linkage)
       type(scene_t), intent(in) :: scene                      !! the scene
       type(guide_t), intent(in) :: guides(:)  !! (bodies with one degree of freedom) how they are held, those that turn first
-      type(choice_t), intent(in) :: choices(n_joint_kinds)    !! (kinds) which rows of each table leave the equations
+      type(choice_t), intent(in) :: choices(:)  !! (kinds) which rows of each table leave the equations
       type(linkage_t), intent(inout) :: linkage  !! bodies with one degree of freedom are set; joints and prescribed bodies are
                                                  !! there
 
@@ -238,7 +239,7 @@ contains
    !> Set and item of a row of a joint table that leaves the equations.
    subroutine find_fixing(scene, choices, linkage, kind, row, slot, item)
       type(scene_t), intent(in) :: scene                      !! the scene
-      type(choice_t), intent(in) :: choices(n_joint_kinds)    !! (kinds) which rows of each table leave the equations
+      type(choice_t), intent(in) :: choices(:)  !! (kinds) which rows of each table leave the equations
       type(linkage_t), intent(in) :: linkage                  !! its joints
       integer, intent(in) :: kind                             !! number of the kind
       integer, intent(in) :: row                              !! row of its table

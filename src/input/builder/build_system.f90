@@ -40,13 +40,13 @@ contains
 
       type(abilities_t) :: can
       type(reduction_t) :: reduction
-      logical :: is_taken(n_joint_kinds), with_start_rows
+      logical :: is_taken(n_joint_kinds()), with_start_rows
       integer :: k
 
       system%requests = scene%requests
       with_start_rows = .false.
       if (present(is_for_start)) with_start_rows = is_for_start
-      do k = 1, n_joint_kinds
+      do k = 1, n_joint_kinds()
          is_taken(k) = with_start_rows .or. .not. scene%joints(k)%info%is_start_only
       end do
       system%ledger%is_kept = scene%settings%integration%has_ledger .and. scene%analysis == analysis_dynamic
@@ -75,7 +75,7 @@ contains
       call add_loads(scene, system%linkage%coordinates%n_v, system%clearance_joints%n, system%linkage%motion, system%loading)
       system%loading%counts_turns = system%loading%counts_turns &
                                     .or. any([(scene%joints(k)%info%counts_turns .and. size(scene%joints(k)%items) > 0, &
-                                               k=1, n_joint_kinds)])
+                                               k=1, n_joint_kinds())])
       allocate (system%clearance_joints%integrands(n_integrand, system%clearance_joints%n_contact), source=0.0_wp)
       if (scene%analysis == analysis_dynamic) system%n_impulse = system%clearance_joints%n_contact
       system%n_quadrature = merge(place_of_film_loss(system%clearance_joints%n_contact, system%friction%rubbing%n > 0) &
@@ -162,11 +162,11 @@ contains
       end do
       call new_loads(n, loading%loads)
       call start_loads(n, loading%weight, loading%loads%force, loading%loads%moment)
-      allocate (loading%forces(count([(size(scene%forces(k)%items) > 0, k=1, n_force_kinds)])))
+      allocate (loading%forces(count([(size(scene%forces(k)%items) > 0, k=1, n_force_kinds())])))
       loading%n_set = size(loading%forces)
       loading%loads%is_weight = loading%n_set + n_clearance_joint == 0  ! and stays so
       n = 0
-      do k = 1, n_force_kinds
+      do k = 1, n_force_kinds()
          if (size(scene%forces(k)%items) == 0) cycle
          n = n + 1
          call new_force_set(k, loading%forces(n)%set)
@@ -203,7 +203,7 @@ contains
       integer :: i, k
 
       all_smooth = .true.
-      do k = 1, n_joint_kinds
+      do k = 1, n_joint_kinds()
          do i = 1, size(scene%joints(k)%items)
             all_smooth = all_smooth .and. has_smooth_cells(scene%joints(k)%items(i))
          end do

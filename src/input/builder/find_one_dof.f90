@@ -37,7 +37,7 @@ contains
       allocate (guides(scene%bodies%n))
       n = 0
       do pass = 1, 2
-         do k = 1, n_joint_kinds
+         do k = 1, n_joint_kinds()
             if (scene%joints(k)%info%leaves /= leaves(pass)) cycle
             do i = 1, size(scene%joints(k)%items)
                body = joint_bodies(scene, k, i)
@@ -62,13 +62,13 @@ contains
       integer :: i, k
 
       n_joint = 0
-      do k = 1, n_joint_kinds
+      do k = 1, n_joint_kinds()
          if (scene%joints(k)%info%is_start_only) cycle
          do i = 1, size(scene%joints(k)%items)
             call count_pair(joint_bodies(scene, k, i))
          end do
       end do
-      do k = 1, n_clearance_kinds
+      do k = 1, n_clearance_kinds()
          associate (items => scene%clearances(k)%items)
             do i = 1, size(items)
                if (.not. is_ideal(items(i), levels)) cycle

@@ -56,13 +56,13 @@ contains
       integer :: i, k, n
 
       n = 0
-      do k = 1, n_joint_kinds
+      do k = 1, n_joint_kinds()
          if (scene%joints(k)%info%is_start_only) cycle
          do i = 1, size(scene%joints(k)%items)
             if (all(is_known(joint_bodies(scene, k, i)))) n = n + 1
          end do
       end do
-      do k = 1, n_clearance_kinds
+      do k = 1, n_clearance_kinds()
          do i = 1, size(scene%clearances(k)%items)
             tie = tie_of(scene, scene%clearances(k)%info, scene%clearances(k)%items(i))
             if (.not. tie%by_joint .and. all(is_known(tie%body))) n = n + 1
@@ -80,7 +80,7 @@ contains
       type(tie_t) :: tie
       integer :: i, k, kind, row
 
-      do k = 1, n_joint_kinds
+      do k = 1, n_joint_kinds()
          if (.not. scene%joints(k)%info%drives_turn) cycle
          do i = 1, size(scene%joints(k)%items)
             if (.not. has_smooth_cells(scene%joints(k)%items(i))) cycle
@@ -135,7 +135,7 @@ contains
 
       integer :: i, k
 
-      do k = 1, n_joint_kinds
+      do k = 1, n_joint_kinds()
          if (scene%joints(k)%info%leaves /= leaves_nothing) cycle
          do i = 1, size(scene%joints(k)%items)
             call add_if_new(scene, link_t(kind=k, item=i), is_known, links)

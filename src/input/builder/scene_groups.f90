@@ -29,9 +29,9 @@ module scene_groups
    type :: groups_t
       integer :: n = 0                                     !! number of groups
       type(sorted_t) :: bodies                             !! bodies
-      type(sorted_t) :: joints(n_joint_kinds)              !! (kinds) rows of joints and drivers
-      type(sorted_t) :: forces(n_force_kinds)              !! (kinds) rows of force elements
-      type(sorted_t) :: clearances(n_clearance_kinds)      !! (kinds) rows of joints with clearance
+      type(sorted_t), allocatable :: joints(:)             !! (kinds) rows of joints and drivers
+      type(sorted_t), allocatable :: forces(:)             !! (kinds) rows of force elements
+      type(sorted_t), allocatable :: clearances(:)         !! (kinds) rows of joints with clearance
       integer, allocatable, private :: point(:)            !! (points) scratch: number of each in a group
    contains
       procedure :: bodies_of => groups_bodies_of
@@ -58,13 +58,14 @@ contains
          end if
       end do
       call sort(group, groups%n, groups%bodies)
-      do k = 1, n_joint_kinds
+      allocate (groups%joints(n_joint_kinds()), groups%forces(n_force_kinds()), groups%clearances(n_clearance_kinds()))
+      do k = 1, n_joint_kinds()
          call sort_rows(scene, scene%joints(k), group, groups%n, groups%joints(k))
       end do
-      do k = 1, n_force_kinds
+      do k = 1, n_force_kinds()
          call sort_rows(scene, scene%forces(k), group, groups%n, groups%forces(k))
       end do
-      do k = 1, n_clearance_kinds
+      do k = 1, n_clearance_kinds()
          call sort_rows(scene, scene%clearances(k), group, groups%n, groups%clearances(k))
       end do
       allocate (groups%point(scene%points%n), source=0)
@@ -97,13 +98,13 @@ contains
       integer :: k
 
       parent = [(k, k=1, scene%bodies%n)]
-      do k = 1, n_joint_kinds
+      do k = 1, n_joint_kinds()
          call join_bodies(scene, scene%joints(k), parent)
       end do
-      do k = 1, n_force_kinds
+      do k = 1, n_force_kinds()
          call join_bodies(scene, scene%forces(k), parent)
       end do
-      do k = 1, n_clearance_kinds
+      do k = 1, n_clearance_kinds()
          call join_bodies(scene, scene%clearances(k), parent)
       end do
    end subroutine join_all
@@ -115,7 +116,7 @@ contains
       integer :: c, i, k
 
       sees = .false.
-      do k = 1, n_force_kinds
+      do k = 1, n_force_kinds()
          do i = 1, size(scene%forces(k)%items)
             do c = 1, size(scene%forces(k)%items(i)%values)
                if (.not. allocated(scene%forces(k)%items(i)%values(c)%expression)) cycle
@@ -295,13 +296,13 @@ contains
       one%settings%integration = scene%settings%integration
       one%settings%is_spatial = scene%settings%is_spatial
       one%settings%header = scene%settings%header
-      do k = 1, n_joint_kinds
+      do k = 1, n_joint_kinds()
          one%joints(k)%info => scene%joints(k)%info
       end do
-      do k = 1, n_force_kinds
+      do k = 1, n_force_kinds()
          one%forces(k)%info => scene%forces(k)%info
       end do
-      do k = 1, n_clearance_kinds
+      do k = 1, n_clearance_kinds()
          one%clearances(k)%info => scene%clearances(k)%info
       end do
    end subroutine begin_group_scene
@@ -317,22 +318,22 @@ contains
 
       call take_bodies(scene%bodies, groups%bodies_of(group), one%bodies)
       n_point = 0
-      do k = 1, n_joint_kinds
+      do k = 1, n_joint_kinds()
          call take_rows(scene%joints(k), groups%joints(k), one%joints(k))
       end do
-      do k = 1, n_force_kinds
+      do k = 1, n_force_kinds()
          call take_rows(scene%forces(k), groups%forces(k), one%forces(k))
       end do
-      do k = 1, n_clearance_kinds
+      do k = 1, n_clearance_kinds()
          call take_rows(scene%clearances(k), groups%clearances(k), one%clearances(k))
       end do
-      do k = 1, n_joint_kinds
+      do k = 1, n_joint_kinds()
          call renumber_all(one%joints(k))
       end do
-      do k = 1, n_force_kinds
+      do k = 1, n_force_kinds()
          call renumber_all(one%forces(k))
       end do
-      do k = 1, n_clearance_kinds
+      do k = 1, n_clearance_kinds()
          call renumber_all(one%clearances(k))
       end do
       associate (chosen => points(:n_point))

@@ -9,9 +9,12 @@ module function_registry
    private
    public :: n_function_kinds, new_function_kind
 
-   integer, parameter :: n_function_kinds = 4  !! number of kinds
-
 contains
+
+   !> Number of kinds.
+   pure integer function n_function_kinds()
+      n_function_kinds = 4
+   end function n_function_kinds
 
    !> Kind number k, 1 to `n_function_kinds`.
    subroutine new_function_kind(k, kind)

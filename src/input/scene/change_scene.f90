@@ -37,13 +37,13 @@ contains
       do k = 1, n_base
          call read_again(scene%tables%base(k))
       end do
-      do k = 1, n_joint_kinds
+      do k = 1, n_joint_kinds()
          call read_again(scene%joints(k))
       end do
-      do k = 1, n_force_kinds
+      do k = 1, n_force_kinds()
          call read_again(scene%forces(k))
       end do
-      do k = 1, n_clearance_kinds
+      do k = 1, n_clearance_kinds()
          call read_again(scene%clearances(k))
       end do
       call list_names(scene, directory)
@@ -85,7 +85,7 @@ contains
          logical :: has_changed
 
          n = 0
-         do i = 1, n_law_kinds
+         do i = 1, n_law_kinds()
             call read_again(scene%tables%laws(i), has_changed)
             associate (items => scene%tables%laws(i)%items)
                if (has_changed) call make_laws(i, items, mistakes%count() > 0, scene%laws(n + 1:), mistakes)
@@ -94,7 +94,7 @@ contains
             end associate
          end do
          n = 0
-         do i = 1, n_friction_kinds
+         do i = 1, n_friction_kinds()
             call read_again(scene%tables%frictions(i), has_changed)
             associate (items => scene%tables%frictions(i)%items)
                if (has_changed) call make_frictions(i, items, mistakes%count() > 0, scene%frictions(n + 1:), mistakes)
@@ -103,7 +103,7 @@ contains
             end associate
          end do
          n = 0
-         do i = 1, n_film_kinds
+         do i = 1, n_film_kinds()
             call read_again(scene%tables%films(i), has_changed)
             associate (items => scene%tables%films(i)%items)
                if (has_changed) call make_films(i, items, mistakes%count() > 0, scene%lubrication%films(n + 1:), mistakes)

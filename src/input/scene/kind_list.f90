@@ -29,14 +29,14 @@ module kind_list
    public :: all_kinds, clearance_info, film_info, force_info, friction_info, function_info, joint_info, kind_named, known, law_info
 
    ! where the kinds of a registry stand in the list: behind these
-   integer, parameter :: before_joints = 6                                                !! sections and tables of the scene
-   integer, parameter :: before_forces = before_joints + n_joint_kinds                    !! joints
-   integer, parameter :: before_functions = before_forces + n_force_kinds                 !! forces
-   integer, parameter :: before_clearances = before_functions + n_function_kinds + 1      !! functions, materials
-   integer, parameter :: before_laws = before_clearances + n_clearance_kinds              !! clearances
-   integer, parameter :: before_frictions = before_laws + n_law_kinds                     !! laws of contact
-   integer, parameter :: before_films = before_frictions + n_friction_kinds + 1           !! laws of friction, lubricants
-   integer, parameter :: before_settings = before_films + n_film_kinds                    !! films
+   integer :: before_joints       !! sections and tables of the scene
+   integer :: before_forces       !! joints
+   integer :: before_functions    !! forces
+   integer :: before_clearances   !! functions, materials
+   integer :: before_laws         !! clearances
+   integer :: before_frictions    !! laws of contact
+   integer :: before_films        !! laws of friction, lubricants
+   integer :: before_settings     !! films
 
    type(kind_info_t), allocatable, protected, target :: known(:)  !! (kinds) what they said, once they were asked
 
@@ -141,6 +141,14 @@ contains
       integer :: k
 
       if (allocated(known)) return
+      before_joints = 6
+      before_forces = before_joints + n_joint_kinds()
+      before_functions = before_forces + n_force_kinds()
+      before_clearances = before_functions + n_function_kinds() + 1
+      before_laws = before_clearances + n_clearance_kinds()
+      before_frictions = before_laws + n_law_kinds()
+      before_films = before_frictions + n_friction_kinds() + 1
+      before_settings = before_films + n_film_kinds()
       allocate (known(before_settings + 13))
       known(1) = scene_info()
       known(2) = bodies_info()
@@ -148,33 +156,33 @@ contains
       known(4) = spatial_bodies_info()
       known(5) = spatial_points_info()
       known(6) = shapes_info()
-      do k = 1, n_joint_kinds
+      do k = 1, n_joint_kinds()
          call new_joint_set(k, joint)
          known(before_joints + k) = joint%info()
       end do
-      do k = 1, n_force_kinds
+      do k = 1, n_force_kinds()
          call new_force_set(k, force)
          known(before_forces + k) = force%info()
       end do
-      do k = 1, n_function_kinds
+      do k = 1, n_function_kinds()
          call new_function_kind(k, function)
          known(before_functions + k) = function%info()
       end do
       known(before_clearances) = material_info()
-      do k = 1, n_clearance_kinds
+      do k = 1, n_clearance_kinds()
          call new_clearance_set(k, clearance)
          known(before_clearances + k) = clearance%info()
       end do
-      do k = 1, n_law_kinds
+      do k = 1, n_law_kinds()
          call new_normal_law(k, law)
          known(before_laws + k) = law%info()
       end do
-      do k = 1, n_friction_kinds
+      do k = 1, n_friction_kinds()
          call new_friction_law(k, friction)
          known(before_frictions + k) = friction%info()
       end do
       known(before_films) = lubricant_info()
-      do k = 1, n_film_kinds
+      do k = 1, n_film_kinds()
          call new_film_law(k, film)
          known(before_films + k) = film%info()
       end do

@@ -27,7 +27,7 @@ contains
       integer :: before, k, n
 
       allocate (scene%lubrication%films(0), directory%films(0))
-      do k = 1, n_film_kinds
+      do k = 1, n_film_kinds()
          scene%tables%films(k)%info => film_info(k)
          before = diagnostics%count()
          call read_items(deck, scene%tables%films(k)%info, scene%tables%films(k)%items, diagnostics)

@@ -26,13 +26,13 @@ contains
       integer :: before, i, k, n
 
       n = 0
-      do k = 1, n_function_kinds
+      do k = 1, n_function_kinds()
          scene%tables%functions(k)%info => function_info(k)
          call read_items(deck, scene%tables%functions(k)%info, scene%tables%functions(k)%items, diagnostics)
          n = n + size(scene%tables%functions(k)%items)
       end do
       call deck%symbols%start(n)
-      do k = 1, n_function_kinds
+      do k = 1, n_function_kinds()
          call new_function_kind(k, kind)
          do i = 1, size(scene%tables%functions(k)%items)
             before = diagnostics%count()

@@ -26,7 +26,7 @@ contains
       integer :: before, k, n
 
       allocate (scene%laws(0), scene%frictions(0), directory%laws(0), directory%frictions(0))
-      do k = 1, n_law_kinds
+      do k = 1, n_law_kinds()
          scene%tables%laws(k)%info => law_info(k)
          before = diagnostics%count()
          call read_items(deck, scene%tables%laws(k)%info, scene%tables%laws(k)%items, diagnostics)
@@ -38,7 +38,7 @@ contains
             call add_names(items, directory%laws)
          end associate
       end do
-      do k = 1, n_friction_kinds
+      do k = 1, n_friction_kinds()
          scene%tables%frictions(k)%info => friction_info(k)
          before = diagnostics%count()
          if (is_of_space(scene%tables%frictions(k)%info, scene%settings%is_spatial)) then

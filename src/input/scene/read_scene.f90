@@ -2,11 +2,14 @@
 module read_scene
    use bodies, only: new_bodies, new_materials, new_points
    use clearance_registry, only: n_clearance_kinds
+   use contact_registry, only: n_friction_kinds, n_law_kinds
    use columns, only: column_of
    use deck_types, only: deck_t, location_of_end
    use diagnostics, only: diagnostics_t
    use figure_list, only: join_figures
+   use film_registry, only: n_film_kinds
    use force_registry, only: n_force_kinds
+   use function_registry, only: n_function_kinds
    use item, only: place_of
    use imsl_names, only: fold_imsl_names
    use integration_settings, only: read_integration
@@ -44,6 +47,11 @@ contains
 
       type(directory_t) :: directory
 
+      allocate (scene%joints(n_joint_kinds()), scene%forces(n_force_kinds()), scene%clearances(n_clearance_kinds()))
+      associate (tables => scene%tables)
+         allocate (tables%functions(n_function_kinds()), tables%laws(n_law_kinds()), tables%frictions(n_friction_kinds()), &
+                   tables%films(n_film_kinds()))
+      end associate
       call read_section(deck, kind_named("scene", .false.), scene%settings%header, diagnostics)
       scene%settings%is_spatial = scene%settings%header%word("space") == "spatial"
       associate (gravity => scene%settings%header%values(place_of(scene%settings%header, "gravity")))
@@ -191,15 +199,15 @@ contains
       do k = 1, n_base
          call read_items(deck, scene%tables%base(k)%info, scene%tables%base(k)%items, diagnostics)
       end do
-      do k = 1, n_joint_kinds
+      do k = 1, n_joint_kinds()
          scene%joints(k)%info => joint_info(k)
          call read_if_known(scene%joints(k))
       end do
-      do k = 1, n_force_kinds
+      do k = 1, n_force_kinds()
          scene%forces(k)%info => force_info(k)
          call read_if_known(scene%forces(k))
       end do
-      do k = 1, n_clearance_kinds
+      do k = 1, n_clearance_kinds()
          scene%clearances(k)%info => clearance_info(k)
          call read_if_known(scene%clearances(k))
       end do
@@ -270,10 +278,10 @@ contains
 
       integer :: i, k, n
 
-      n = sum([(size(scene%joints(k)%items), k=1, n_joint_kinds)])
+      n = sum([(size(scene%joints(k)%items), k=1, n_joint_kinds())])
       allocate (directory%joints(n), directory%kinds(n))
       n = 0
-      do k = 1, n_joint_kinds
+      do k = 1, n_joint_kinds()
          do i = 1, size(scene%joints(k)%items)
             n = n + 1
             directory%joints(n)%s = scene%joints(k)%items(i)%name
@@ -293,13 +301,13 @@ contains
       do k = 1, n_base
          call resolve(directory, scene%tables%base(k)%info, scene%tables%base(k)%items, diagnostics)
       end do
-      do k = 1, n_joint_kinds
+      do k = 1, n_joint_kinds()
          call resolve(directory, scene%joints(k)%info, scene%joints(k)%items, diagnostics)
       end do
-      do k = 1, n_force_kinds
+      do k = 1, n_force_kinds()
          call resolve(directory, scene%forces(k)%info, scene%forces(k)%items, diagnostics)
       end do
-      do k = 1, n_clearance_kinds
+      do k = 1, n_clearance_kinds()
          call resolve(directory, scene%clearances(k)%info, scene%clearances(k)%items, diagnostics)
       end do
    end subroutine resolve_tables

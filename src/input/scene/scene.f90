@@ -1,16 +1,10 @@
 !> A scene: what a deck means, validated, in SI, with every name turned into a number.
 module scene
    use bodies, only: bodies_t, material_t, points_t
-   use clearance_registry, only: n_clearance_kinds
-   use contact_registry, only: n_friction_kinds, n_law_kinds
    use friction_law, only: friction_slot_t
    use film_law, only: film_slot_t
-   use film_registry, only: n_film_kinds
-   use force_registry, only: n_force_kinds
-   use function_registry, only: n_function_kinds
    use integration_settings, only: integration_t
    use item, only: item_t
-   use joint_registry, only: n_joint_kinds
    use kind_info, only: kind_info_t
    use kinds, only: wp
    use lubricant, only: oil_t
@@ -79,10 +73,10 @@ module scene
    !> Tables that became something else when they were read: kept for the echo, and for what is reported of them.
    type :: tables_t
       type(table_t) :: base(n_base)                    !! (kinds) bodies, points, materials, lubricants, shapes
-      type(table_t) :: functions(n_function_kinds)     !! (kinds) named functions
-      type(table_t) :: laws(n_law_kinds)               !! (kinds) normal laws
-      type(table_t) :: frictions(n_friction_kinds)     !! (kinds) friction laws
-      type(table_t) :: films(n_film_kinds)             !! (kinds) films
+      type(table_t), allocatable :: functions(:)       !! (kinds) named functions
+      type(table_t), allocatable :: laws(:)            !! (kinds) normal laws
+      type(table_t), allocatable :: frictions(:)       !! (kinds) friction laws
+      type(table_t), allocatable :: films(:)           !! (kinds) films
       type(table_t) :: requests(n_requests)            !! (kinds) requests
    end type tables_t
 
@@ -103,9 +97,9 @@ module scene
       type(law_slot_t), allocatable :: laws(:)               !! (laws) normal laws
       type(friction_slot_t), allocatable :: frictions(:)     !! (laws) friction laws
       type(lubrication_t) :: lubrication                     !! films and lubricants
-      type(table_t) :: joints(n_joint_kinds)                 !! (kinds) joints and drivers
-      type(table_t) :: forces(n_force_kinds)                 !! (kinds) force elements
-      type(table_t) :: clearances(n_clearance_kinds)         !! (kinds) joints with clearance
+      type(table_t), allocatable :: joints(:)                !! (kinds) joints and drivers
+      type(table_t), allocatable :: forces(:)                !! (kinds) force elements
+      type(table_t), allocatable :: clearances(:)            !! (kinds) joints with clearance
       type(tables_t) :: tables                               !! the other tables
       type(requests_t) :: requests                           !! what is asked of the motion
       integer :: analysis = analysis_dynamic                 !! which analysis runs

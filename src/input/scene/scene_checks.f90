@@ -59,13 +59,13 @@ contains
 
       allocate (names(0))
       call look(scene%tables%base(table_bodies)%items)
-      do k = 1, n_joint_kinds
+      do k = 1, n_joint_kinds()
          call look(scene%joints(k)%items)
       end do
-      do k = 1, n_force_kinds
+      do k = 1, n_force_kinds()
          call look(scene%forces(k)%items)
       end do
-      do k = 1, n_clearance_kinds
+      do k = 1, n_clearance_kinds()
          call look(scene%clearances(k)%items)
       end do
       call look(scene%tables%requests(table_motions)%items)
@@ -111,7 +111,7 @@ contains
       character(:), allocatable :: help, message
       integer :: column, i, k
 
-      do k = 1, n_joint_kinds
+      do k = 1, n_joint_kinds()
          do i = 1, size(scene%joints(k)%items)
             call check_pair(scene%joints(k)%info, scene%joints(k)%items(i))
             call check_start_length(scene%joints(k)%info, scene%joints(k)%items(i))
@@ -119,14 +119,14 @@ contains
             call check_friction(scene%joints(k)%info, scene%joints(k)%items(i))
          end do
       end do
-      do k = 1, n_force_kinds
+      do k = 1, n_force_kinds()
          do i = 1, size(scene%forces(k)%items)
             call check_pair(scene%forces(k)%info, scene%forces(k)%items(i))
             call check_start_axes(scene%forces(k)%info, scene%forces(k)%items(i))
             call check_references(scene%forces(k)%info, scene%forces(k)%items(i))
          end do
       end do
-      do k = 1, n_clearance_kinds
+      do k = 1, n_clearance_kinds()
          call new_clearance_set(k, set)
          do i = 1, size(scene%clearances(k)%items)
             call check_pair(scene%clearances(k)%info, scene%clearances(k)%items(i))

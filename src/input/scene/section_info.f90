@@ -87,7 +87,7 @@ contains
 
       if (key == "contact_onset") call add_onset_options(word, info)
       if (key == "stabilise") then
-         do k = 1, n_stabilisation_kinds
+         do k = 1, n_stabilisation_kinds()
             call new_stabilisation(k, way)
             if (way%name() /= word) cycle
             info = way%info()
@@ -103,10 +103,10 @@ contains
 
       class(integrator_t), allocatable :: method
       type(kind_info_t) :: one
-      type(text_t) :: words(n_integrator_kinds)
+      type(text_t) :: words(n_integrator_kinds())
       integer :: k
 
-      do k = 1, n_integrator_kinds
+      do k = 1, n_integrator_kinds()
          call new_integrator(k, method)
          one = method%info()
          words(k)%s = one%name
@@ -120,10 +120,10 @@ contains
 
       class(augmented_t), allocatable :: solver
       type(kind_info_t) :: one
-      type(text_t) :: says(n_solver_kinds), words(n_solver_kinds)
+      type(text_t) :: says(n_solver_kinds()), words(n_solver_kinds())
       integer :: k
 
-      do k = 1, n_solver_kinds
+      do k = 1, n_solver_kinds()
          call new_solver(k, solver)
          one = solver%info()
          words(k)%s = one%name
@@ -139,12 +139,12 @@ contains
 
       class(stabilisation_t), allocatable :: way
       type(kind_info_t) :: one
-      type(text_t) :: says(n_stabilisation_kinds), words(n_stabilisation_kinds)
+      type(text_t) :: says(n_stabilisation_kinds()), words(n_stabilisation_kinds())
       character(:), allocatable :: options
       integer :: i, k
 
       options = ""
-      do k = 1, n_stabilisation_kinds
+      do k = 1, n_stabilisation_kinds()
          call new_stabilisation(k, way)
          one = way%info()
          words(k)%s = one%name

@@ -119,7 +119,7 @@ contains
       integer, intent(out) :: row          !! its row in the table of the kind
 
       row = number
-      do kind = 1, n_joint_kinds
+      do kind = 1, n_joint_kinds()
          if (row <= size(scene%joints(kind)%items)) return
          row = row - size(scene%joints(kind)%items)
       end do
@@ -130,7 +130,7 @@ contains
       type(scene_t), intent(in) :: scene   !! the scene, whose tables know their kinds
       character(*), intent(in) :: name     !! as in a deck
 
-      do k = 1, n_joint_kinds
+      do k = 1, n_joint_kinds()
          if (scene%joints(k)%info%name == name .and. is_of_space(scene%joints(k)%info, scene%settings%is_spatial)) return
       end do
    end function kind_number

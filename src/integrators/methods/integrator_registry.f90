@@ -16,9 +16,12 @@ module integrator_registry
    private
    public :: abilities_of, find_integrator, find_stiff_integrator, n_integrator_kinds, new_integrator, reference_methods
 
-   integer, parameter :: n_integrator_kinds = 9  !! number of methods
-
 contains
+
+   !> Number of methods.
+   pure integer function n_integrator_kinds()
+      n_integrator_kinds = 9
+   end function n_integrator_kinds
 
    !> Integrator of kind number k, 1 to `n_integrator_kinds`.
    subroutine new_integrator(k, method)
@@ -45,7 +48,7 @@ contains
 
       integer :: k
 
-      do k = 1, n_integrator_kinds
+      do k = 1, n_integrator_kinds()
          call new_integrator(k, method)
          if (method%name() == name) exit
       end do
@@ -68,7 +71,7 @@ contains
       type(abilities_t) :: can
       integer :: k
 
-      do k = 1, n_integrator_kinds
+      do k = 1, n_integrator_kinds()
          call new_integrator(k, method)
          can = method%abilities()
          if (can%is_stiff .and. .not. can%begins_anew) exit
@@ -85,8 +88,8 @@ contains
       integer :: k, place
 
       allocate (names(0))
-      do place = 1, n_integrator_kinds
-         do k = 1, n_integrator_kinds
+      do place = 1, n_integrator_kinds()
+         do k = 1, n_integrator_kinds()
             call new_integrator(k, method)
             can = method%abilities()
             if (can%reference_place /= place .or. (can%is_stiff .and. .not. with_stiff)) cycle

@@ -17,9 +17,12 @@ module clearance_registry
    private
    public :: n_clearance_kinds, new_clearance_set
 
-   integer, parameter :: n_clearance_kinds = 12  !! number of geometries
-
 contains
+
+   !> Number of geometries.
+   pure integer function n_clearance_kinds()
+      n_clearance_kinds = 12
+   end function n_clearance_kinds
 
    !> An empty set of geometry number k, 1 to `n_clearance_kinds`.
    subroutine new_clearance_set(k, set)

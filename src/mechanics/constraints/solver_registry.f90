@@ -10,9 +10,12 @@ module solver_registry
    private
    public :: choose_solver, find_solver, n_solver_kinds, new_solver, reason_of_solver
 
-   integer, parameter :: n_solver_kinds = 5  !! number of ways
-
 contains
+
+   !> Number of ways.
+   pure integer function n_solver_kinds()
+      n_solver_kinds = 5
+   end function n_solver_kinds
 
    !> Solver number k, 1 to `n_solver_kinds`, not prepared.
    subroutine new_solver(k, solver)
@@ -35,7 +38,7 @@ contains
 
       integer :: k
 
-      do k = 1, n_solver_kinds
+      do k = 1, n_solver_kinds()
          call new_solver(k, solver)
          if (solver%name() == name) exit
       end do

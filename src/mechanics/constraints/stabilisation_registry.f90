@@ -13,9 +13,12 @@ module stabilisation_registry
    public :: choose_stabilisation, exact_stabilisation, find_stabilisation, n_stabilisation_kinds, new_stabilisation
    public :: reason_of_stabilisation
 
-   integer, parameter :: n_stabilisation_kinds = 7  !! number of ways
-
 contains
+
+   !> Number of ways.
+   pure integer function n_stabilisation_kinds()
+      n_stabilisation_kinds = 7
+   end function n_stabilisation_kinds
 
    !> Way number k, 1 to `n_stabilisation_kinds`, not configured.
    subroutine new_stabilisation(k, way)
@@ -40,7 +43,7 @@ contains
 
       integer :: k
 
-      do k = 1, n_stabilisation_kinds
+      do k = 1, n_stabilisation_kinds()
          call new_stabilisation(k, way)
          if (way%name() == name) exit
       end do

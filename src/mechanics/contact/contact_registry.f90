@@ -36,10 +36,17 @@ module contact_registry
    private
    public :: n_friction_kinds, n_law_kinds, new_friction_law, new_normal_law
 
-   integer, parameter :: n_law_kinds = 21       !! number of normal laws
-   integer, parameter :: n_friction_kinds = 9   !! number of friction laws
-
 contains
+
+   !> Number of normal laws.
+   pure integer function n_law_kinds()
+      n_law_kinds = 21
+   end function n_law_kinds
+
+   !> Number of friction laws.
+   pure integer function n_friction_kinds()
+      n_friction_kinds = 9
+   end function n_friction_kinds
 
    !> A normal law of kind number k, 1 to `n_law_kinds`.
    subroutine new_normal_law(k, law)

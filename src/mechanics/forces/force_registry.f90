@@ -12,9 +12,12 @@ module force_registry
    private
    public :: n_force_kinds, new_force_set
 
-   integer, parameter :: n_force_kinds = 7  !! number of kinds
-
 contains
+
+   !> Number of kinds.
+   pure integer function n_force_kinds()
+      n_force_kinds = 7
+   end function n_force_kinds
 
    !> An empty set of kind number k, 1 to `n_force_kinds`.
    subroutine new_force_set(k, set)

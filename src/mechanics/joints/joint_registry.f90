@@ -40,9 +40,12 @@ module joint_registry
    private
    public :: new_joint_set, n_joint_kinds
 
-   integer, parameter :: n_joint_kinds = 35  !! number of kinds
-
 contains
+
+   !> Number of kinds.
+   pure integer function n_joint_kinds()
+      n_joint_kinds = 35
+   end function n_joint_kinds
 
    !> An empty set of kind number k, 1 to `n_joint_kinds`. Drivers follow the joints they drive: rows
    !> that share a body stand close together, and the Schur complement's envelope stays narrow.

@@ -17,10 +17,17 @@ module film_registry
    private
    public :: n_film_kinds, n_journal_film_kinds, new_film_law
 
-   integer, parameter :: n_film_kinds = 12  !! number of films
-   integer, parameter :: n_journal_film_kinds = n_film_kinds - 1  !! the first of them, of journals; the last one is of a ball
-
 contains
+
+   !> Number of films.
+   pure integer function n_film_kinds()
+      n_film_kinds = 12
+   end function n_film_kinds
+
+   !> The first of them, of journals; the last one is of a ball.
+   pure integer function n_journal_film_kinds()
+      n_journal_film_kinds = n_film_kinds() - 1
+   end function n_journal_film_kinds
 
    !> A film of kind number k, 1 to `n_film_kinds`.
    subroutine new_film_law(k, law)
