@@ -9,7 +9,7 @@ SOURCES = ["mechanics/contact", "mechanics/joints", "mechanics/forces", "mechani
            "mechanics/constraints", "input/functions", "integrators/methods"]
 TABLES = {"lubricant"}  # tables of these folders that are no types
 MOST_WORDS = 25
-ENVIRONMENTS = {"aligned", "cases", "bmatrix"}
+ENVIRONMENTS = {"cases", "bmatrix"}
 
 
 @pytest.fixture(name="pages")
