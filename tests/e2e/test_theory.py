@@ -1,6 +1,7 @@
 """The pages of docs/theory: every type and method is there, equations are numbered, symbols are used, sentences are short."""
 import importlib.machinery
 import importlib.util
+import math
 import re
 
 import pytest
@@ -9,6 +10,11 @@ SOURCES = ["mechanics/contact", "mechanics/joints", "mechanics/forces", "mechani
            "mechanics/constraints", "input/functions", "integrators/methods"]
 TABLES = {"lubricant"}  # tables of these folders that are no types
 MOST_WORDS = 25
+HYSTERESIS = {  # h of a coefficient of restitution, from the sources that the page names
+    "hunt_crossley": lambda c: 1.5*(1 - c), "herbert_mcwhannell": lambda c: 6*(1 - c)/((2*c - 1)**2 + 3),
+    "lee_wang": lambda c: 0.75*(1 - c),
+    "lankarani_nikravesh": lambda c: 0.75*(1 - c*c), "gonthier": lambda c: (1 - c*c)/c, "flores": lambda c: 1.6*(1 - c)/c,
+    "zhiying_qishao": lambda c: 0.75*(1 - c*c)*math.exp(2*(1 - c)), "hu_guo": lambda c: 1.5*(1 - c)/c}
 ENVIRONMENTS = {"cases", "bmatrix"}
 
 
@@ -65,7 +71,8 @@ def test_formulas_can_be_shown(pages):
             assert "<" not in formula and ">" not in formula, f"{page}: {formula}"
             assert "|" not in formula, f"{page}: {formula}"
             assert formula.count("{") == formula.count("}"), f"{page}: {formula}"
-            assert len(re.findall(r"\\left(?![a-z])", formula)) == len(re.findall(r"\\right(?![a-z])", formula)), f"{page}: {formula}"
+            left, right = (len(re.findall(rf"\\\\{side}(?![a-z])", formula)) for side in ("left", "right"))
+            assert left == right, f"{page}: {formula}"
 
 
 def test_symbols_are_used(pages):
@@ -83,6 +90,26 @@ def test_symbols_are_used(pages):
             behind = r"(?![A-Za-z])" if symbol[-1].isalpha() and not symbol.endswith("_k") else ""
             pattern = before + re.sub(r"_k$", "_[ijk]", re.escape(symbol)) + behind
             assert re.search(pattern, rest), f"{page}: {symbol}"
+
+
+def restitution_of(h):
+    """What two free bodies show: the motion m v dv = -F ddelta, so the integral of v/(1 + h v) from -e to 1 is zero; by halving."""
+    low, high = 0.0, 1.0
+    while high - low > 1e-9:
+        e = 0.5*(low + high)
+        left = 1 + e - (math.log(1 + h) - math.log(1 - h*e))/h if h*e < 1 else -math.inf
+        low, high = (e, high) if left > 0 else (low, e)
+    return low
+
+
+def test_restitutions_of_the_table(pages):
+    """The restitutions that the page of contact laws and the errata give are those of free impacts."""
+    for law, hysteresis in HYSTERESIS.items():
+        numbers = re.search(rf"^\| `contact\.{law}` \|.*\| ([\d., ]+) \|", pages["contact_laws.md"], re.M)[1]
+        for c, number in zip((0.9, 0.7, 0.5, 0.3), map(float, numbers.split(", ")), strict=True):
+            assert abs(number - restitution_of(hysteresis(c))) < 6e-4, f"{law} {c}"
+    numbers = ", ".join(f"{restitution_of(HYSTERESIS['lankarani_nikravesh'](c)):.3f}" for c in (0.9, 0.8, 0.5))
+    assert numbers in pages["errata.md"]
 
 
 def test_reader_job_and_next(root, pages):
