@@ -71,7 +71,7 @@ def test_formulas_can_be_shown(pages):
             assert "<" not in formula and ">" not in formula, f"{page}: {formula}"
             assert "|" not in formula, f"{page}: {formula}"
             assert formula.count("{") == formula.count("}"), f"{page}: {formula}"
-            left, right = (len(re.findall(rf"\\\\{side}(?![a-z])", formula)) for side in ("left", "right"))
+            left, right = (len(re.findall(rf"\\{side}(?![a-z])", formula)) for side in ("left", "right"))
             assert left == right, f"{page}: {formula}"
 
 
