@@ -78,19 +78,25 @@ contains
       type(event_t), intent(in) :: event          !! the event
       logical, intent(out) :: is_added            !! false: there is no memory for it
 
+      type(text_t) :: words(n_event_words)
+
+      words(1)%s = known(event%kind)
+      words(2)%s = known(event%item)
+      words(3)%s = known(event%contact)
+      words(4)%s = known(event%state_before)
+      words(5)%s = known(event%state_after)
       call append(self, [event%time, event%impact_speed, event%peak_force, event%peak_penetration, event%duration, &
                          event%release_speed, event%energy_lost, event%impulse, event%peak_force_time, &
-                         event%peak_penetration_time], &
-                  wording_of(self, [known(event%kind), known(event%item), known(event%contact), known(event%state_before), &
-                                    known(event%state_after)]), is_added)
+                         event%peak_penetration_time], wording_of(self, words), is_added)
    end subroutine add_event
 
    !> A word; blank if it is not allocated.
-   pure type(text_t) function known(word)
+   pure function known(word)
       character(:), allocatable, intent(in) :: word  !! the word
+      character(:), allocatable :: known             !! the same
 
-      known%s = ""
-      if (allocated(word)) known%s = word
+      known = ""
+      if (allocated(word)) known = word
    end function known
 
    !> Append an event.
