@@ -249,6 +249,7 @@ contains
       do k = 1, self%words%n
          call archive%put(self%words%at(k))
       end do
+      call archive%reserve((n_event_numbers + 1)*self%n)
       do k = 1, self%n
          block = (k - 1)/events_of_block + 1
          at = mod(k - 1, events_of_block) + 1

@@ -344,15 +344,12 @@ static const H5FD_class_t ordered_class = {
    .fl_map = H5FD_FLMAP_DICHOTOMY,
 };
 
-/* Sets the driver in a list of access properties, and a metadata cache that does not grow with the file: rows are appended, so that
- * of an index the last nodes are wanted only. A node takes ten times as much in memory as in the file, by whose size the cache counts.
- * Negative: failed. */
-int gudgeon_set_ordered_driver(hid_t access)
+/* Sets, in a list of access properties, a metadata cache that does not grow with the file: rows are appended, and read in their
+ * order, so that of an index the last nodes are wanted only. A node takes ten times as much in memory as in the file, by whose
+ * size the cache counts. Negative: failed. */
+int gudgeon_limit_metadata_cache(hid_t access)
 {
-   static hid_t driver = -1;
    H5AC_cache_config_t cache = {.version = H5AC__CURR_CACHE_CONFIG_VERSION};
-   if (driver < 0) driver = H5FDregister(&ordered_class);
-   if (driver < 0 || H5Pset_driver(access, driver, NULL) < 0) return -1;
    if (H5Pget_mdc_config(access, &cache) < 0) return -1;
    cache.set_initial_size = 1;
    cache.initial_size = cache.min_size = cache.max_size = cache_size;
@@ -360,4 +357,13 @@ int gudgeon_set_ordered_driver(hid_t access)
    cache.flash_incr_mode = H5C_flash_incr__off;
    cache.decr_mode = H5C_decr__off;
    return H5Pset_mdc_config(access, &cache) < 0 ? -1 : 0;
+}
+
+/* Sets the driver in a list of access properties. Negative: failed. */
+int gudgeon_set_ordered_driver(hid_t access)
+{
+   static hid_t driver = -1;
+   if (driver < 0) driver = H5FDregister(&ordered_class);
+   if (driver < 0) return -1;
+   return H5Pset_driver(access, driver, NULL) < 0 ? -1 : 0;
 }
