@@ -17,27 +17,10 @@ import tempfile
 ROOT = pathlib.Path(__file__).resolve().parent.parent.parent
 sys.path.insert(0, str(ROOT / "tests" / "e2e"))
 from pictures import keep, show  # noqa: E402
-from support import plain_deck, written  # noqa: E402
+from support import cost, plain_deck, written  # noqa: E402
 
 COLUMNS = ("process", "cpu_ms", "least_ms", "memory_mb")
 LIMITS = "Bounds: at most 15 ms and 20 MB for the small run."
-
-
-# A process that has hardly anything loaded: what the one that starts another has in memory counts as that one's too.
-STARTER = """
-import os, sys
-away = [(os.POSIX_SPAWN_OPEN, n, os.devnull, os.O_WRONLY, 0) for n in (1, 2)]
-_, status, used = os.wait4(os.posix_spawn(sys.argv[1], sys.argv[1:], os.environ, file_actions=away), 0)
-print(status, used.ru_utime + used.ru_stime, used.ru_maxrss)
-"""
-
-
-def cost(command):
-    """Processor time [s] and greatest memory [MB] of a process."""
-    told = subprocess.run([sys.executable, "-I", "-S", "-c", STARTER, *command], capture_output=True, text=True, check=True).stdout.split()
-    if told[0] != "0":
-        sys.exit(f"{' '.join(command)} ended with status {told[0]}")
-    return float(told[1]), float(told[2])/1024
 
 
 def folder_of(name):

@@ -46,6 +46,23 @@ def call(program, *arguments, expect=0, cwd=None, limit=LIMIT):
     return done
 
 
+# A process that has hardly anything loaded: what the one that starts another has in memory counts as that one's too.
+STARTER = """
+import os, sys
+away = [(os.POSIX_SPAWN_OPEN, n, os.devnull, os.O_WRONLY, 0) for n in (1, 2)]
+_, status, used = os.wait4(os.posix_spawn(sys.argv[1], sys.argv[1:], os.environ, file_actions=away), 0)
+print(status, used.ru_utime + used.ru_stime, used.ru_maxrss)
+"""
+
+
+def cost(command, env=None):
+    """Processor time [s] and greatest memory [MB] of a process and those that it starts; it must succeed."""
+    told = subprocess.run([sys.executable, "-I", "-S", "-c", STARTER, *map(str, command)], capture_output=True, text=True, check=True, env=env)
+    status, seconds, kilobytes = told.stdout.split()
+    assert status == "0", f"{' '.join(map(str, command))} ended with status {status}"
+    return float(seconds), float(kilobytes) / 1024
+
+
 def answer_signals():
     """For a child that is about to become the program: signals end it, also where whoever began the tests ignores them (nohup, a job in the background)."""
     for number in (signal.SIGHUP, signal.SIGINT, signal.SIGTERM, signal.SIGUSR1):

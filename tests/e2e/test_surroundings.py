@@ -10,7 +10,7 @@ import subprocess
 import time
 
 import pytest
-from support import DECK, Run, answer_signals, call, changed, made, plain_deck, scratch, written
+from support import DECK, Run, answer_signals, call, changed, cost, made, plain_deck, scratch, written
 
 SHORT = (("analysis.dynamic", "end", "0.2 ms"),)
 
@@ -303,6 +303,23 @@ def test_memory_that_ends_with_the_events(gudgeon, place):
     deck = written(place, plain_deck((("analysis.dynamic", "end", "600 s"), ("output", "every", "0.1 s"), ("output", "contact_rows", "off"))))
     done = execute(gudgeon, "run", deck, "--out", place / "out", "--quiet", limit=300, preexec_fn=limited(resource.RLIMIT_AS, (least_room(gudgeon) + 4) << 20))
     assert done.returncode == 9 and b"memory" in done.stderr and (b"events" in done.stderr or b"motion" in done.stderr), done
+
+
+def most_memory(gudgeon, place, end):
+    """Greatest memory of a run [MB], and its contacts: statistics, all rows and four figures, drawn by a program that takes none."""
+    text = plain_deck((("analysis.dynamic", "end", end), ("output", "every", "10 ms"), ("output", "figures",
+        "slider.velocity motor.moment gudgeon.orbit portrait(slider.velocity.x,slider.acceleration.x)")))
+    deck = written(place, text + "\n[statistics]\nafter = 24 ms\nperiod = 1 turns of motor\nchannels = motor.moment gudgeon.force\n")
+    memory = cost([gudgeon, "run", deck, "--quiet", "--out", place / "out"], gnuplot(scratch(), "exit 0\n"))[1]
+    return memory, Run(place / "out").summary["contacts"]
+
+
+def test_memory_grows_by_little_with_the_contacts(gudgeon, place):
+    """Ten times the contacts: each takes its event (84 bytes), its place in the order of the events and its part of the indices of run.h5;
+    neither text nor rows of figures stay."""
+    (few, n_few), (many, n_many) = (most_memory(gudgeon, place, end) for end in ("0.5 s", "5 s"))
+    assert n_many > 8 * n_few > 3200
+    assert 1048576 * (many - few) <= 400 * (n_many - n_few), f"{few} MB, {many} MB, {n_few} and {n_many} contacts"
 
 
 # ---- descriptors

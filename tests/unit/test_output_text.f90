@@ -4,7 +4,7 @@ module test_output_text
    use display_units, only: choose_unit, display_unit_t
    use decimal_text, only: decimal_width
    use errors, only: error_t
-   use event_list, only: event_list_t
+   use event_list, only: event_list_t, n_event_numbers
    use html_text, only: base_64
    use json_text, only: json_object_t, json_string
    use kinds, only: not_a_number, pi, wp
@@ -158,20 +158,29 @@ contains
 
       type(event_list_t) :: events
       type(event_t) :: event
+      integer, parameter :: n = 2500  ! of several blocks
+      real(wp) :: numbers(n_event_numbers), times(n)
       integer, allocatable :: order(:)
       integer :: k
       logical :: is_added
 
       call check_equal(error, size(events%order_by_onset()), 0, "no events")
-      do k = 1, 500
-         event%time = real(mod(37*k, 50), wp)
+      do k = 1, n
+         times(k) = real(mod(37*k, 50), wp)
+         event%time = times(k)
+         event%peak_penetration_time = real(k, wp)
          event%item = "pin"
          call events%add(event, is_added)
       end do
       order = events%order_by_onset()
-      do k = 2, 500
-         call check_true(error, events%numbers(1, order(k - 1)) <= events%numbers(1, order(k)), "by time")
-         if (events%numbers(1, order(k - 1)) < events%numbers(1, order(k))) cycle
+      do k = 1, n
+         numbers = events%numbers(k)
+         call check_true(error, all(numbers([1, n_event_numbers]) >= [times(k), real(k, wp)]), "its own numbers")
+         call check_true(error, all(numbers([1, n_event_numbers]) <= [times(k), real(k, wp)]), "its own numbers")
+      end do
+      do k = 2, n
+         call check_true(error, times(order(k - 1)) <= times(order(k)), "by time")
+         if (times(order(k - 1)) < times(order(k))) cycle
          call check_true(error, order(k - 1) < order(k), "equal times as told")
       end do
       call check_equal(error, events%word(7, 2)//events%word(7, 1), "pin", "words")

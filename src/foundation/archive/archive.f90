@@ -31,6 +31,7 @@ module archive
    contains
       procedure :: begin => archive_begin
       procedure :: drop_empty => archive_drop_empty
+      procedure :: reserve => make_storage
       procedure :: compare => archive_compare
       procedure, private :: put_real, put_reals, put_integer, put_integers, put_long, put_logical, put_text
       procedure, private :: get_real, get_reals, get_integer, get_integers, get_long, get_logical

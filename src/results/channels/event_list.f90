@@ -1,4 +1,4 @@
-!> All events of a run, compactly: numbers in one array, words by their number in a list.
+!> All events of a run, compactly: ten numbers and the number of its words, 84 bytes, in blocks that are never moved.
 !>
 !> Contacts are reported when they end; `order_by_onset` gives the order in time. Equal times keep the
 !> order in which they were reported.
@@ -7,6 +7,7 @@ module event_list
    use recorder, only: event_t
    use name_table, only: name_table_t
    use archive, only: archive_t
+   use text, only: join, text_t
    use text_list, only: text_list_t
    implicit none (type, external)
    private
@@ -46,15 +47,23 @@ module event_list
       "contact state before", &
       "contact state after"]
 
+   integer, parameter :: events_of_block = 1024  !! events that get their storage at once
+
+   !> Some of the events.
+   type :: event_block_t
+      real(wp), allocatable :: numbers(:, :)      !! (10, events_of_block) as named above, SI [any]
+      integer, allocatable :: wording(:)          !! (events_of_block) numbers of their words
+   end type event_block_t
+
    !> The events reported so far.
    type :: event_list_t
-      integer :: n = 0                            !! number of events
-      real(wp), allocatable :: numbers(:, :)      !! (10, capacity) as named above, SI [any]
-      integer, allocatable :: codes(:, :)         !! (5, capacity) numbers of their words in `words`
-      type(text_list_t) :: words                  !! different words
-      type(name_table_t) :: numbers_of_words      !! where each stands
+      integer :: n = 0                                       !! number of events
+      type(event_block_t), allocatable, private :: blocks(:) !! (any) all but the last of them in use are full
+      type(text_list_t), private :: words                    !! five of each wording
+      type(name_table_t), private :: wordings                !! number of each, by its words
    contains
       procedure :: add => add_event
+      procedure :: numbers => numbers_of_event
       procedure :: word => word_of_event
       procedure :: order_by_onset
       procedure :: save => save_events
@@ -69,61 +78,100 @@ contains
       type(event_t), intent(in) :: event          !! the event
       logical, intent(out) :: is_added            !! false: there is no memory for it
 
-      call make_storage(self, is_added)
-      if (.not. is_added) return
-      self%n = self%n + 1
-      self%numbers(:, self%n) = [event%time, event%impact_speed, event%peak_force, event%peak_penetration, &
-                                 event%duration, event%release_speed, event%energy_lost, event%impulse, &
-                                 event%peak_force_time, event%peak_penetration_time]
-      call encode(self, event%kind, self%codes(1, self%n))
-      call encode(self, event%item, self%codes(2, self%n))
-      call encode(self, event%contact, self%codes(3, self%n))
-      call encode(self, event%state_before, self%codes(4, self%n))
-      call encode(self, event%state_after, self%codes(5, self%n))
+      type(text_t) :: words(n_event_words)
+
+      words(1)%s = known(event%kind)
+      words(2)%s = known(event%item)
+      words(3)%s = known(event%contact)
+      words(4)%s = known(event%state_before)
+      words(5)%s = known(event%state_after)
+      call append(self, [event%time, event%impact_speed, event%peak_force, event%peak_penetration, event%duration, &
+                         event%release_speed, event%energy_lost, event%impulse, event%peak_force_time, &
+                         event%peak_penetration_time], wording_of(self, words), is_added)
    end subroutine add_event
 
-   !> Make storage for one more event.
-   subroutine make_storage(self, has_capacity)
-      class(event_list_t), intent(inout) :: self  !! the list
-      logical, intent(out) :: has_capacity            !! false: there is no memory
-
-      real(wp), allocatable :: numbers(:, :)
-      integer, allocatable :: codes(:, :)
-      integer :: capacity, status
-
-      if (.not. allocated(self%numbers)) then
-         allocate (self%numbers(n_event_numbers, 64), self%codes(n_event_words, 64))
-      end if
-      has_capacity = .true.
-      capacity = size(self%numbers, 2)
-      if (self%n < capacity) return
-      allocate (numbers(n_event_numbers, 2*capacity), stat=status)
-      if (status == 0) allocate (codes(n_event_words, 2*capacity), stat=status)
-      has_capacity = status == 0
-      if (.not. has_capacity) return
-      numbers(:, 1:self%n) = self%numbers(:, 1:self%n)
-      codes(:, 1:self%n) = self%codes(:, 1:self%n)
-      call move_alloc(numbers, self%numbers)
-      call move_alloc(codes, self%codes)
-   end subroutine make_storage
-
-   !> The number of a word, which is appended to the list of words if it is new.
-   subroutine encode(self, word, code)
-      class(event_list_t), intent(inout) :: self            !! the list
-      character(:), allocatable, intent(in) :: word         !! a word; unallocated: blank
-      integer, intent(out) :: code                          !! its number
-
-      character(:), allocatable :: known
-      integer :: previous
+   !> A word; blank if it is not allocated.
+   pure function known(word)
+      character(:), allocatable, intent(in) :: word  !! the word
+      character(:), allocatable :: known             !! the same
 
       known = ""
       if (allocated(word)) known = word
-      call self%numbers_of_words%enter(known, self%words%n + 1, previous)
-      code = previous
-      if (previous > 0) return
-      call self%words%add(known)
-      code = self%words%n
-   end subroutine encode
+   end function known
+
+   !> Append an event.
+   subroutine append(self, numbers, wording, is_added)
+      class(event_list_t), intent(inout) :: self      !! the list
+      real(wp), intent(in) :: numbers(:)              !! (10) as named above, SI [any]
+      integer, intent(in) :: wording                  !! number of its words
+      logical, intent(out) :: is_added                !! false: there is no memory for it
+
+      integer :: at, block
+
+      block = self%n/events_of_block + 1
+      at = mod(self%n, events_of_block) + 1
+      call make_storage(self, block, is_added)
+      if (.not. is_added) return
+      self%blocks(block)%numbers(:, at) = numbers
+      self%blocks(block)%wording(at) = wording
+      self%n = self%n + 1
+   end subroutine append
+
+   !> Make storage for a block of events.
+   subroutine make_storage(self, block, has_capacity)
+      class(event_list_t), intent(inout) :: self  !! the list
+      integer, intent(in) :: block                !! number of the block
+      logical, intent(out) :: has_capacity        !! false: there is no memory
+
+      type(event_block_t), allocatable :: blocks(:)
+      integer :: k, status
+
+      if (.not. allocated(self%blocks)) allocate (self%blocks(16))
+      status = 0
+      if (block > size(self%blocks)) then
+         allocate (blocks(2*size(self%blocks)), stat=status)
+         if (status == 0) then
+            do k = 1, size(self%blocks)
+               call move_alloc(self%blocks(k)%numbers, blocks(k)%numbers)
+               call move_alloc(self%blocks(k)%wording, blocks(k)%wording)
+            end do
+            call move_alloc(blocks, self%blocks)
+         end if
+      end if
+      has_capacity = status == 0
+      if (.not. has_capacity) return
+      associate (this => self%blocks(block))
+         if (.not. allocated(this%numbers)) allocate (this%numbers(n_event_numbers, events_of_block), stat=status)
+         if (status == 0 .and. .not. allocated(this%wording)) allocate (this%wording(events_of_block), stat=status)
+      end associate
+      has_capacity = status == 0
+   end subroutine make_storage
+
+   !> The number of the words of an event, which are appended to the list of words if they are new.
+   integer function wording_of(self, words) result(wording)
+      class(event_list_t), intent(inout) :: self            !! the list
+      type(text_t), intent(in) :: words(:)                  !! (5) the words
+
+      integer :: k
+
+      associate (next => self%words%n/n_event_words + 1)
+         call self%wordings%enter(join(words, achar(0)), next, wording)
+         if (wording > 0) return
+         wording = next
+      end associate
+      do k = 1, n_event_words
+         call self%words%add(words(k)%s)
+      end do
+   end function wording_of
+
+   !> The numbers of an event.
+   pure function numbers_of_event(self, event) result(numbers)
+      class(event_list_t), intent(in) :: self  !! the list
+      integer, intent(in) :: event             !! number of the event
+      real(wp) :: numbers(n_event_numbers)     !! (10) as named above, SI [any]
+
+      numbers = self%blocks((event - 1)/events_of_block + 1)%numbers(:, mod(event - 1, events_of_block) + 1)
+   end function numbers_of_event
 
    !> A word of an event.
    pure function word_of_event(self, event, k) result(word)
@@ -132,7 +180,9 @@ contains
       integer, intent(in) :: k                 !! which word, as named above
       character(:), allocatable :: word        !! the word
 
-      word = self%words%at(self%codes(k, event))
+      associate (wording => self%blocks((event - 1)/events_of_block + 1)%wording(mod(event - 1, events_of_block) + 1))
+         word = self%words%at(n_event_words*(wording - 1) + k)
+      end associate
    end function word_of_event
 
    !> Numbers of the events in the order of their times (merge sort, stable).
@@ -177,8 +227,15 @@ contains
 
          takes_left = right >= beyond
          if (takes_left .or. left >= middle) return
-         takes_left = self%numbers(1, order(left)) <= self%numbers(1, order(right))
+         takes_left = onset(order(left)) <= onset(order(right))
       end function takes_left
+
+      !> The time of an event.
+      pure real(wp) function onset(event)
+         integer, intent(in) :: event   !! its number
+
+         onset = self%blocks((event - 1)/events_of_block + 1)%numbers(1, mod(event - 1, events_of_block) + 1)
+      end function onset
    end function order_by_onset
 
    !> Write all events.
@@ -186,15 +243,18 @@ contains
       class(event_list_t), intent(in) :: self  !! the list
       type(archive_t), intent(inout) :: archive      !! receives it
 
-      integer :: k
+      integer :: at, block, k
 
       call archive%put([self%words%n, self%n])
       do k = 1, self%words%n
          call archive%put(self%words%at(k))
       end do
+      call archive%reserve((n_event_numbers + 1)*self%n)
       do k = 1, self%n
-         call archive%put(self%numbers(:, k))
-         call archive%put(self%codes(:, k))
+         block = (k - 1)/events_of_block + 1
+         at = mod(k - 1, events_of_block) + 1
+         call archive%put(self%blocks(block)%numbers(:, at))
+         call archive%put(self%blocks(block)%wording(at))
       end do
    end subroutine save_events
 
@@ -204,29 +264,29 @@ contains
       type(archive_t), intent(inout) :: archive         !! holds them
 
       type(event_list_t) :: fresh
-      character(:), allocatable :: word
-      integer :: code, k, n, n_word
-      logical :: has_capacity
+      type(text_t) :: words(n_event_words)
+      real(wp) :: numbers(n_event_numbers)
+      integer :: i, k, n, n_word, wording
+      logical :: is_added
 
       call archive%get(n_word)
       call archive%get(n)
-      do k = 1, n_word
-         call archive%get_text(word)
-         call encode(fresh, word, code)
+      do k = 1, n_word/n_event_words
+         do i = 1, n_event_words
+            call archive%get_text(words(i)%s)
+         end do
+         wording = wording_of(fresh, words)
       end do
       do k = 1, n
-         call make_storage(fresh, has_capacity)
-         if (.not. (has_capacity .and. archive%is_good)) return
-         fresh%n = k
-         call archive%get(fresh%numbers(:, k))
-         call archive%get(fresh%codes(:, k))
+         call archive%get(numbers)
+         call archive%get(wording)
+         call append(fresh, numbers, wording, is_added)
+         if (.not. (is_added .and. archive%is_good)) return
       end do
       self%n = fresh%n
       self%words = fresh%words
-      self%numbers_of_words = fresh%numbers_of_words
-      if (.not. allocated(fresh%numbers)) return
-      call move_alloc(fresh%numbers, self%numbers)
-      call move_alloc(fresh%codes, self%codes)
+      self%wordings = fresh%wordings
+      if (allocated(fresh%blocks)) call move_alloc(fresh%blocks, self%blocks)
    end subroutine load_events
 
 end module event_list

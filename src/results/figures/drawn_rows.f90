@@ -1,7 +1,10 @@
-!> What figures of curves draw: the rows of their channels, in memory, and where the same numbers stand in the files of the run.
+!> What figures of curves draw: where the numbers of their channels stand in the files of the run, and how far these reach.
+!>
+!> No row is kept: what a figure needs of each it reads from the file (`row_reader`), so that memory does not grow with the run.
 module drawn_rows
    use archive, only: archive_t
    use catalogue, only: catalogue_t
+   use, intrinsic :: ieee_arithmetic, only: ieee_is_nan
    use channel_names, only: scalar_t
    use kinds, only: wp
    use text, only: text_t
@@ -11,22 +14,29 @@ module drawn_rows
    private
    public :: drawn_rows_t, labels_of
 
-   integer, parameter :: first_rows = 1024  !! capacity at the start; it doubles
-
    !> A column of a file.
    type :: file_column_t
       character(:), allocatable :: path    !! of the file within the run's directory
       character(:), allocatable :: label   !! what stands over the column
       integer :: number = 0                !! of the column in the file
-      integer :: series = 0                !! of its numbers in `x`
+      integer :: series = 0                !! number of its course
    end type file_column_t
+
+   !> How far the numbers of a column reach, and how often they turn and fall.
+   type :: course_t
+      real(wp) :: range(2) = [huge(1.0_wp), -huge(1.0_wp)]  !! (2) minimum, maximum; without numbers reversed, SI [any]
+      integer :: turns = 0                                  !! from rising to falling, or back
+      integer :: falls = 0                                  !! from one number to the next
+      real(wp), private :: before = huge(1.0_wp)            !! the number before; huge: nothing came before, SI [any]
+      integer, private :: way = 0                           !! 1: rising, -1: falling
+   end type course_t
 
    !> The rows.
    type :: drawn_rows_t
       type(text_t), allocatable :: labels(:)                !! (any) labels of the columns that are drawn
       type(file_column_t), allocatable :: columns(:)        !! (any) the columns, in all files that hold them
       type(scalar_t), allocatable, private :: scalars(:)    !! (m) the numbers, each once
-      real(wp), allocatable :: x(:, :)                      !! (capacity, 0:m) time, then the numbers, SI [any]
+      type(course_t), allocatable :: courses(:)             !! (0:m) of time, then of the numbers
       integer :: n = 0                                      !! rows
    contains
       procedure :: start
@@ -76,10 +86,10 @@ contains
             end associate
          end do
       end do
-      allocate (self%x(first_rows, 0:size(self%scalars)))
+      allocate (self%courses(0:size(self%scalars)))
    end subroutine start
 
-   !> Keep a row.
+   !> Take a row that is written to the files.
    subroutine sample(self, t, catalogue)
       class(drawn_rows_t), intent(inout) :: self    !! the rows
       real(wp), intent(in) :: t                     !! time [s]
@@ -87,28 +97,32 @@ contains
 
       integer :: k
 
-      if (.not. allocated(self%x)) return
-      if (self%n == size(self%x, 1)) call grow(self, 2*self%n)
+      if (.not. allocated(self%courses)) return
       self%n = self%n + 1
-      self%x(self%n, 0) = t
+      call follow(t, self%courses(0))
       do k = 1, size(self%scalars)
          associate (scalar => self%scalars(k))
-            self%x(self%n, k) = catalogue%values(catalogue%place(scalar%group, scalar%component, scalar%item))
+            call follow(catalogue%values(catalogue%place(scalar%group, scalar%component, scalar%item)), self%courses(k))
          end associate
       end do
    end subroutine sample
 
-   !> Make storage for more rows.
-   subroutine grow(self, capacity)
-      class(drawn_rows_t), intent(inout) :: self  !! the rows
-      integer, intent(in) :: capacity             !! rows
+   !> One number more.
+   pure subroutine follow(x, course)
+      real(wp), intent(in) :: x                  !! the number, SI [any]
+      type(course_t), intent(inout) :: course    !! of its column
 
-      real(wp), allocatable :: x(:, :)
-
-      allocate (x(capacity, 0:size(self%scalars)))
-      x(:self%n, :) = self%x(:self%n, :)
-      call move_alloc(x, self%x)
-   end subroutine grow
+      if (ieee_is_nan(x)) return
+      associate (before => course%before)
+         if (before < huge(1.0_wp)) then
+            if ((x - before)*course%way < 0.0_wp) course%turns = course%turns + 1
+            if (x < before) course%falls = course%falls + 1
+            if (x < before .or. x > before) course%way = merge(-1, 1, x < before)
+         end if
+         course%range = [min(course%range(1), x), max(course%range(2), x)]
+         before = x
+      end associate
+   end subroutine follow
 
    !> The column of a file with a label; 0: it is not kept.
    pure integer function find(self, path, label) result(column)
@@ -124,33 +138,40 @@ contains
       column = 0
    end function find
 
-   !> Write the rows.
+   !> Write what is known of the rows.
    subroutine save_rows(self, archive)
       class(drawn_rows_t), intent(in) :: self    !! the rows
-      type(archive_t), intent(inout) :: archive  !! receives them
+      type(archive_t), intent(inout) :: archive  !! receives it
 
       integer :: k
 
+      if (.not. allocated(self%courses)) return
       call archive%put(self%n)
-      if (self%n == 0) return
       do k = 0, size(self%scalars)
-         call archive%put(self%x(:self%n, k))
+         associate (course => self%courses(k))
+            call archive%put([course%range, course%before])
+            call archive%put([course%turns, course%falls, course%way])
+         end associate
       end do
    end subroutine save_rows
 
-   !> Read them.
+   !> Read it.
    subroutine load_rows(self, archive)
       class(drawn_rows_t), intent(inout) :: self !! the rows, started
-      type(archive_t), intent(inout) :: archive  !! holds them
+      type(archive_t), intent(inout) :: archive  !! holds it
 
-      integer :: k, n
+      integer :: k
 
-      call archive%get(n)
-      if (n <= 0 .or. n > archive%n .or. .not. allocated(self%x)) return
-      call grow(self, max(n, first_rows))
-      self%n = n
+      if (.not. allocated(self%courses)) return
+      call archive%get(self%n)
       do k = 0, size(self%scalars)
-         call archive%get(self%x(:n, k))
+         associate (course => self%courses(k))
+            call archive%get(course%range)
+            call archive%get(course%before)
+            call archive%get(course%turns)
+            call archive%get(course%falls)
+            call archive%get(course%way)
+         end associate
       end do
    end subroutine load_rows
 

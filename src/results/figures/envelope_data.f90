@@ -7,6 +7,7 @@ module envelope_data
    use figure_data, only: curve_t
    use, intrinsic :: ieee_arithmetic, only: ieee_is_nan
    use kinds, only: not_a_number, wp
+   use row_reader, only: row_reader_t
    use script_parts, only: axes_t, scaled
    use text, only: append_text, text_t, to_text
    use text_buffer, only: buffer_t
@@ -80,7 +81,7 @@ contains
       type(curve_t), intent(in) :: curves(:)             !! (n) curves of the figure
       real(wp), intent(in) :: window(2)                  !! (2) ends of the abscissa, SI [any]
       type(envelope_t), intent(out) :: envelope          !! what there is
-      type(error_t), allocatable, intent(out) :: error   !! the table cannot be written
+      type(error_t), allocatable, intent(out) :: error   !! the rows cannot be read, or the table not written
 
       real(wp), allocatable :: tables(:, :, :)
       type(text_t), allocatable :: names(:)
@@ -92,7 +93,8 @@ contains
       n = 0
       do k = 1, size(curves)
          if (curves(k)%turns <= n_column .or. curves(k)%falls > 0) cycle
-         call find_ranges(rows, curves(k), window, table, n_turn)
+         call find_ranges(folder, rows, curves(k), window, table, n_turn, error)
+         if (allocated(error)) return
          if (n_turn <= n_column) cycle
          n = n + 1
          tables(:, :, n) = table
@@ -103,25 +105,33 @@ contains
    end subroutine make_envelope
 
    !> How often a curve turns, small wiggles apart.
-   integer function count_turns(rows, curve) result(n_turn)
-      type(drawn_rows_t), intent(in) :: rows          !! of the run
-      type(curve_t), intent(in) :: curve              !! the curve
+   subroutine count_turns(folder, rows, curve, n_turn, error)
+      character(*), intent(in) :: folder                 !! of the figures
+      type(drawn_rows_t), intent(in) :: rows             !! of the run
+      type(curve_t), intent(in) :: curve                 !! the curve
+      integer, intent(out) :: n_turn                     !! turns
+      type(error_t), allocatable, intent(out) :: error   !! the rows cannot be read
 
       real(wp) :: table(4, n_column)
 
       n_turn = 0
-      if (curve%x_range(2) > curve%x_range(1)) call find_ranges(rows, curve, curve%x_range, table, n_turn)
-   end function count_turns
+      if (curve%x_range(2) > curve%x_range(1)) then
+         call find_ranges(folder, rows, curve, curve%x_range, table, n_turn, error)
+      end if
+   end subroutine count_turns
 
    !> Ranges and means of a curve in columns of equal width, and how often it turns. The mean is over the abscissa.
-   subroutine find_ranges(rows, curve, window, table, n_turn)
+   subroutine find_ranges(folder, rows, curve, window, table, n_turn, error)
+      character(*), intent(in) :: folder              !! of the figures
       type(drawn_rows_t), intent(in) :: rows          !! of the run
       type(curve_t), intent(in) :: curve              !! the curve
       real(wp), intent(in) :: window(2)               !! (2) ends of the abscissa, SI [any]
       real(wp), intent(out) :: table(:, :)            !! (4, columns) middle, minimum, maximum value, mean; NaN: empty, SI [any]
       integer, intent(out) :: n_turn                  !! turns
+      type(error_t), allocatable, intent(out) :: error !! the rows cannot be read
 
-      real(wp) :: before(2), extreme, length(size(table, 2)), least_move
+      type(row_reader_t) :: reader
+      real(wp) :: before(2), extreme, length(size(table, 2)), least_move, point(2)
       integer :: k, n, r, way
 
       n = size(table, 2)
@@ -135,8 +145,12 @@ contains
       before = not_a_number()
       extreme = 0.0_wp
       least_move = min_move*(curve%y_range(2) - curve%y_range(1))
+      call reader%open(folder, curve, error)
+      if (allocated(error)) return
       do r = 1, rows%n
-         associate (x => rows%x(r, curve%series(1)), y => rows%x(r, curve%series(2)))
+         call reader%next(point, error)
+         if (allocated(error)) return
+         associate (x => point(1), y => point(2))
             if (ieee_is_nan(x) .or. ieee_is_nan(y)) cycle
             if (x < window(1) .or. x > window(2)) cycle
             k = min(n, 1 + int(n*(x - window(1))/(window(2) - window(1))))
@@ -152,6 +166,7 @@ contains
             call turn(y)
          end associate
       end do
+      call reader%close()
       call smooth_mean(table(4, :), length)
       where (table(2, :) > table(3, :))
          table(2, :) = not_a_number()

@@ -1,11 +1,10 @@
-!> The curves of figures: file and columns for gnuplot, their numbers, and how far they reach.
+!> The curves of figures: file and columns for gnuplot, and how far they reach.
 module figure_data
    use catalogue, only: catalogue_t
    use channel_names, only: item_name, scalar_name, scalar_t
    use drawn_rows, only: drawn_rows_t
    use extremes, only: extremes_t
    use figure_words, only: figure_portrait, figure_t
-   use, intrinsic :: ieee_arithmetic, only: ieee_is_nan
    use kinds, only: wp
    use text_table, only: column_label
    use text_writer, only: file_of_item
@@ -22,7 +21,7 @@ module figure_data
       integer :: number = 0                !! of the channel among those of the figure
       integer :: x = 1                     !! column of the abscissa
       integer :: y = 0                     !! column of the ordinate
-      integer :: series(2) = -1            !! columns of both coordinates in the rows of the run; -1: none
+      logical :: is_there = .false.        !! both columns hold numbers
       character(:), allocatable :: x_label !! what stands over the column of the abscissa
       character(:), allocatable :: y_label !! over that of the ordinate
       real(wp) :: x_range(2) = 0.0_wp      !! (2) minimum and maximum abscissa, SI [any]
@@ -56,11 +55,11 @@ contains
             call find_curve(figure%scalars(k), catalogue, extremes, rows, suffix, curve)
          end if
          curve%number = k
-         if (all(curve%series >= 0)) curves = [curves, curve]
+         if (curve%is_there) curves = [curves, curve]
       end do
    end subroutine find_curves
 
-   !> One curve; it has no series if one of its columns is not there or holds no numbers.
+   !> One curve; it is not there if one of its columns is not there or holds no numbers.
    subroutine find_curve(scalar, catalogue, extremes, rows, suffix, curve, over, apart)
       type(scalar_t), intent(in) :: scalar              !! the ordinate
       type(catalogue_t), intent(in) :: catalogue        !! what was recorded
@@ -95,9 +94,11 @@ contains
       if (x > 0) curve%x = rows%columns(x)%number
       if (x > 0) x = rows%columns(x)%series
       y = rows%columns(y)%series
-      call look_at(rows%x(:rows%n, x), noise_of(over), curve%x_range, falls=curve%falls)
-      call look_at(rows%x(:rows%n, y), noise_of(scalar), curve%y_range, turns=curve%turns)
-      if (curve%x_range(1) <= curve%x_range(2) .and. curve%y_range(1) <= curve%y_range(2)) curve%series = [x, y]
+      curve%x_range = beyond_noise(rows%courses(x)%range, noise_of(over))
+      curve%y_range = beyond_noise(rows%courses(y)%range, noise_of(scalar))
+      curve%falls = rows%courses(x)%falls
+      curve%turns = rows%courses(y)%turns
+      curve%is_there = curve%x_range(1) <= curve%x_range(2) .and. curve%y_range(1) <= curve%y_range(2)
 
    contains
 
@@ -119,36 +120,15 @@ contains
 
    end subroutine find_curve
 
-   !> How far a column reaches, and how often it turns and falls; the range is zero if all is round-off.
-   pure subroutine look_at(x, noise, range, turns, falls)
-      real(wp), intent(in) :: x(:)             !! (n) the column, SI [any]
-      real(wp), intent(in) :: noise            !! less is round-off, SI [any]
-      real(wp), intent(out) :: range(2)        !! (2) minimum, maximum; of a column without numbers reversed, SI [any]
-      integer, intent(out), optional :: turns  !! from rising to falling, or back
-      integer, intent(out), optional :: falls  !! from one number to the next
+   !> A range; zero if all is round-off.
+   pure function beyond_noise(range, noise) result(shown)
+      real(wp), intent(in) :: range(2)   !! (2) minimum, maximum, SI [any]
+      real(wp), intent(in) :: noise      !! less is round-off, SI [any]
+      real(wp) :: shown(2)               !! (2) minimum, maximum, SI [any]
 
-      real(wp) :: before
-      integer :: k, n_fall, n_turn, way
-
-      range = [huge(1.0_wp), -huge(1.0_wp)]
-      before = huge(1.0_wp)  ! nothing came before
-      n_turn = 0
-      n_fall = 0
-      way = 0
-      do k = 1, size(x)
-         if (ieee_is_nan(x(k))) cycle
-         if (before < huge(1.0_wp)) then
-            if ((x(k) - before)*way < 0.0_wp) n_turn = n_turn + 1
-            if (x(k) < before) n_fall = n_fall + 1
-            if (x(k) < before .or. x(k) > before) way = merge(-1, 1, x(k) < before)
-         end if
-         range = [min(range(1), x(k)), max(range(2), x(k))]
-         before = x(k)
-      end do
-      if (present(turns)) turns = n_turn
-      if (present(falls)) falls = n_fall
-      if (all(abs(range) <= noise)) range = 0.0_wp
-   end subroutine look_at
+      shown = range
+      if (all(abs(range) <= noise)) shown = 0.0_wp
+   end function beyond_noise
 
    !> Which curves are not so small beside the others that nobody would see them.
    pure function is_visible(curves) result(visible)

@@ -150,7 +150,8 @@ contains
       else
          n_turn = 0
          if (size(curves) > 0 .and. figure%kind == figure_portrait) then
-            n_turn = count_turns(rows, curves(1))
+            call count_turns(folder, rows, curves(1), n_turn, error)
+            if (allocated(error)) return
             call make_path(folder, figure%name, heading, rows, curves(1), thinned, error)
          else if (size(curves) > 1) then
             call make_path(folder, figure%name, heading, rows, path_of(curves), thinned, error)

@@ -9,13 +9,15 @@ module path_data
    use figure_data, only: curve_t
    use, intrinsic :: ieee_arithmetic, only: ieee_is_finite
    use kinds, only: wp
+   use row_reader, only: row_reader_t
    use text_buffer, only: buffer_t
-   use text_file, only: write_file
+   use text_file, only: text_file_t
    use text_table, only: number_row
    implicit none (type, external)
    private
    public :: make_path, path_t
 
+   integer, parameter :: block = 65536              !! characters that are written at once
    integer, parameter :: most_rows = 20000          !! of the run's own table that gnuplot draws as it is
    real(wp), parameter :: opaque_line = 100.0_wp    !! a line that crosses the picture less often is not transparent [1]
    real(wp), parameter :: longest_line = 3000.0_wp  !! of a line that crosses it more often the points are drawn [1]
@@ -41,15 +43,20 @@ contains
       type(drawn_rows_t), intent(in) :: rows             !! of the run
       type(curve_t), intent(in) :: curve                 !! the path
       type(path_t), intent(out) :: path                  !! what there is
-      type(error_t), allocatable, intent(out) :: error   !! the table cannot be written
+      type(error_t), allocatable, intent(out) :: error   !! the rows cannot be read, or the table not written
 
       type(buffer_t) :: lines
-      real(wp) :: crossings, extent(2), last(2)
+      type(row_reader_t) :: reader
+      type(text_file_t) :: table
+      real(wp) :: crossings, extent(2), last(2), point(2)
       integer :: n, r
       logical :: has_last
 
       if (rows%n <= most_rows) return
+      call reader%open(folder, curve, error)
+      if (allocated(error)) return
       path%file = name//".path.dat"
+      table%path = folder//"/"//path%file
       call lines%line("# "//curve%x_label//" "//curve%y_label)
       call lines%add(heading)
       call lines%line("# path, points closer than half a pixel omitted, SI")
@@ -59,23 +66,28 @@ contains
       has_last = .false.
       n = 0
       do r = 1, rows%n
-         associate (point => rows%x(r, curve%series))
-            if (.not. all(ieee_is_finite(point))) then
-               if (has_last) call lines%line("")  ! a gap
-               has_last = .false.
-               cycle
-            end if
-            if (has_last) then
-               if (all(abs(point - last) <= nearest*extent)) cycle
-               crossings = crossings + maxval(abs(point - last)/max(extent, tiny(1.0_wp)))
-            end if
-            call lines%line(number_row(point))
-            last = point
-            has_last = .true.
-            n = n + 1
-         end associate
+         call reader%next(point, error)
+         if (allocated(error)) return
+         if (.not. all(ieee_is_finite(point))) then
+            if (has_last) call lines%line("")  ! a gap
+            has_last = .false.
+            cycle
+         end if
+         if (has_last) then
+            if (all(abs(point - last) <= nearest*extent)) cycle
+            crossings = crossings + maxval(abs(point - last)/max(extent, tiny(1.0_wp)))
+         end if
+         call lines%line(number_row(point))
+         last = point
+         has_last = .true.
+         n = n + 1
+         if (lines%length() < block) cycle
+         call table%append(lines%get(), error)
+         if (allocated(error)) exit
+         lines = buffer_t()
       end do
-      call write_file(folder//"/"//path%file, lines%get(), error)
+      call reader%close()
+      if (.not. allocated(error)) call table%append(lines%get(), error)
       path%is_used = n > 0 .and. .not. allocated(error)
       call choose_style(crossings, n, path)
    end subroutine make_path

@@ -176,7 +176,6 @@ contains
       path = curves(v)
       path%x = curves(h)%y
       path%x_label = curves(h)%y_label
-      path%series(1) = curves(h)%series(2)
       path%x_range = curves(h)%y_range
    end function path_of
 

@@ -3,7 +3,7 @@ module contact_statistics
    use, intrinsic :: ieee_arithmetic, only: ieee_is_finite
    use catalogue, only: catalogue_t
    use groups_of_catalogue, only: group_contacts
-   use event_list, only: event_list_t
+   use event_list, only: event_list_t, n_event_numbers
    use kinds, only: wp
    use name_table, only: name_table_t
    use text, only: text_t
@@ -51,7 +51,7 @@ contains
       type(joint_statistics_t), allocatable, intent(out) :: joints(:)  !! (n) what their contacts did
 
       type(name_table_t) :: table
-      real(wp) :: begin, closed(size(names)), covered(size(names)), end
+      real(wp) :: begin, closed(size(names)), covered(size(names)), end, numbers(n_event_numbers)
       integer, allocatable :: joint_of(:), order(:)
       integer :: j, k, n(size(names)), pass
 
@@ -69,17 +69,16 @@ contains
          do k = 1, size(order)
             j = joint_of(k)
             if (j == 0) cycle
-            associate (numbers => events%numbers(:, order(k)))
-               begin = numbers(1)
-               end = until
-               if (ieee_is_finite(numbers(5))) end = min(until, begin + numbers(5))
-               if (begin >= from .and. begin < until) then
-                  n(j) = n(j) + 1
-                  if (pass == 2) joints(j)%speeds(n(j)) = numbers(2)
-                  if (pass == 2) joints(j)%forces(n(j)) = numbers(3)
-               end if
-            end associate
-            associate (force => events%numbers(3, order(k)), at => events%numbers(9, order(k)))
+            numbers = events%numbers(order(k))
+            begin = numbers(1)
+            end = until
+            if (ieee_is_finite(numbers(5))) end = min(until, begin + numbers(5))
+            if (begin >= from .and. begin < until) then
+               n(j) = n(j) + 1
+               if (pass == 2) joints(j)%speeds(n(j)) = numbers(2)
+               if (pass == 2) joints(j)%forces(n(j)) = numbers(3)
+            end if
+            associate (force => numbers(3), at => numbers(9))
                if (at >= from .and. at <= until) joints(j)%max_force = max(joints(j)%max_force, force)
             end associate
             ! contacts come in the order of their onsets: what reaches beyond those before is new

@@ -22,7 +22,7 @@ contains
       do k = 1, events%n
          if (events%word(k, 1) /= "contact") cycle
          j = table%find(events%word(k, 2))
-         if (j > 0) call add_contact(events%numbers(:, k), joints(j))
+         if (j > 0) call add_contact(events%numbers(k), joints(j))
       end do
    end procedure joints_at_extremes
 

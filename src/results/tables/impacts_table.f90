@@ -1,6 +1,7 @@
 !> The first impacts of a run as a table.
 module impacts_table
    use event_list, only: event_list_t, n_event_numbers, number_long_names, number_names, number_units
+   use kinds, only: wp
    use result_table, only: in_text_files, only_shown, result_table_t
    use text, only: text_t
    implicit none (type, external)
@@ -21,9 +22,10 @@ contains
       type(result_table_t) :: table             !! a row for each
 
       type(text_t), allocatable :: contacts(:), items(:), joints(:)
+      real(wp), allocatable :: numbers(:, :)
       integer, allocatable :: list(:)
       character(:), allocatable :: missing
-      integer :: i, k, n
+      integer :: k, n
 
       list = events%order_by_onset()
       list = pack(list, [(events%word(list(k), 1) == kind_contact, k=1, size(list))])
@@ -32,8 +34,9 @@ contains
       table%left_out = size(list) - n
       table%most = 5
       table%most_in_json = 5
-      allocate (contacts(n), items(n))
+      allocate (contacts(n), items(n), numbers(n_event_numbers, n))
       do k = 1, n
+         numbers(:, k) = events%numbers(list(k))
          items(k)%s = events%word(list(k), 2)
          contacts(k)%s = events%word(list(k), 3)
       end do
@@ -48,7 +51,7 @@ contains
          missing = "-"
          if (number_names(k) == "duration") missing = "in contact"
          call table%put(trim(number_names(k)), trim(number_units(k)), trim(number_long_names(k)), &
-                        [(events%numbers(k, list(i)), i=1, n)], formats=in_text_files, missing=missing)
+                        numbers(k, :), formats=in_text_files, missing=missing)
       end do
       do k = 1, size(headings)
          table%columns(k + 3)%heading = trim(headings(k))

@@ -4,8 +4,8 @@
 !> end. No object carries a time of its making, so that equal runs give equal files. Shapes are given in
 !> Fortran's order: reversed in the file.
 module hdf5_calls
-   use hdf5, only: h5dcreate_f, h5dont_atexit_f, h5eset_auto_f, h5fcreate_f, h5gcreate_f, h5open_f, h5pclose_f, h5pcreate_f
-   use hdf5, only: h5f_acc_rdonly_f, h5fopen_f
+   use hdf5, only: h5dcreate_f, h5dont_atexit_f, h5eset_auto_f, h5fcreate_f, h5gcreate_f, h5open_f, h5pclose_f, h5pcopy_f
+   use hdf5, only: h5f_acc_rdonly_f, h5fopen_f, h5pcreate_f
    use hdf5, only: h5pset_alloc_time_f, h5pset_chunk_cache_f, h5pset_chunk_f, h5pset_create_inter_group_f
    use hdf5, only: h5pset_local_heap_size_hint_f, h5pset_obj_track_times_f, h5sclose_f, h5screate_f, h5screate_simple_f
    use hdf5, only: h5d_alloc_time_early_f, hid_t, hsize_t, size_t, h5f_acc_trunc_f, h5p_dataset_access_f, h5p_dataset_create_f
@@ -17,6 +17,7 @@ module hdf5_calls
    public :: creation_list, is_memory_short, new_dataset, new_file, new_group, open_file, open_library
 
    logical :: is_open = .false.             !! whether the library has been opened
+   integer(hid_t) :: bounded = -1           !! properties of the use of a file: what is kept of it does not grow with it
    integer(hid_t) :: link = -1              !! properties of a new name that makes the groups above it
    integer(hid_t) :: of_fixed_size = -1     !! those of a dataset that does not grow
 
@@ -29,6 +30,13 @@ module hdf5_calls
          implicit none (type, external)
          integer(c_int64_t), value :: bytes  !! that are requested
       end function c_has_capacity
+
+      !> Keep only so much of a file's metadata (ordered_file.c). Negative: failed.
+      integer(c_int) function c_limit_cache(access) bind(c, name="gudgeon_limit_metadata_cache")
+         import :: c_int, c_int64_t
+         implicit none (type, external)
+         integer(c_int64_t), value :: access  !! access properties of a file
+      end function c_limit_cache
 
       !> Set the driver that writes metadata in order (ordered_file.c). Negative: failed.
       integer(c_int) function c_set_driver(access) bind(c, name="gudgeon_set_ordered_driver")
@@ -60,6 +68,8 @@ contains
       if (status >= 0) call h5pcreate_f(h5p_link_create_f, link, status)
       if (status >= 0) call h5pset_create_inter_group_f(link, 1, status)
       call creation_list(h5p_dataset_create_f, of_fixed_size, status)
+      if (status >= 0) call h5pcreate_f(h5p_file_access_f, bounded, status)
+      if (status >= 0) status = c_limit_cache(int(bounded, c_int64_t))
       is_open = status >= 0
    end subroutine open_library
 
@@ -88,7 +98,7 @@ contains
       if (status < 0) return
       call creation_list(h5p_file_create_f, creation, status)
       if (status >= 0) call h5pset_local_heap_size_hint_f(creation, bytes_of_names, status)
-      if (status >= 0) call h5pcreate_f(h5p_file_access_f, access, status)
+      if (status >= 0) call h5pcopy_f(bounded, access, status)
       if (status < 0) return
       status = c_set_driver(int(access, c_int64_t))
       if (status >= 0) call h5fcreate_f(path, h5f_acc_trunc_f, file, status, creation, access)
@@ -104,7 +114,7 @@ contains
 
       file = -1
       call open_library(status)
-      if (status >= 0) call h5fopen_f(path, h5f_acc_rdonly_f, file, status)
+      if (status >= 0) call h5fopen_f(path, h5f_acc_rdonly_f, file, status, bounded)
       if (status < 0) file = -1
    end subroutine open_file
 

@@ -80,18 +80,16 @@ contains
       integer(hid_t), intent(in) :: file        !! file or group
       character(*), intent(in) :: path          !! path within it
       integer, intent(in) :: shape(:)           !! (rank) extent, in Fortran's order
-      real(wp), intent(in) :: values(:)         !! (product of shape) the numbers [any]
+      real(wp), intent(in), contiguous, target :: values(:)  !! (product of shape) the numbers [any]
       character(*), intent(in) :: units         !! SI unit, `1` if none, or a list of them
       character(*), intent(in) :: long_name     !! what they are
       integer, intent(inout) :: status          !! negative: failed
 
-      real(wp), allocatable, target :: store(:)
       integer(hid_t) :: dataset
       integer :: closed
 
       call new_dataset(file, path, h5t_ieee_f64le, int(shape, hsize_t), dataset, status)
-      store = [values, 0.0_wp]
-      if (status >= 0 .and. size(values) > 0) call h5dwrite_f(dataset, h5t_native_double, c_loc(store), status)
+      if (status >= 0 .and. size(values) > 0) call h5dwrite_f(dataset, h5t_native_double, c_loc(values), status)
       call describe(dataset, units, long_name, "none", status)
       if (dataset >= 0) call h5dclose_f(dataset, closed)
    end subroutine real_dataset

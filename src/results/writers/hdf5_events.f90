@@ -17,7 +17,8 @@ module hdf5_events
    public :: event_table_t
 
    integer, parameter :: shortest_word = 16  !! bytes of a word at least
-   integer, parameter :: records_of_chunk = 64  !! records written together
+   integer, parameter :: records_of_chunk = 64  !! records that lie together in the file
+   integer, parameter :: records_at_once = 16*records_of_chunk  !! records in memory at most
    integer, parameter :: bytes_of_number = storage_size(1.0_wp)/8  !! bytes of a number
 
    !> The open table.
@@ -169,20 +170,23 @@ contains
 
       character(kind=c_char, len=1), allocatable, target :: bytes(:, :)
       integer(hid_t) :: here, there
-      integer :: closed, k
+      integer :: closed, first, k, n
 
-      if (status < 0) return
-      allocate (bytes(self%record, size(list)))
-      do k = 1, size(list)
-         call encode_record(self, events, list(k), bytes(:, k))
+      allocate (bytes(self%record, min(size(list), records_at_once)))
+      do first = 1, size(list), records_at_once
+         if (status < 0) return
+         n = min(records_at_once, size(list) + 1 - first)
+         do k = 1, n
+            call encode_record(self, events, list(first + k - 1), bytes(:, k))
+         end do
+         call h5screate_simple_f(1, [int(n, hsize_t)], here, status)
+         if (status >= 0) call h5dget_space_f(self%id, there, status)
+         if (status < 0) return
+         call h5sselect_hyperslab_f(there, h5s_select_set_f, [int(offset + first - 1, hsize_t)], [int(n, hsize_t)], status)
+         if (status >= 0) call h5dwrite_f(self%id, self%memory, c_loc(bytes), status, here, there)
+         call h5sclose_f(here, closed)
+         call h5sclose_f(there, closed)
       end do
-      call h5screate_simple_f(1, [size(list, kind=hsize_t)], here, status)
-      if (status >= 0) call h5dget_space_f(self%id, there, status)
-      if (status < 0) return
-      call h5sselect_hyperslab_f(there, h5s_select_set_f, [int(offset, hsize_t)], [size(list, kind=hsize_t)], status)
-      if (status >= 0) call h5dwrite_f(self%id, self%memory, c_loc(bytes), status, here, there)
-      call h5sclose_f(here, closed)
-      call h5sclose_f(there, closed)
    end subroutine write_records
 
    !> One record as it lies in memory.
@@ -193,10 +197,12 @@ contains
       character(kind=c_char, len=1), intent(out) :: bytes(:)     !! (record) its bytes
 
       character(:), allocatable :: word
+      real(wp) :: numbers(n_event_numbers)
       integer :: at, i, k
 
+      numbers = events%numbers(event)
       bytes = c_null_char
-      bytes(1:bytes_of_number) = transfer(events%numbers(1, event), bytes)
+      bytes(1:bytes_of_number) = transfer(numbers(1), bytes)
       at = bytes_of_number
       do k = 1, n_event_words
          word = events%word(event, k)
@@ -205,7 +211,7 @@ contains
          end do
          at = at + self%width(k)
       end do
-      bytes(at + 1:) = transfer(events%numbers(2:, event), bytes)
+      bytes(at + 1:) = transfer(numbers(2:), bytes)
    end subroutine encode_record
 
    !> Close the table.

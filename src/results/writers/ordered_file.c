@@ -31,6 +31,7 @@
 enum { page = 4096 };       /* bytes; where the system's pages are larger they are multiples of it */
 enum { short_data = 512 };  /* bytes of raw data that wait; rows of a chunk are more */
 enum { most_at_once = 64 }; /* blocks of one write; every system takes as many */
+enum { cache_size = 1 << 19 }; /* bytes of metadata that the library keeps, as they lie in the file */
 
 /* What waits. */
 typedef struct {
@@ -342,6 +343,21 @@ static const H5FD_class_t ordered_class = {
    .truncate = ordered_truncate,
    .fl_map = H5FD_FLMAP_DICHOTOMY,
 };
+
+/* Sets, in a list of access properties, a metadata cache that does not grow with the file: rows are appended, and read in their
+ * order, so that of an index the last nodes are wanted only. A node takes ten times as much in memory as in the file, by whose
+ * size the cache counts. Negative: failed. */
+int gudgeon_limit_metadata_cache(hid_t access)
+{
+   H5AC_cache_config_t cache = {.version = H5AC__CURR_CACHE_CONFIG_VERSION};
+   if (H5Pget_mdc_config(access, &cache) < 0) return -1;
+   cache.set_initial_size = 1;
+   cache.initial_size = cache.min_size = cache.max_size = cache_size;
+   cache.incr_mode = H5C_incr__off;
+   cache.flash_incr_mode = H5C_flash_incr__off;
+   cache.decr_mode = H5C_decr__off;
+   return H5Pset_mdc_config(access, &cache) < 0 ? -1 : 0;
+}
 
 /* Sets the driver in a list of access properties. Negative: failed. */
 int gudgeon_set_ordered_driver(hid_t access)

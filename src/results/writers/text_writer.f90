@@ -13,11 +13,11 @@ module text_writer
    use kinds, only: i8, wp
    use output_marker, only: enter_file, note_files
    use output_plan, only: output_plan_t
-   use posix, only: make_directory
+   use posix, only: make_directory, remove_file
    use archive, only: archive_t
    use text, only: text_t, to_text
    use text_buffer, only: buffer_t
-   use text_file, only: fail_file, replace_file, text_file_t
+   use text_file, only: fail_file, put_in_place, text_file_t
    use text_table, only: file_heading, put_row_of_numbers, text_table_t
    implicit none (type, external)
    private
@@ -25,6 +25,7 @@ module text_writer
 
    integer, parameter :: most_rows = 256, fewest_rows = 8     !! rows in memory
    integer, parameter :: numbers_in_memory = 8388608          !! of all tables together, from which the rows follow
+   integer, parameter :: events_in_memory = 256               !! lines of events.dat
    real(wp), parameter :: longest_wait = 10.0_wp              !! time after which rows are written anyway [s]
 
    !> A table besides those of the items, for a figure of channels of several items.
@@ -276,7 +277,7 @@ contains
          if (allocated(error)) exit
       end do
       if (self%with_events .and. .not. allocated(error)) then
-         call self%events%append(event_rows(events, [(k, k=self%written_events + 1, events%n)]), error)
+         call append_events(events, [(k, k=self%written_events + 1, events%n)], self%events, error)
       end if
       if (allocated(error)) then
          self%is_broken = .true.
@@ -294,6 +295,21 @@ contains
       call system_clock(self%flushed_at)
    end subroutine write_block
 
+   !> Append events to a file, a block at a time.
+   subroutine append_events(events, list, file, error)
+      type(event_list_t), intent(in) :: events           !! all events
+      integer, intent(in) :: list(:)                     !! (n) numbers of those to write
+      type(text_file_t), intent(inout) :: file           !! the file
+      type(error_t), allocatable, intent(out) :: error   !! it cannot be written; it ends with a whole line
+
+      integer :: first
+
+      do first = 1, size(list), events_in_memory
+         call file%append(event_rows(events, list(first:min(first + events_in_memory - 1, size(list)))), error)
+         if (allocated(error)) return
+      end do
+   end subroutine append_events
+
    !> Events as lines of text.
    function event_rows(events, list) result(text)
       type(event_list_t), intent(in) :: events   !! all events
@@ -306,7 +322,7 @@ contains
       integer :: i, k
 
       do i = 1, size(list)
-         call put_row_of_numbers(events%numbers(:, list(i)), line)
+         call put_row_of_numbers(events%numbers(list(i)), line)
          call buffer%add(line(1:decimal_width - 1))
          do k = 1, n_event_words
             word = events%word(list(i), k)
@@ -325,10 +341,17 @@ contains
       type(event_list_t), intent(in) :: events           !! all events
       type(error_t), allocatable, intent(out) :: error   !! they cannot be written
 
+      type(text_file_t) :: sorted
+      integer :: ignored
+
       if (self%is_broken .or. .not. allocated(self%tables)) return
       call write_block(self, t, events, error)
       if (allocated(error) .or. .not. self%with_events .or. events%n == 0) return
-      call replace_file(self%events%path, self%heading//event_rows(events, events%order_by_onset()), error)
+      sorted%path = self%events%path//".part"
+      call sorted%append(self%heading, error)
+      if (.not. allocated(error)) call append_events(events, events%order_by_onset(), sorted, error)
+      if (.not. allocated(error)) call put_in_place(self%events%path, error)
+      if (allocated(error)) ignored = remove_file(sorted%path)
    end subroutine finish_files
 
 end module text_writer
