@@ -204,7 +204,7 @@ def test_block_holds_by_bristles(gudgeon):
 @pytest.mark.parametrize("settings", [{}, {"method": "verner"}, {"method": "bdf"}, {"method": "radau"}, {"method": "adams"}], ids=str)
 def test_load_within_the_jump_of_threlfall(gudgeon, settings):
     """A load between 95 % and the full force holds the sliding at the rise that stands for the jump, with few steps: where the line
-    1 - 3 (1 - v/v_r) has it, and 2 v' = load - friction takes less than 0.1 s to come there."""
+    1 - 3 (1 - v/v_r) has it. Explicit methods are at their stability limit there, as they are at rest: the rate of 2 v' is 3 F/v_r."""
     speed, full, part = 1e-3, COEFFICIENT*100.0, 0.98
     result = run(gudgeon, f"""
 [friction.threlfall]
@@ -226,7 +226,7 @@ pull p {{{part*full} N}} {{0 N}}
 """, tolerance="1e-8", limit_cpu="20 s", **settings)
     late = result.time > 0.1
     assert_close(result.read("bodies/velocity")[late, 0, 0], speed*(1.0 - (1.0 - part)/3.0), relative=1e-6, what="speed")
-    assert result.summary["steps"] < 3000
+    assert result.summary["steps"] < 2.0*0.2*3.0*full/speed/2.0
 
 
 def test_driven_disc(gudgeon):
