@@ -6,7 +6,7 @@ module stick_slip_forces
    private
    public :: stick_slip_forces_t, gripped_t, new_stick_slip_forces, share_of_stick_slips, solve_stick_slips, unit_load_t
 
-   real(wp), parameter :: begun = 1.0e-3_wp   !! root of a normal force at least, of the greatest one [1]
+   real(wp), parameter :: started = 1.0e-3_wp   !! root of a normal force at least, of the greatest one [1]
 
    !> Loads of a unit force, and storage for what they are solved in place of.
    type :: unit_load_t
@@ -73,8 +73,8 @@ contains
    end subroutine new_stick_slip_forces
 
    !> Forces x with A x = r, A symmetric and positive semidefinite; where contacts share a load, the solution that uses each
-   !> to the same part of what its normal force lets it hold: minimum sum of x^2 / F_N. A contact that begins has no normal force
-   !> yet, but it counts (`begun`). What no force can change of r is left: where drivers prescribe the sliding.
+   !> to the same part of what its normal force lets it hold: minimum sum of x^2 / F_N. A contact that starts has no normal force
+   !> yet, but it counts (`started`). What no force can change of r is left: where drivers prescribe the sliding.
    subroutine solve_stick_slips(n, lead, matrix, mobility, minimum, root, force, left, eigenvalue, work)
       integer, intent(in) :: n                      !! contacts
       integer, intent(in) :: lead                   !! first extent of the matrix
@@ -127,7 +127,7 @@ contains
       real(wp), intent(in) :: root      !! root of its normal force [N^0.5]
       real(wp), intent(in) :: maximum   !! the greatest one, positive [N^0.5]
 
-      weight = max(root/maximum, begun)
+      weight = max(root/maximum, started)
    end function weight
 
    !> How far each force takes part in those x with A x = 0, which change no acceleration: the diagonal of the projection onto
