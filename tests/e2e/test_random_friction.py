@@ -113,7 +113,7 @@ def test_contacts_that_others_hold_need_no_small_steps(gudgeon, seed):
 
 @pytest.mark.parametrize("method", ["verner", "bdf", "radau"])
 def test_no_slow_slip_is_driven_by_its_friction(gudgeon, method):
-    """A body that comes to rest in three sockets, where slow slips hold one another: in all its rows friction gives no more than in one."""
+    """A body comes to rest in three sockets, where slow slips hold one another: in all rows friction gives no more than in one."""
     scene = draw("socket", 28)
     result = run(gudgeon, scene, method, "coulomb", scratch())
     given = np.maximum(-np.diff(result.read("energy/dissipated_friction").ravel()) - np.diff(work_within(result, True)), 0.0)

@@ -1,13 +1,15 @@
-"""Random scenes with friction by many methods and laws, run by run: exit codes, steps over those with the smooth law, agreement of two methods.
+"""Random scenes with friction by many methods and laws: exit codes, steps over those with the smooth law, agreement of two methods.
 
     python3 -B tests/stability/friction_survey.py --build build --methods verner bdf --each 100 --csv friction.csv
 
-One process at a time. A line for each run that went wrong, a table at the end. `each` scenes of a kind; of a law `any` scene n has law
-n of `OTHER_LAWS`, in turn. The smooth law is that of Brown and McPhee, its transition speed is `random_friction.TRANSITION`.
+One process at a time. A line for each run that went wrong, a table at the end or when it is interrupted. `each` scenes of a
+kind; of the law `any` scene n has law n of `OTHER_LAWS`, in turn. The smooth law is that of Brown and McPhee, its transition
+speed is `random_friction.TRANSITION`.
 
-Two methods agree as far as the motion is regular: onsets and impact speeds of the first contacts, and the last place where all is at
-rest. Units: the tolerance asked, of a place, of a body of 0.1 m (an onset counts by the way until then), and the tolerance times the
-largest impact speed. An impact multiplies an error by the change that it makes to the motion; so does sticking that ends.
+Two methods agree as far as the motion is regular: onsets and impact speeds of the first contacts, and the last place where all
+is at rest. Units: the tolerance asked, of a place, of a body of 0.1 m (an onset counts by the way until then), and the
+tolerance times the largest impact speed. Impacts, and sticking that ends, multiply an error; methods that agree differ by as
+many tolerances at any tolerance.
 """
 
 import argparse
@@ -29,7 +31,8 @@ from random_friction import END, KINDS, OTHER_LAWS, TRANSITION, draw  # noqa: E4
 SIZE = 0.1  # of a body [m]
 FIRST = 3  # contacts compared
 AT_REST = 1e-10  # kinetic energy of a scene at rest, of the largest energy
-COLUMNS = ("scene", "method", "law", "code", "steps", "smooth_steps", "seconds", "residual", "contacts", "events", "not_unique", "faults")
+COLUMNS = ("scene", "method", "law", "code", "steps", "smooth_steps", "seconds", "residual", "contacts", "events", "not_unique",
+           "faults")
 
 
 def code_of(result):
@@ -51,7 +54,8 @@ def measure(program, scene, method, law, directory):
     if not faults and not isinstance(smooth, str) and summary["steps"] > RATIO*smooth.summary["steps"]:
         faults = [f"{summary['steps']} steps, {smooth.summary['steps']} with the smooth law"]
     return result, row | {
-        "steps": summary["steps"], "seconds": summary["cpu_seconds"], "residual": summary["energy_residual_max"]/summary["energy_max"],
+        "steps": summary["steps"], "seconds": summary["cpu_seconds"],
+        "residual": summary["energy_residual_max"]/summary["energy_max"],
         "contacts": len(result.contacts), "events": summary["events"],
         "not_unique": int(any("sticking contacts are not unique" in words for words in summary["warnings"])), "faults": "; ".join(faults)}
 
@@ -82,8 +86,11 @@ def laws_of(law, seed):
 def drawn(kind, seed, options):
     """A scene with the end and the tolerance asked for."""
     scene = draw(kind, seed)
-    text = scene.text.replace(f"end = {END!r} s", f"end = {options.end!r} s").replace(f"every = {END/50!r} s", f"every = {options.end/50!r} s")
-    return dataclasses.replace(scene, text=text.replace("tolerance = 1e-8", f"tolerance = {options.tolerance}"))
+    text = scene.text
+    for line, other in ((f"end = {END!r} s", f"end = {options.end!r} s"), (f"every = {END/50!r} s", f"every = {options.end/50!r} s"),
+                        ("tolerance = 1e-8", f"tolerance = {options.tolerance}")):
+        text = text.replace(line, other)
+    return dataclasses.replace(scene, text=text)
 
 
 def survey(program, options):
@@ -111,6 +118,8 @@ def survey(program, options):
                     agreements.append((scene.label, law, *agreement(*pair, float(options.tolerance))))
                 for method in options.methods:
                     shutil.rmtree(scratch / method, ignore_errors=True)
+    except KeyboardInterrupt:
+        print("interrupted")
     finally:
         shutil.rmtree(scratch, ignore_errors=True)
     return rows, agreements
@@ -121,21 +130,23 @@ def spread(values):
     values = np.array([x for x in values if np.isfinite(x)])
     if len(values) == 0:
         return "none"
-    return f"{len(values):4d} scenes: median {np.median(values):.2g}, 90 % below {np.quantile(values, 0.9):.2g}, greatest {np.max(values):.2g}"
+    median, most = np.quantile(values, [0.5, 0.9])
+    return f"{len(values):4d} scenes: median {median:.2g}, 90 % below {most:.2g}, greatest {np.max(values):.2g}"
 
 
 def tell(rows, agreements, methods):
     """The table."""
     print(f"\nsteps over those with the smooth law, transition speed {TRANSITION} m/s")
-    print(f"{'method':10s} {'runs':>5s} {'ended 0':>7s} {'other codes':20s} {'median':>7s} {'maximum':>8s} {'above 10':>8s} {'not unique':>10s} {'faults':>6s} "
-          f"{'seconds':>8s}")
+    print(f"{'method':10s} {'runs':>5s} {'ended 0':>7s} {'other codes':20s} {'median':>7s} {'maximum':>8s} {'above 10':>8s} "
+          f"{'not unique':>10s} {'faults':>6s} {'seconds':>8s}")
     for method in methods:
         mine = [row for row in rows if row["method"] == method]
         ended = [row for row in mine if row["code"] == 0]
-        ratios = np.array([row["steps"]/row["smooth_steps"] for row in ended if row["smooth_steps"]])
+        ratios = np.array([row["steps"]/row["smooth_steps"] for row in ended if row["smooth_steps"]] or [np.nan])
         others = " ".join(sorted({str(row["code"]) for row in mine} - {"0"}))
-        print(f"{method:10s} {len(mine):5d} {len(ended):7d} {others:20s} {np.median(ratios):7.2f} {np.max(ratios):8.2f} {np.sum(ratios > RATIO):8d} "
-              f"{sum(row['not_unique'] for row in ended):10d} {sum(bool(row['faults']) for row in mine):6d} {sum(row['seconds'] for row in ended):8.0f}")
+        print(f"{method:10s} {len(mine):5d} {len(ended):7d} {others:20s} {np.median(ratios):7.2f} {np.max(ratios):8.2f} "
+              f"{np.sum(ratios > RATIO):8d} {sum(row['not_unique'] for row in ended):10d} {sum(bool(row['faults']) for row in mine):6d} "
+              f"{sum(row['seconds'] for row in ended):8.0f}")
     if agreements:
         print(f"\ndifferences of {methods[0]} and {methods[1]}, in tolerances")
         for k in range(FIRST):
@@ -152,7 +163,8 @@ def write_csv(path, rows, agreements):
         writer.writerows(rows)
     with open(path.with_suffix(".pairs.csv"), "w", newline="", encoding="utf-8") as file:
         writer = csv.writer(file)
-        writer.writerow(["scene", "law"] + [f"{what}_{k + 1}" for what in ("onset", "speed") for k in range(FIRST)] + ["rest"])
+        names = [f"{what}_{k + 1}" for what in ("onset", "speed") for k in range(FIRST)]
+        writer.writerow(["scene", "law", *names, "rest"])
         writer.writerows([label, law, *onsets, *speeds, rest] for label, law, onsets, speeds, rest in agreements)
 
 
@@ -167,7 +179,7 @@ def main():
     parser.add_argument("--each", type=int, default=100, help="scenes of a kind")
     parser.add_argument("--end", type=float, default=END, help="of a scene [s]")
     parser.add_argument("--tolerance", default="1e-8", help="of all runs")
-    parser.add_argument("--csv", type=pathlib.Path, help="a file for the rows; a second one .pairs.csv for what two methods say")
+    parser.add_argument("--csv", type=pathlib.Path, help="a file for the rows; .pairs.csv beside it has what two methods say")
     options = parser.parse_args()
     rows, agreements = survey((options.build / "gudgeon").resolve(), options)
     tell(rows, agreements, options.methods)

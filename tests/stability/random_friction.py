@@ -14,8 +14,8 @@ KINDS = ("pin", "socket", "bushing", "block", "disc")
 METHODS = ("verner", "dop853", "rk4", "radau", "rock4", "adams", "bdf")  # ida solves for no accelerations, and refuses the law
 END = 0.05  # of a scene [s]
 TRANSITION = 1e-3  # of the smooth law, and of the others [m/s]
-OTHER_LAWS = ("constant_dry", "constant", "ambrosio", "rooney_deravi", "threlfall", "threlfall_exponential", "threlfall_book", "stribeck",
-              "lugre", "dahl")
+OTHER_LAWS = ("constant_dry", "constant", "ambrosio", "rooney_deravi", "threlfall", "threlfall_exponential", "threlfall_book",
+              "stribeck", "lugre", "dahl")
 YOUNG, POISSON, DENSITY = 207e9, 0.3, 7800.0
 MODULUS = YOUNG/(2.0*(1.0 - POISSON**2))  # of two equal materials, over two [Pa]
 G = 9.81  # [m/s^2]
