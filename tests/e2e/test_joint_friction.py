@@ -201,6 +201,34 @@ def test_block_holds_by_bristles(gudgeon):
             assert_close(force[late], 4 * G * np.sin(tilt) + 0 * force[late], relative=2e-2, what="force that holds")
 
 
+@pytest.mark.parametrize("settings", [{}] + [{"method": name} for name in ("verner", "bdf", "radau", "adams")], ids=str)
+def test_load_within_the_jump_of_threlfall(gudgeon, settings):
+    """A load between 95 % and the full force holds the sliding at the rise that stands for the jump, with few steps: where the line
+    1 - 3 (1 - v/v_r) has it. Explicit methods are at their stability limit there, as at rest: the rate of 2 v' is 3 F/v_r."""
+    speed, full, part = 1e-3, COEFFICIENT*100.0, 0.98
+    result = run(gudgeon, f"""
+[friction.threlfall]
+name coefficient v_r[m/s] above
+rub {COEFFICIENT} {speed} book
+[bodies]
+name mass[kg] inertia[kg.m^2] x[m] y[m]
+b 2 0.01 0 0
+[points]
+name body xi[m] eta[m]
+o ground 0 0
+p b 0 0
+[joint.translational]
+name i j axis friction preload[N]
+guide o p x rub 100
+[force.point]
+name point fx fy
+pull p {{{part*full} N}} {{0 N}}
+""", tolerance="1e-8", limit_cpu="20 s", **settings)
+    late = result.time > 0.1
+    assert_close(result.read("bodies/velocity")[late, 0, 0], speed*(1.0 - (1.0 - part)/3.0), relative=1e-6, what="speed")
+    assert result.summary["steps"] < 2.0*0.2*3.0*full/speed/2.0
+
+
 def test_driven_disc(gudgeon):
     """A driver gives what friction takes: its power, and its moment in a kinematic analysis too."""
     text = DRY + disc(speed=0.0) + "[driver.speed]\nname joint speed[rad/s]\nmotor pin -15\n"

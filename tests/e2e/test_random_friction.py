@@ -11,7 +11,7 @@ import pytest
 from support import ROOT, Run, call, scratch, written
 
 sys.path.insert(0, str(ROOT / "tests" / "stability"))
-from friction_runs import differences, disagreement, mistakes_of, run  # noqa: E402
+from friction_runs import GIVEN, differences, disagreement, mistakes_of, run, work_within  # noqa: E402
 from random_friction import KINDS, METHODS, draw  # noqa: E402
 
 EACH = 2  # scenes of a kind
@@ -109,6 +109,15 @@ def test_contacts_that_others_hold_need_no_small_steps(gudgeon, seed):
     """An explicit method follows a slip next to rest, whose direction turns fast."""
     mistakes = mistakes_of(gudgeon, draw("socket", seed), "verner", scratch())
     assert not mistakes, "; ".join(mistakes)
+
+
+@pytest.mark.parametrize("method", ["verner", "bdf", "radau"])
+def test_no_slow_slip_is_driven_by_its_friction(gudgeon, method):
+    """A body comes to rest in three sockets, where slow slips hold one another: in all rows friction gives no more than in one."""
+    scene = draw("socket", 28)
+    result = run(gudgeon, scene, method, "coulomb", scratch())
+    given = np.maximum(-np.diff(result.read("energy/dissipated_friction").ravel()) - np.diff(work_within(result, True)), 0.0)
+    assert np.sum(given) < GIVEN*result.summary["energy_max"]
 
 
 @pytest.mark.parametrize(("kind", "seed", "method"), ENDLESS)

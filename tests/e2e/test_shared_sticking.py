@@ -4,9 +4,15 @@ Blocks rest on rigid feet, discs on planes: the rank of the sliding velocities o
 of a small matrix made here from the places of the contacts.
 """
 
+import sys
+
 import numpy as np
 import pytest
-from support import Run, call, scratch, written
+from support import ROOT, Run, call, scratch, written
+
+sys.path.insert(0, str(ROOT / "tests" / "stability"))
+import friction_runs  # noqa: E402
+from random_friction import draw  # noqa: E402
 
 HEAD = """deck = 1
 [scene]
@@ -118,6 +124,14 @@ def test_by_every_method(gudgeon, method):
 def test_bristles_determine_the_forces(gudgeon):
     """The way out that the warning names."""
     assert not warning_of(run_of(gudgeon, feet(*SCENES["two feet"]), "radau", LUGRE))
+
+
+@pytest.mark.parametrize("method", ["verner", "bdf"])
+@pytest.mark.parametrize("seed", [41, 99])
+def test_three_pins_that_fall_straight(gudgeon, seed, method):
+    """A body falls onto three pins at once, without sliding: their tangents are parallel, so two of the forces are enough."""
+    scene, directory = draw("pin", seed), scratch()
+    assert warning_of(friction_runs.run(gudgeon, scene, method, "coulomb", directory)).count("'j") == 3
 
 
 SPACE = """[bodies]

@@ -172,12 +172,13 @@ contains
       call check_close(error, f, [0.0_wp, 12.5_wp, 50.0_wp, 50.0_wp], 1.0e-14_wp, "ramp")
    end subroutine test_rooney_deravi
 
-   !> The exponential below v_r, and the three ways above; the slope at rest is 3 c_f F_N/v_r.
+   !> The exponential below v_r, the three ways above, and a rise instead of a jump; the slope at rest is 3 c_f F_N/v_r.
    subroutine test_threlfall(error)
       type(error_t), allocatable, intent(out) :: error  !! what failed
 
       real(wp), parameter :: full = 50.0_wp, knee = 0.950212931632136_wp  ! [N], 1 - exp(-3)
-      real(wp), parameter :: speed(5) = [0.0_wp, 1.0e-9_wp, 1.0e-3_wp, 2.0e-3_wp, 4.0e-3_wp]
+      real(wp), parameter :: v_r = 2.0e-3_wp  ! [m/s]
+      real(wp), parameter :: speed(5) = [0.0_wp, 1.0e-9_wp, 1.0e-3_wp, v_r, 4.0e-3_wp]
       class(friction_law_t), allocatable :: law
       real(wp) :: f(5)
 
@@ -190,6 +191,10 @@ contains
       call make_named("threlfall", [0.1_wp, 2.0e-3_wp], "book", law)
       call law%force(5, spread(500.0_wp, 1, 5), speed, f)
       call check_close(error, f(3:), full*[0.776869839851570_wp, 1.0_wp, 1.0_wp], 1.0e-12_wp, "book")
+      if (allocated(error)) return
+      call law%force(5, spread(500.0_wp, 1, 5), v_r*[0.98_wp, 0.984_wp, 0.99_wp, 0.995_wp, 1.0_wp - 1.0e-9_wp], f)
+      call check_close(error, f, full*[0.947134271261650_wp, 0.952_wp, 0.97_wp, 0.985_wp, 1.0_wp - 3.0e-9_wp], 1.0e-12_wp, &
+                       "rise to the full force")
    end subroutine test_threlfall
 
    !> mu_s at v_t but for 1 - tanh(4), mu_d far beyond, the viscous part in proportion; smooth.

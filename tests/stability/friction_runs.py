@@ -36,7 +36,8 @@ def run(program, scene, method, friction, directory):
     step = {"step": f"{scene.step!r} s", "tolerance": None} if method == "rk4" else {}
     directory = pathlib.Path(directory) / f"{method}_{friction}"
     directory.mkdir()
-    deck = written(directory, changed(scene.text, "analysis.dynamic", method=method, **step))
+    text = scene.text + scene.tables.get(friction, "")
+    deck = written(directory, changed(text, "analysis.dynamic", method=method, **step))
     command = [str(program), "run", str(deck), "--out", str(directory / "out"), "--write", "channels", "--set", f"friction={friction}"]
     try:
         done = subprocess.run(command, capture_output=True, text=True, timeout=LIMIT, stdin=subprocess.DEVNULL)
@@ -57,10 +58,15 @@ def mistakes_of(program, scene, method, directory):
     result = run(program, scene, method, "coulomb", directory)
     if isinstance(result, str):
         return [result]
+    return faults_of(result, scene, method, lambda: run(program, scene, method, "smooth", directory))
+
+
+def faults_of(result, scene, method, run_smooth):
+    """What is wrong with a run that came to its end; `run_smooth` runs it with the smooth law."""
     mistakes, steps, residual = [], result.summary["steps"], residual_of(result)
     is_open = method != "rk4" and not residual <= RESIDUAL
     if steps > FEW or is_open:
-        smooth = run(program, scene, method, "smooth", directory)
+        smooth = run_smooth()
         if isinstance(smooth, str):
             return [f"the smooth law: {smooth}"]
         if steps > max(FEW, RATIO*smooth.summary["steps"]):

@@ -12,7 +12,10 @@ import numpy as np
 
 KINDS = ("pin", "socket", "bushing", "block", "disc")
 METHODS = ("verner", "dop853", "rk4", "radau", "rock4", "adams", "bdf")  # ida solves for no accelerations, and refuses the law
-TRANSITION = 1e-3  # of the smooth law [m/s]
+END = 0.05  # of a scene [s]
+TRANSITION = 1e-3  # of the smooth law, and of the others [m/s]
+OTHER_LAWS = ("constant_dry", "constant", "ambrosio", "rooney_deravi", "threlfall", "threlfall_exponential", "threlfall_book",
+              "stribeck", "lugre", "dahl")
 YOUNG, POISSON, DENSITY = 207e9, 0.3, 7800.0
 MODULUS = YOUNG/(2.0*(1.0 - POISSON**2))  # of two equal materials, over two [Pa]
 G = 9.81  # [m/s^2]
@@ -27,6 +30,7 @@ class Scene:
     label: str
     text: str
     step: float  # a hundredth of a slow elastic impact [s]
+    tables: dict  # of `OTHER_LAWS`
 
     @property
     def kind(self):
@@ -58,8 +62,8 @@ def words(vector):
     return '"' + " ".join(repr(float(x)) for x in vector) + '"'
 
 
-def laws(rng, kind):
-    """The tables of the normal law and of both friction laws."""
+def laws(rng, kind, weight):
+    """The tables of the normal law and of both friction laws, and of other friction laws with the same coefficients by name."""
     name = str(rng.choice(HERTZIAN + (OF_CYLINDERS if kind == "pin" else ())))
     restitution = number(rng, 0.5, 0.9)
     coefficient = scale(rng, 0.03, 1.0)
@@ -67,22 +71,42 @@ def laws(rng, kind):
     columns, values = ("name", "law") if name == "hertz" else ("name restitution", f"law {restitution!r}")
     return (f"[contact.{name}]\n{columns}\n{values}\n"
             f"[friction.coulomb]\nname coefficient static_coefficient\ncoulomb {coefficient!r} {static!r}\n"
-            f"[friction.brown_mcphee]\nname coefficient static_coefficient v_t[m/s]\nsmooth {coefficient!r} {static!r} {TRANSITION!r}\n")
+            f"[friction.brown_mcphee]\nname coefficient static_coefficient v_t[m/s]\nsmooth {coefficient!r} {static!r} {TRANSITION!r}\n",
+            other_laws(coefficient, static, coefficient*weight))
 
 
-def finish(label, rng, lines, is_spatial, mass, radius, tilt, end=0.05):
+def other_laws(coefficient, static, force):
+    """Tables of `OTHER_LAWS`."""
+    both = f"{coefficient!r} {static!r}"
+    rows = {
+        "constant_dry": ("constant", "force[N] v1[m/s]", f"{force!r} 0"),
+        "constant": ("constant", "force[N] v1[m/s]", f"{force!r} {TRANSITION}"),
+        "ambrosio": ("ambrosio", "coefficient v0[m/s] v1[m/s]", f"{coefficient!r} {0.1*TRANSITION!r} {TRANSITION}"),
+        "rooney_deravi": ("rooney_deravi", "coefficient v1[m/s]", f"{coefficient!r} {TRANSITION}"),
+        "threlfall": ("threlfall", "coefficient v_r[m/s] above", f"{coefficient!r} {TRANSITION} continuous"),
+        "threlfall_exponential": ("threlfall", "coefficient v_r[m/s] above", f"{coefficient!r} {TRANSITION} exponential"),
+        "threlfall_book": ("threlfall", "coefficient v_r[m/s] above", f"{coefficient!r} {TRANSITION} book"),
+        "stribeck": ("stribeck", "coefficient static_coefficient stribeck_speed[m/s] v0[m/s]", f"{both} {10*TRANSITION} {TRANSITION}"),
+        "lugre": ("lugre", "coefficient static_coefficient stribeck_speed[m/s]", f"{both} {TRANSITION}"),
+        "dahl": ("dahl", "coefficient", f"{coefficient!r}"),
+    }
+    return {name: f"[friction.{law}]\nname {columns}\n{name} {values}\n" for name, (law, columns, values) in rows.items()}
+
+
+def finish(label, rng, lines, is_spatial, mass, radius, tilt):
     """The scene from its tables."""
     if is_spatial:
         gravity = words(G*np.array([math.sin(tilt), 0.0, -math.cos(tilt)])).strip('"')
         space, more = "space = spatial\n", " *.friction_force *.penetration *.angular_velocity"
     else:
         gravity, space, more = f"{G*math.sin(tilt)!r} {-G*math.cos(tilt)!r}", "", ""
+    tables, others = laws(rng, label.split()[0], mass*G)
     text = (f"deck = 1\n[scene]\n{space}gravity = {gravity} m/s^2\n[parameters]\nfriction = coulomb\n[analysis.dynamic]\n"
-            f"start = given\noverlap = preload\nend = {end!r} s\ntolerance = 1e-8\n[output]\nevery = {end/50!r} s\n"
+            f"start = given\noverlap = preload\nend = {END!r} s\ntolerance = 1e-8\n[output]\nevery = {END/50!r} s\n"
             f"channels = energy.* *.position{more}\n"
-            f"[material]\nname young[GPa] poisson\nsteel {YOUNG/1e9} {POISSON}\n") + laws(rng, label.split()[0]) + lines
+            f"[material]\nname young[GPa] poisson\nsteel {YOUNG/1e9} {POISSON}\n") + tables + lines
     stiffness = 4.0/3.0*MODULUS*math.sqrt(radius)
-    return Scene(label, text, 0.01*2.9432*(1.25*mass/stiffness)**0.4*0.03**-0.2)
+    return Scene(label, text, 0.01*2.9432*(1.25*mass/stiffness)**0.4*0.03**-0.2, others)
 
 
 def draw(kind, seed):

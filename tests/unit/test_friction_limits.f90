@@ -1,9 +1,11 @@
 !> Friction forces within their limits: the conditions of the complementarity problem.
 module test_friction_limits
+   use, intrinsic :: ieee_arithmetic, only: ieee_set_underflow_mode, ieee_support_underflow_control
    use check, only: check_close, check_true, suite_t
    use errors, only: error_t
    use friction_limits, only: limit_forces
    use kinds, only: wp
+   use stick_slip_forces, only: solve_stick_slips
    implicit none (type, external)
    private
    public :: run_test_friction_limits
@@ -17,6 +19,7 @@ contains
       call suite%test("against_the_slip_of_uneven_mobility", test_uneven)
       call suite%test("conditions_of_many_contacts", test_many)
       call suite%test("a_shared_load_stays_shared", test_shared)
+      call suite%test("contacts_that_begin_can_be_held", test_beginning)
    end subroutine run_test_friction_limits
 
    !> What is asked for within the limit, and the limit beyond.
@@ -110,5 +113,27 @@ contains
       if (allocated(error)) return
       call check_close(error, against, [0.2_wp, 0.2_wp], 1.0e-14_wp, "slip of both")
    end subroutine test_shared
+
+   !> Contacts of which both, one or none begin, without a normal force: the forces that hold them are unique whatever these are.
+   subroutine test_beginning(error)
+      type(error_t), allocatable, intent(out) :: error  !! what failed
+
+      real(wp) :: a(2, 2), eigenvalue(2), left(2), root(2), work(68), x(2)
+      logical :: can_set
+      integer :: i
+
+      can_set = ieee_support_underflow_control(1.0_wp)
+      if (can_set) call ieee_set_underflow_mode(gradual=.false.)  ! as in the program
+      do i = 1, 3
+         a = reshape([0.5_wp, 0.1_wp, 0.1_wp, 0.25_wp], [2, 2])
+         x = matmul(a, [3.0_wp, -2.0_wp])
+         root = merge(sqrt(tiny(1.0_wp)), 7.0_wp, [i < 2, i < 3])
+         call solve_stick_slips(2, 2, a, [0.5_wp, 0.25_wp], 1.0e-11_wp, root, x, left, eigenvalue, work)
+         call check_close(error, x, [3.0_wp, -2.0_wp], 1.0e-12_wp, "forces")
+         if (.not. allocated(error)) call check_close(error, left, [0.0_wp, 0.0_wp], 1.0e-12_wp, "what no force changes")
+         if (allocated(error)) exit
+      end do
+      if (can_set) call ieee_set_underflow_mode(gradual=.true.)
+   end subroutine test_beginning
 
 end module test_friction_limits

@@ -39,8 +39,8 @@ module floors
    real(wp), parameter :: contact_lever = 2.0_wp          !! in space: lever within a contact, of its penetration [1]
    real(wp), parameter :: torn = 1.0e-4_wp                !! sliding velocity that ends sticking, of the speed [1]
    real(wp), parameter :: min_band = 1.0e-12_wp         !! first velocity the wrong way after a chatter, of the speed [1]
-   real(wp), parameter :: widest_band = 1.0e-5_wp         !! last one, of the speed [1]
-   real(wp), parameter :: settling = 5.0_wp               !! decay of a sliding velocity left over, of the characteristic rate [1]
+   real(wp), parameter :: widest_band = 1.0e-5_wp         !! last one; in space also slip that is slow, of the speed [1]
+   real(wp), parameter :: settling = 10.0_wp              !! decay of a sliding velocity left over, of the characteristic rate [1]
    real(wp), parameter :: chatter_time = 1.0e-2_wp        !! time between decisions that is chatter, of the contact's own [1]
    real(wp), parameter :: look_ahead = 1.0e-2_wp          !! how far ahead a driven contact at rest is looked at, of the step [1]
    real(wp), parameter :: no_acceleration = 1.0e-12_wp    !! sliding acceleration that is none, of what F_N would give [1]
@@ -70,8 +70,10 @@ contains
               floor_t(contact_lever, of_contact, "lever arm of spin without friction torque, in space, over the penetration"), &
               floor_t(torn, of_speed, "sliding speed that ends sticking by drift"), &
               floor_t(min_band, of_speed, "reverse-slip tolerance after stick-slip chatter, initial"), &
-              floor_t(widest_band, of_speed, "reverse-slip tolerance after stick-slip chatter, final"), &
-              floor_t(settling, of_pace, "decay rate of residual sliding while sticking"), &
+              floor_t(widest_band, of_speed, &
+                      "reverse-slip tolerance after stick-slip chatter, final; in space also speed of slow slip"), &
+              floor_t(settling, of_pace, &
+                      "decay rate of residual sliding while sticking; in space at least sqrt(F_N/(penetration m))"), &
               floor_t(chatter_time, of_contact, &
                       "stick-slip interval that counts as chatter, over sqrt(penetration m/F_N)"), &
               floor_t(look_ahead, of_step, "look-ahead time for driver motion of a contact at rest"), &

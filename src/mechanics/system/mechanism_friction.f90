@@ -3,7 +3,7 @@
 !> Normal forces are known before the accelerations, so the forces x along the m tangents of contacts that stick (of each one in
 !> the plane, two in space) follow from
 !>
-!> v_T' = -2 kappa v_T:   A x = -(G a_0 + drift + 2 kappa v_T),   A = G K^-1 G^T,
+!> v_T' = -kappa v_T:   A x = -(G a_0 + drift + kappa v_T),   A = G K^-1 G^T,
 !>
 !> with G their tangential rows (`contact_stick_slip`), a_0 the accelerations without these forces and K the augmented matrix: one
 !> solution of the augmented equations for each of them and one with all loads. kappa, a multiple of the mechanism's characteristic
@@ -154,7 +154,7 @@ contains
 
       real(wp) :: delta(self%clearance_joints%n_contact), rate(self%clearance_joints%n_contact), time
 
-      decay = 2.0_wp*settling*self%linkage%scales%pace
+      decay = settling*self%linkage%scales%pace
       associate (set => self%clearance_joints%sets(slot)%set)
          if (set%stick_slip%n_tangent == 1) return
          call set%gaps(self%linkage%motion, delta, rate)

@@ -22,6 +22,7 @@ submodule(mechanism:mechanism_friction) slip_decision
    real(wp), parameter :: at_limit = 1.0e-9_wp   !! less of its limit: a force is at it [1]
    real(wp), parameter :: less_of_speed = 0.5_wp  !! of a slow slip, at which it ends [1]
    real(wp), parameter :: more_of_speed = 1.5_wp  !! of one against its way [1]
+   real(wp), parameter :: against_way = 0.1_wp    !! of the widest band: what it may be, for friction gives energy to it [1]
    real(wp), parameter :: not_held = 1.0e-9_wp   !! sliding acceleration that counts, of the maximum that is asked for [1]
 
 contains
@@ -338,7 +339,7 @@ contains
             if (any(abs(force) > 0.0_wp)) then
                way(:n_tangent) = -force/maxval(abs(force))  ! squares of small numbers are zero
                way = way/norm2(way)
-               if (-more_of_speed*dot_product(v, way) > widest_band*own_speed(self) - end_speed(self, slot, k)) way = v
+               if (-more_of_speed*dot_product(v, way) > against_way*widest_band*own_speed(self) - end_speed(self, slot, k)) way = v
             else if (size_of(v) > 0.0_wp) then
                way = v
             else

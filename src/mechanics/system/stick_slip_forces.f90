@@ -6,6 +6,8 @@ module stick_slip_forces
    private
    public :: stick_slip_forces_t, gripped_t, new_stick_slip_forces, share_of_stick_slips, solve_stick_slips, unit_load_t
 
+   real(wp), parameter :: started = 1.0e-3_wp   !! root of a normal force at least, of the greatest one [1]
+
    !> Loads of a unit force, and storage for what they are solved in place of.
    type :: unit_load_t
       real(wp), allocatable :: unit(:, :)   !! (n_v, 0:bodies) loads of a unit force [1 or m]
@@ -38,7 +40,7 @@ module stick_slip_forces
       logical, allocatable :: is_fixed(:)        !! (n_force) whether no force of its own moves it
       real(wp), allocatable :: left(:)           !! (n_force) sliding acceleration that no force can change [m/s^2]
       real(wp), allocatable :: root(:)           !! (n_force) roots of the normal forces [N^0.5]
-      real(wp), allocatable :: eigenvalue(:)     !! (n_force) of the scaled matrix [N/kg]
+      real(wp), allocatable :: eigenvalue(:)     !! (n_force) of the scaled matrix [1/kg]
       real(wp), allocatable :: work(:)           !! (any) scratch [any]
       type(unit_load_t) :: load                  !! of a unit force
       type(trial_state_t) :: trial               !! a state a moment later
@@ -71,8 +73,8 @@ contains
    end subroutine new_stick_slip_forces
 
    !> Forces x with A x = r, A symmetric and positive semidefinite; where contacts share a load, the solution that uses each
-   !> to the same part of what its normal force lets it hold: minimum sum of x^2 / F_N. What no force can change of r is left: where
-   !> drivers prescribe the sliding.
+   !> to the same part of what its normal force lets it hold: minimum sum of x^2 / F_N. A contact that starts has no normal force
+   !> yet, but it counts (`started`). What no force can change of r is left: where drivers prescribe the sliding.
    subroutine solve_stick_slips(n, lead, matrix, mobility, minimum, root, force, left, eigenvalue, work)
       integer, intent(in) :: n                      !! contacts
       integer, intent(in) :: lead                   !! first extent of the matrix
@@ -82,10 +84,10 @@ contains
       real(wp), intent(in) :: root(n)               !! (n) roots of the normal forces, positive [N^0.5]
       real(wp), intent(inout) :: force(n)           !! (n) r [m/s^2], then x [N]
       real(wp), intent(out) :: left(n)              !! (n) r - A x [m/s^2]
-      real(wp), intent(out) :: eigenvalue(n)        !! (n) scratch [N/kg]
+      real(wp), intent(out) :: eigenvalue(n)        !! (n) scratch [1/kg]
       real(wp), intent(out) :: work(:)              !! (34 n) scratch [any]
 
-      real(wp) :: bound, part
+      real(wp) :: bound, part, maximum
       integer :: i, info, j
 
       left = 0.0_wp
@@ -98,14 +100,15 @@ contains
          end if
          return
       end if
+      maximum = maxval(root)
       do j = 1, n
          do i = 1, n
-            matrix(i, j) = root(i)*matrix(i, j)*root(j)
+            matrix(i, j) = weight(root(i), maximum)*matrix(i, j)*weight(root(j), maximum)
          end do
-         force(j) = root(j)*force(j)
+         force(j) = weight(root(j), maximum)*force(j)
       end do
       call dsyev("V", "U", n, matrix, lead, eigenvalue, work, size(work), info)
-      bound = minimum*max(eigenvalue(n), maxval(root**2*mobility))
+      bound = minimum*max(eigenvalue(n), maxval(weight(root, maximum)**2*mobility))
       work(:n) = 0.0_wp
       do i = 1, n
          part = dot_product(matrix(:n, i), force)
@@ -115,9 +118,17 @@ contains
             work(:n) = work(:n) + part/eigenvalue(i)*matrix(:n, i)
          end if
       end do
-      left = left/root
-      force = root*work(:n)
+      left = left/weight(root, maximum)
+      force = weight(root, maximum)*work(:n)
    end subroutine solve_stick_slips
+
+   !> What a contact counts for.
+   elemental real(wp) function weight(root, maximum)
+      real(wp), intent(in) :: root      !! root of its normal force [N^0.5]
+      real(wp), intent(in) :: maximum   !! the greatest one, positive [N^0.5]
+
+      weight = max(root/maximum, started)
+   end function weight
 
    !> How far each force takes part in those x with A x = 0, which change no acceleration: the diagonal of the projection onto
    !> them, of A scaled by the mobilities of free bodies.
