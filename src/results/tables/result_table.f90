@@ -63,6 +63,7 @@ module result_table
    contains
       procedure :: start
       procedure :: fact
+      procedure :: real_facts
       procedure :: put
       procedure :: section
    end type result_table_t
@@ -118,6 +119,27 @@ contains
       end select
       self%facts = [self%facts, one]
    end subroutine fact
+
+   !> Append facts, all at once: their number is not bounded.
+   subroutine real_facts(self, names, values, formats)
+      class(result_table_t), intent(inout) :: self      !! the table
+      type(text_t), intent(in) :: names(:)              !! (m) in all formats
+      real(wp), intent(in) :: values(:)                 !! (m) values, SI; NaN: missing
+      integer, intent(in) :: formats                    !! which formats have them
+
+      type(result_column_t), allocatable :: facts(:)
+      integer :: k
+
+      associate (n => size(self%facts))
+         allocate (facts(n + size(names)))
+         facts(:n) = self%facts
+         do k = 1, size(names)
+            facts(n + k) = new_column(names(k)%s, "1", "", formats=formats)
+            facts(n + k)%reals = values(k:k)
+         end do
+      end associate
+      call move_alloc(facts, self%facts)
+   end subroutine real_facts
 
    !> Append a column, with values of one type.
    subroutine put(self, name, unit, help, reals, integers, counts, texts, logicals, dataset, formats, shape, parts, heading, &

@@ -52,8 +52,8 @@ contains
       do k = 1, size(numbers)
          names(k)%s = numbers(k)%name
          table%units(k)%s = numbers(k)%unit
-         call table%fact(numbers(k)%name, numbers(k)%value, formats=in_json)
       end do
+      call table%real_facts(names, numbers%value, in_json)
       call table%put("names", "1", "names of the statistics", texts=names, formats=in_hdf5, heading="statistic")
       call table%put("units", "1", "their units", texts=table%units, formats=in_hdf5)
       call table%put("values", "rows", "statistics after the transient", numbers%value, formats=in_hdf5, &
