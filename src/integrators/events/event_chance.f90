@@ -1,4 +1,4 @@
-!> Whether a step, or a part of it, leaves storage for an event, from the event functions at its ends.
+!> Whether an event may be within a step, or a part of it, from the event functions at its ends.
 module event_chance
    use integrator, only: integrator_t
    use kinds, only: wp

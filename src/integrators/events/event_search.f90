@@ -110,7 +110,7 @@ contains
          high = 1.0_wp
       end subroutine look_into_halves
 
-      !> Whether a part leaves storage for an event, and whether a function that may become positive there does not only rise.
+      !> Whether an event may be within a part, and whether a function that may become positive there does not only rise.
       pure subroutine judge(level, h, has_capacity, bends)
          integer, intent(in) :: level       !! halvings that led to the part
          real(wp), intent(in) :: h          !! length of the part [s]

@@ -9,7 +9,8 @@
 !> uncontrolled  the contact starts at the end of the step, however deep that is
 !>
 !> and the impact speed is the rate of penetration where the contact starts. A contact that starts at a penetration
-!> gets the energy of its spring for nothing: the residual of the energy ledger shows it. Ends of contacts and all other
+!> gets the energy of its spring for nothing: the residual of the energy ledger shows it, except for sets with `energy_jumps`, whose
+!> ledger books it as a loss below zero. Ends of contacts and all other
 !> events are located in every way. A contact that starts and ends within a step does not come about; that there was one is noted
 !> (`passed_onsets`).
 !>

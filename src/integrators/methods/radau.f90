@@ -20,7 +20,7 @@
 !> iteration ends a good deal below.
 !>
 !> Between the ends of a step: positions and rates by the quintic of `interpolation`, without evaluations within the step, which
-!> stiff forces would make worse, and in a step with a force so stiff that accelerations carries no information (`is_stiff`), by the
+!> stiff forces would make worse, and in a step with a force so stiff that accelerations carry no information (`is_stiff`), by the
 !> stages alone; other states and quadratures by the integral of the cubic through the derivatives at the start and at the stages,
 !> of order 5. A row within such a step, or where films act, is the end of a shorter step from the same start. States computed so
 !> are nodes of a polynomial, which gives the other rows of the step where its residual is small (`radau_reach`).
@@ -78,7 +78,7 @@ module radau
       real(wp), allocatable :: weight(:)        !! (3 n) error scales [any]
       real(wp), allocatable :: y(:)             !! (all) workspace [any]
       real(wp) :: norm = 0.0_wp                 !! of the estimate over TOL' [1]
-      logical :: is_stiff = .false.             !! whether accelerations carries no information in the step in hand
+      logical :: is_stiff = .false.             !! whether accelerations carry no information in the step in hand
       real(wp) :: contraction = 1.0_wp          !! theta/(1 - theta) of the last iteration [1]
    contains
       procedure, nopass :: info => radau_info

@@ -306,7 +306,7 @@ contains
       status = 0
    end subroutine rock4_prepare_output
 
-   !> State at a time in the last step. Accelerations at its ends carries no information of what decays within it, and films
+   !> State at a time in the last step. Accelerations at its ends carry no information of what decays within it, and films
    !> multiply what a curve is wrong by: then by a step of that length.
    subroutine rock4_reach(self, system, t, y)
       class(rock4_t), intent(inout) :: self         !! the integrator

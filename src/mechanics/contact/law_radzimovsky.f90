@@ -37,7 +37,7 @@ contains
       info%help = "line contact of a pin in a hole from the width of contact, inverted"
       info%source = "Radzimovsky (1953); Pereira, Ramalho and Ambrosio (2011)"
       call add_line_columns(info)
-      call add_word(info, "width", "length scale of the contact width: diameters, or radii as in the clearance literature " &
+      call add_word(info, "width", "length scale of the contact width: diameters, or radii as in the literature on " &
                     //"joints", default="diameters", choices="diameters radii")
    end function radzimovsky_info
 

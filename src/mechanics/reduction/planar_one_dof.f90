@@ -145,7 +145,7 @@ contains
       end do
    end subroutine planar_read_coordinates
 
-   !> Multipliers of the rows of bodies with one degree of freedom' joints, which are evaluated.
+   !> Multipliers of the rows of the joints of bodies with one degree of freedom; the rows are evaluated.
    subroutine planar_find_multipliers(self, n_which, which, n_v, n_body, rows, mass, g, a, lambda)
       class(planar_one_dof_t), intent(in) :: self          !! the bodies
       integer, intent(in) :: n_which                      !! how many are meant

@@ -161,7 +161,7 @@ module reduced_bodies
          real(wp), intent(out) :: x_dot(self%n)          !! (n) their rates [rad/s or m/s]
       end subroutine one_dof_coordinates_interface
 
-      !> Multipliers of the rows of bodies with one degree of freedom' joints, which are evaluated.
+      !> Multipliers of the rows of the joints of bodies with one degree of freedom; the rows are evaluated.
       subroutine one_dof_multipliers_interface(self, n_which, which, n_v, n_body, rows, mass, g, a, lambda)
          import :: one_dof_bodies_t, rows_t, wp
          implicit none (type, external)

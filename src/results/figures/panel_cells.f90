@@ -33,7 +33,7 @@ contains
       heights(n) = heights(n) + label_height
    end function cell_heights
 
-   !> Rows of a legend: as many columns as the longest name leaves storage for.
+   !> Rows of a legend: as many columns as the longest name leaves space for.
    pure integer function legend_rows(panel, envelope) result(rows)
       type(panel_t), intent(in) :: panel        !! what is drawn
       type(envelope_t), intent(in) :: envelope  !! ranges of curves that turn too often

@@ -9,7 +9,7 @@
 !> small power of time it is that. An error of one unit in the last place at the start has grown to A(t) eps, A the maximum
 !> d/d(0) so far; up to A(t) eps = 10^-k any trajectory computed in this arithmetic can have k digits at best.
 !>
-!> Source: G. Benettin, L. Galgani, J.-M. Strelcyn (1976), Phys. Rev. A 14, 2338-2345 (neighbouring trajectory trajectories).
+!> Source: G. Benettin, L. Galgani, J.-M. Strelcyn (1976), Phys. Rev. A 14, 2338-2345 (neighbouring trajectories).
 !> Limits: a stretch of time, not an average over an attractor; neighbouring trajectories are not brought near again.
 module growth
    use kinds, only: eps, not_a_number, wp
