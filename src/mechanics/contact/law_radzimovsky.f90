@@ -38,7 +38,7 @@ contains
       info%source = "Radzimovsky (1953); Pereira, Ramalho and Ambrosio (2011)"
       call add_line_columns(info)
       call add_word(info, "width", "length scale of the contact width: diameters, or radii as in the literature on " &
-                    //"joints", default="diameters", choices="diameters radii")
+                    //"clearance joints", default="diameters", choices="diameters radii")
    end function radzimovsky_info
 
    !> Take the parameters. With radii the square of the width is half of that with diameters, and B twice as large.
