@@ -3,7 +3,7 @@
 The first word after a fence says what is in it, the others how it is run:
 
     deck NAME.deck        a deck: written to NAME.deck in the page's directory
-    LANGUAGE NAME         any other file
+    LANGUAGE NAME         any other file, also `text NAME`
     sh [exit=N]           commands, run in that directory, one a line; the last one ends with exit code N (0)
     sh needs=PROGRAM      run where PROGRAM is installed, else listed
     sh elsewhere          not run: what needs a cluster or a program with a window is listed
@@ -120,15 +120,15 @@ class Failure(AssertionError):
 
 def run_page(page, program, directory, echo=lambda text: None):
     """Write the files of a page and run its commands, in their order; the number of commands."""
-    surroundings, said, n = environment(program, directory), "", 0
+    surroundings, said, n = environment(program, directory), None, 0
     for fence in fences(page.read_text(encoding="utf-8")):
         where = f"{page.name}:{fence.line}"
-        if fence.kind == "text":
-            line = missing(fence.text, said)
+        if fence.words == ["text"]:
+            line = None if said is None else missing(fence.text, said)
             if line is not None:
                 raise Failure(f"{where}: the output has no line `{line}`:\n{said[-6000:]}")
         elif fence.kind == "sh":
-            commands, said = fence.commands if fence.is_run else [], ""
+            commands, said = (fence.commands, "") if fence.is_run else ([], None)
             for command in commands:
                 n += 1
                 expected = int(fence.option("exit") or 0) if command == commands[-1] else 0
