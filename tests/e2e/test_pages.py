@@ -17,6 +17,16 @@ def test_there_are_pages():
     assert {page.parent.name for page in pages.PAGES} == {"tutorials", "how-to"}
 
 
+@pytest.mark.parametrize("shown, is_there", [
+    ("rod  1.00 ... m", True), ("rod 1.01 ... m", True), ("rod 1.03 ... m", False), ("rot 1.00 ... m", False), ("rod 1.00", False),
+    ("rod 0.99... 5 7 m", True), ("rod 0.98... 5 7 m", False), ("pin 3\nrod ...", False), ("rod ...\npin 3", True), ("rod -1.00 ...", False),
+])
+def test_output_is_compared(shown, is_there):
+    """Words, numbers within TOLERANCE, the order of lines, and what `...` stands for."""
+    said = "rod 0.9999 5 7 m\npin 3\n"
+    assert (pages.missing(shown, said) is None) == is_there
+
+
 @pytest.mark.slow
 @pytest.mark.parametrize("page", pages.PAGES, ids=IDS)
 def test_page(gudgeon, page):
