@@ -9,7 +9,7 @@ The first word after a fence says what is in it, the others how it is run:
     sh elsewhere          not run: what needs a cluster or a program with a window is listed
     text                  lines of the output of the commands before, in their order; `...` stands for anything
 
-As a program it runs pages and prints what their commands say:  tests/e2e/pages.py [--figures] PROGRAM PAGE...
+As a program it runs pages and prints what their commands say:  python3 -B tests/e2e/pages.py [--figures] PROGRAM PAGE...
 `--figures` takes their pictures, `![...](figures/RUN.FIGURE.png)`, from outputs/RUN/figures/FIGURE.png of these runs.
 """
 
@@ -78,7 +78,7 @@ def pictures(text):
 
 
 def is_same(word, said):
-    """Whether a word of a page is this word of the output; a number may differ by TOLERANCE, `...` at an end stands for the rest."""
+    """Whether a word of a page is this word of the output: numbers within TOLERANCE; `...` at an end stands for the rest."""
     if word.endswith("..."):
         return said.startswith(word[:-3])
     if word.startswith("..."):
@@ -110,8 +110,8 @@ def environment(program, directory):
     programs.mkdir()
     for name, target in (("gudgeon", program), ("python3", sys.executable)):
         (programs / name).symlink_to(pathlib.Path(target).resolve())
-    return {**os.environ, "PATH": f"{programs}:{os.environ['PATH']}", "PYTHONPATH": str(ROOT / "scripts"), "PYTHONDONTWRITEBYTECODE": "1",
-            "LC_ALL": "C.UTF-8"}
+    path = f"{programs}:{os.environ['PATH']}"
+    return {**os.environ, "PATH": path, "PYTHONPATH": str(ROOT / "scripts"), "PYTHONDONTWRITEBYTECODE": "1", "LC_ALL": "C.UTF-8"}
 
 
 class Failure(AssertionError):
@@ -132,8 +132,8 @@ def run_page(page, program, directory, echo=lambda text: None):
             for command in commands:
                 n += 1
                 expected = int(fence.option("exit") or 0) if command == commands[-1] else 0
-                done = subprocess.run(["bash", "-c", command], cwd=directory, env=surroundings, text=True, errors="replace", timeout=600,
-                                      stdin=subprocess.DEVNULL, stdout=subprocess.PIPE, stderr=subprocess.STDOUT, check=False)
+                done = subprocess.run(["bash", "-c", command], cwd=directory, env=surroundings, text=True, timeout=600,
+                                      errors="replace", stdin=subprocess.DEVNULL, stdout=subprocess.PIPE, stderr=subprocess.STDOUT, check=False)
                 said += done.stdout
                 echo(f"$ {command}\n{done.stdout}")
                 if done.returncode != expected:
