@@ -133,7 +133,8 @@ def run_page(page, program, directory, echo=lambda text: None):
                 n += 1
                 expected = int(fence.option("exit") or 0) if command == commands[-1] else 0
                 done = subprocess.run(["bash", "-c", command], cwd=directory, env=surroundings, text=True, timeout=600,
-                                      errors="replace", stdin=subprocess.DEVNULL, stdout=subprocess.PIPE, stderr=subprocess.STDOUT, check=False)
+                                      errors="replace", stdin=subprocess.DEVNULL, stdout=subprocess.PIPE,
+                                      stderr=subprocess.STDOUT, check=False)
                 said += done.stdout
                 echo(f"$ {command}\n{done.stdout}")
                 if done.returncode != expected:
