@@ -21,7 +21,7 @@ def test_manual_has_the_equations(root):
 
 def pages_of(root):
     """The documents, and what each says."""
-    pages = [root / "README.md", root / "CONTRIBUTING.md", *sorted((root / "docs").glob("*.md"))]
+    pages = [root / "README.md", root / "CONTRIBUTING.md", *sorted((root / "docs").rglob("*.md"))]
     return [(page, page.read_text(encoding="utf-8")) for page in pages]
 
 
