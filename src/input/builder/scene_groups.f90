@@ -5,11 +5,8 @@
 !> that has some.
 module scene_groups
    use bodies, only: take_bodies
-   use clearance_registry, only: n_clearance_kinds
    use find_prescribed, only: find_prescribed_bodies, link_t, takes_work
-   use force_registry, only: n_force_kinds
    use item, only: item_t
-   use joint_registry, only: n_joint_kinds
    use kind_info, only: cell_reference, column_t
    use scene, only: scene_t, table_t
    use scene_size, only: size_of_bodies
@@ -57,15 +54,15 @@ contains
             group(k) = group(root_of(parent, k))  ! a root is the first body of its group
          end if
       end do
+      allocate (groups%joints(size(scene%joints)), groups%forces(size(scene%forces)), groups%clearances(size(scene%clearances)))
       call sort(group, groups%n, groups%bodies)
-      allocate (groups%joints(n_joint_kinds()), groups%forces(n_force_kinds()), groups%clearances(n_clearance_kinds()))
-      do k = 1, n_joint_kinds()
+      do k = 1, size(scene%joints)
          call sort_rows(scene, scene%joints(k), group, groups%n, groups%joints(k))
       end do
-      do k = 1, n_force_kinds()
+      do k = 1, size(scene%forces)
          call sort_rows(scene, scene%forces(k), group, groups%n, groups%forces(k))
       end do
-      do k = 1, n_clearance_kinds()
+      do k = 1, size(scene%clearances)
          call sort_rows(scene, scene%clearances(k), group, groups%n, groups%clearances(k))
       end do
       allocate (groups%point(scene%points%n), source=0)
@@ -98,13 +95,13 @@ contains
       integer :: k
 
       parent = [(k, k=1, scene%bodies%n)]
-      do k = 1, n_joint_kinds()
+      do k = 1, size(scene%joints)
          call join_bodies(scene, scene%joints(k), parent)
       end do
-      do k = 1, n_force_kinds()
+      do k = 1, size(scene%forces)
          call join_bodies(scene, scene%forces(k), parent)
       end do
-      do k = 1, n_clearance_kinds()
+      do k = 1, size(scene%clearances)
          call join_bodies(scene, scene%clearances(k), parent)
       end do
    end subroutine join_all
@@ -116,7 +113,7 @@ contains
       integer :: c, i, k
 
       sees = .false.
-      do k = 1, n_force_kinds()
+      do k = 1, size(scene%forces)
          do i = 1, size(scene%forces(k)%items)
             do c = 1, size(scene%forces(k)%items(i)%values)
                if (.not. allocated(scene%forces(k)%items(i)%values(c)%expression)) cycle
@@ -296,13 +293,14 @@ contains
       one%settings%integration = scene%settings%integration
       one%settings%is_spatial = scene%settings%is_spatial
       one%settings%header = scene%settings%header
-      do k = 1, n_joint_kinds()
+      allocate (one%joints(size(scene%joints)), one%forces(size(scene%forces)), one%clearances(size(scene%clearances)))
+      do k = 1, size(scene%joints)
          one%joints(k)%info => scene%joints(k)%info
       end do
-      do k = 1, n_force_kinds()
+      do k = 1, size(scene%forces)
          one%forces(k)%info => scene%forces(k)%info
       end do
-      do k = 1, n_clearance_kinds()
+      do k = 1, size(scene%clearances)
          one%clearances(k)%info => scene%clearances(k)%info
       end do
    end subroutine begin_group_scene
@@ -318,22 +316,22 @@ contains
 
       call take_bodies(scene%bodies, groups%bodies_of(group), one%bodies)
       n_point = 0
-      do k = 1, n_joint_kinds()
+      do k = 1, size(scene%joints)
          call take_rows(scene%joints(k), groups%joints(k), one%joints(k))
       end do
-      do k = 1, n_force_kinds()
+      do k = 1, size(scene%forces)
          call take_rows(scene%forces(k), groups%forces(k), one%forces(k))
       end do
-      do k = 1, n_clearance_kinds()
+      do k = 1, size(scene%clearances)
          call take_rows(scene%clearances(k), groups%clearances(k), one%clearances(k))
       end do
-      do k = 1, n_joint_kinds()
+      do k = 1, size(scene%joints)
          call renumber_all(one%joints(k))
       end do
-      do k = 1, n_force_kinds()
+      do k = 1, size(scene%forces)
          call renumber_all(one%forces(k))
       end do
-      do k = 1, n_clearance_kinds()
+      do k = 1, size(scene%clearances)
          call renumber_all(one%clearances(k))
       end do
       associate (chosen => points(:n_point))

@@ -124,7 +124,7 @@ contains
    subroutine real_facts(self, names, values, formats)
       class(result_table_t), intent(inout) :: self      !! the table
       type(text_t), intent(in) :: names(:)              !! (m) in all formats
-      real(wp), intent(in) :: values(:)                 !! (m) values, SI; NaN: missing
+      real(wp), intent(in) :: values(:)                 !! (m) values, SI; NaN: missing [any]
       integer, intent(in) :: formats                    !! which formats have them
 
       type(result_column_t), allocatable :: facts(:)
