@@ -305,6 +305,7 @@ contains
                         self%solution%a)
          return
       end if
+      self%solution%rate = self%scales%pace
       call self%solution%find(self%inverse_mass, self%rows, g, must_agree, status)
    end subroutine linkage_find_accelerations
 

@@ -23,6 +23,7 @@ module solution
    real(wp), parameter :: left = 1.0e-9_wp           !! residual of the rows, of the maximum term, that is small enough [1]
    real(wp), parameter :: better = 0.1_wp            !! part of the residual that a finer damping must leave, to be taken [1]
    real(wp), parameter :: contradiction = 1.0e-2_wp  !! residual of rows always dependent that is an error [1]
+   real(wp), parameter :: round_off = 1.0e-10_wp     !! no error: such a part of the square of the characteristic rate [1]
 
    !> The last solution, and how it is found.
    type :: solution_t
@@ -31,6 +32,7 @@ module solution
       real(wp) :: alpha = 0.0_wp                         !! Baumgarte's gain on the rate of violation [1/s]
       real(wp) :: beta = 0.0_wp                          !! Baumgarte's gain on the violation [1/s]
       real(wp), allocatable :: row_weight(:)             !! (rows) one over the size of the bodies, or one for angles [1/m or 1/rad]
+      real(wp) :: rate = 0.0_wp                          !! characteristic rate of the mechanism [1/s]
       real(wp), allocatable :: phi_dot(:)                !! (rows) rate of the violation [m/s or rad/s]
       real(wp), allocatable :: b(:)                      !! (rows) right-hand side of accelerations [m/s^2 or rad/s^2]
       real(wp), allocatable :: a(:, :)                   !! (n_v, 0:bodies) accelerations [m/s^2 or rad/s^2]
@@ -114,9 +116,11 @@ contains
       call self%solver%solve_damped(inverse_mass, rows, g, self%b, damping(k), n_refinement(k), self%a, self%lambda, self%bad_row)
       if (self%is_redundant .and. self%solver%left_over > left) call find_finer(self, inverse_mass, rows, g)
       if (self%bad_row == 0 .and. must_agree .and. (self%is_redundant .or. self%solver%is_iterative)) then
-         if (.not. self%solver%left_over <= contradiction) then
-            self%bad_row = maxloc(abs(self%solver%residual(:rows%n_solve)), dim=1)
-         end if
+         associate (weighted => abs(self%solver%residual(:rows%n_solve))*self%row_weight(:rows%n_solve))
+            if (.not. (self%solver%left_over <= contradiction .or. maxval(weighted) <= round_off*self%rate**2)) then
+               self%bad_row = maxloc(weighted, dim=1)
+            end if
+         end associate
       end if
       if (self%bad_row > 0) status = 1
    end subroutine solution_find
