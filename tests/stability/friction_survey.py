@@ -30,6 +30,7 @@ from random_friction import END, KINDS, OTHER_LAWS, TRANSITION, draw  # noqa: E4
 
 SIZE = 0.1  # of a body [m]
 FIRST = 3  # contacts compared
+BRISTLES = ("lugre", "dahl")  # give back what bends them
 AT_REST = 1e-10  # kinetic energy of a scene at rest, of the largest energy
 COLUMNS = ("scene", "method", "law", "code", "steps", "smooth_steps", "seconds", "residual", "contacts", "events", "not_unique",
            "faults")
@@ -51,6 +52,8 @@ def measure(program, scene, method, law, directory):
         return result, row | {"faults": result}
     summary = result.summary
     faults = faults_of(result, scene, method, lambda: smooth)
+    if law in BRISTLES:
+        faults = [words for words in faults if not words.startswith("friction gives")]
     if not faults and not isinstance(smooth, str) and summary["steps"] > RATIO*smooth.summary["steps"]:
         faults = [f"{summary['steps']} steps, {smooth.summary['steps']} with the smooth law"]
     return result, row | {

@@ -6,7 +6,8 @@
 !> Industry 96 (1974), 317-323. As printed the force jumps from -c_c to c_c where the sliding turns; the ramp up to v1 is
 !> there so that an integration can pass that place. With v1 = 0, as printed, surfaces stick where that takes at most c_c, by
 !> located events as of `friction_coulomb`.
-!> Limits: no sticking with a ramp; the force jumps where a contact starts or ends.
+!> Limits: no sticking with a ramp; the force jumps where a contact starts or ends, and where its normal force falls to zero; a
+!> jump that holds the motion makes steps without end.
 module friction_constant
    use friction_law, only: friction_law_t, memory_slip
    use item, only: item_t
