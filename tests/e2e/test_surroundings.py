@@ -298,6 +298,7 @@ def test_memory_that_runs_out_in_the_run(gudgeon, place):
     assert all("memory" in words for words in said) and sum(map(bool, named)) >= 3, said
 
 
+@pytest.mark.slow
 def test_memory_that_ends_with_the_events(gudgeon, place):
     """A list of events that outgrows the memory ends the run with the number of events, and keeps what was written."""
     text = plain_deck((("analysis.dynamic", "end", "600 s"), ("output", "every", "0.1 s"), ("output", "contact_rows", "off")))
