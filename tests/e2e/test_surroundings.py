@@ -298,10 +298,16 @@ def test_memory_that_runs_out_in_the_run(gudgeon, place):
     assert all("memory" in words for words in said) and sum(map(bool, named)) >= 3, said
 
 
+@pytest.mark.slow
 def test_memory_that_ends_with_the_events(gudgeon, place):
     """A list of events that outgrows the memory ends the run with the number of events, and keeps what was written."""
-    deck = written(place, plain_deck((("analysis.dynamic", "end", "600 s"), ("output", "every", "0.1 s"), ("output", "contact_rows", "off"))))
-    done = execute(gudgeon, "run", deck, "--out", place / "out", "--quiet", limit=300, preexec_fn=limited(resource.RLIMIT_AS, (least_room(gudgeon) + 4) << 20))
+    text = plain_deck((("analysis.dynamic", "end", "600 s"), ("output", "every", "0.1 s"), ("output", "contact_rows", "off")))
+    short = written(place, changed(text, "analysis.dynamic", end="0.3 s"), "short.deck")
+    least = least_room(gudgeon)
+    room = next(megabytes for megabytes in range(least, least + 60) if not execute(
+        gudgeon, "run", short, "--out", place / "short", "--quiet", preexec_fn=limited(resource.RLIMIT_AS, megabytes << 20)).returncode)
+    done = execute(gudgeon, "run", written(place, text), "--out", place / "out", "--quiet", limit=300,
+                   preexec_fn=limited(resource.RLIMIT_AS, room << 20))
     assert done.returncode == 9 and b"memory" in done.stderr and (b"events" in done.stderr or b"motion" in done.stderr), done
 
 
