@@ -1,0 +1,67 @@
+"""Sphinx: the site of the pages of docs/, read as files, without network. Made by scripts/make_docs."""
+
+import pathlib
+import re
+
+from docutils import nodes
+from latex2mathml.converter import convert
+
+project = "gudgeon"
+html_title = "gudgeon"
+html_theme = "furo"
+html_show_copyright = html_show_sphinx = html_copy_source = False
+html_static_path = ["static"]
+html_css_files = ["site.css"]
+html_math_renderer = "mathml"
+pygments_style = "default"
+highlight_language = "text"
+extensions = ["myst_parser"]
+myst_enable_extensions = ["dollarmath", "amsmath"]
+myst_heading_anchors = 4
+suppress_warnings = ["myst.header"]
+root_doc = "index"
+
+PARTS = ("tutorials", "how-to", "reference", "theory", "developer")
+
+
+def pages_below(folder):
+    """Pages of a folder: those that its index links to in that order, then the others by name; folders by their index."""
+    index = folder / "index.md"
+    linked = [(folder / target).resolve() for target in re.findall(r"\]\(([^)#\s]+\.md)", index.read_text(encoding="utf-8"))]
+    there = [page for page in sorted(folder.glob("*.md")) + sorted(folder.glob("*/index.md")) if page != index]
+    first = [page for page in dict.fromkeys(linked) if page in there]
+    return first, [page for page in there if page not in first]
+
+
+def add_navigation(app, docname, source):
+    """The list of pages of a part, at the end of its index: hidden for those that the index links to."""
+    page = pathlib.Path(app.srcdir) / f"{docname}.md"
+    source[0] = re.sub(r"\[([^\]]*)\]\([./]*/(\w+\.md)\)", r"\1 (`\2`)", source[0])  # a page beside docs/ is not part of the site
+    if page.name != "index.md":
+        return
+    named, others = pages_below(page.parent.resolve())
+    if docname == "index":
+        named = [page.parent.resolve() / part / "index.md" for part in PARTS]
+        others = []
+    for pages, option in ((named, ":hidden:\n"), (others, "")):
+        if pages:
+            names = "\n".join(f"/{other.relative_to(pathlib.Path(app.srcdir).resolve()).with_suffix('')}" for other in pages)
+            source[0] += f"\n\n```{{toctree}}\n:maxdepth: 1\n{option}\n{names}\n```\n"
+
+
+def write_inline(translator, node):
+    """An equation in a line, as MathML."""
+    translator.body.append(convert(node.astext()))
+    raise nodes.SkipNode
+
+
+def write_block(translator, node):
+    """An equation of its own, as MathML."""
+    translator.body.append(f'<div class="equation">{convert(node.astext().strip(), display="block")}</div>')
+    raise nodes.SkipNode
+
+
+def setup(app):
+    """What is added to Sphinx."""
+    app.connect("source-read", add_navigation)
+    app.add_html_math_renderer("mathml", (write_inline, None), (write_block, None))
