@@ -1,4 +1,5 @@
 """The documents say what the program does."""
+
 import os
 import pathlib
 import re
@@ -11,14 +12,19 @@ OUTSIDE = re.compile(r"https?://|mailto:")
 
 def test_reference_is_current(gudgeon, root):
     """The pages of docs/reference that `make docs` writes are those of this program."""
-    done = subprocess.run(["scripts/make_docs", str(pathlib.Path(gudgeon).parent), "--check"], cwd=root, capture_output=True, text=True, check=False)
+    done = subprocess.run(
+        ["scripts/make_docs", str(pathlib.Path(gudgeon).parent), "--check"], cwd=root, capture_output=True, text=True, check=False
+    )
     assert done.returncode == 0, done.stderr
 
 
 def test_reference_has_the_equations(root):
     """The page of every kind with a file of its own brings the header of that file."""
-    pages = [page for page in (root / "docs/reference/tables").glob("*.*.md")
-             if re.match(r"(joint|driver|initial|force|function|clearance|contact|friction)\.", page.name)]
+    pages = [
+        page
+        for page in (root / "docs/reference/tables").glob("*.*.md")
+        if re.match(r"(joint|driver|initial|force|function|clearance|contact|friction)\.", page.name)
+    ]
     assert len(pages) >= 70
     for page in pages:
         text = page.read_text(encoding="utf-8")
@@ -41,7 +47,9 @@ def test_decks_of_the_reference(gudgeon, root, tmp_path):
         verb = next((verb for verb in ("sweep", "precision") if page in (verb, "ensemble" if verb == "sweep" else "")), "run")
         path = tmp_path / f"{page}_{k}.deck"
         path.write_text(deck, encoding="utf-8")
-        done = subprocess.run([str(gudgeon), verb, path.name, "--quiet"], cwd=tmp_path, capture_output=True, text=True, check=False, timeout=120)
+        done = subprocess.run(
+            [str(gudgeon), verb, path.name, "--quiet"], cwd=tmp_path, capture_output=True, text=True, check=False, timeout=120
+        )
         assert done.returncode == 0, f"{path.name}: {done.stderr}"
         assert f"[{page}]" in deck or page.startswith(("integrator.", "energy")), page
         assert deck.count("\n") < 70, f"{path.name} is long"
@@ -95,7 +103,12 @@ def test_links(root):
 def test_a_broken_link_is_found(tmp_path, link):
     """What the check of links finds."""
     (tmp_path / "docs").mkdir()
-    for name, text in (("README.md", ""), ("CONTRIBUTING.md", ""), ("docs/deck.md", "# The deck\n\n[b](#the-deck)\n"), ("docs/page.md", f"# Page\n\n{link}\n")):
+    for name, text in (
+        ("README.md", ""),
+        ("CONTRIBUTING.md", ""),
+        ("docs/deck.md", "# The deck\n\n[b](#the-deck)\n"),
+        ("docs/page.md", f"# Page\n\n{link}\n"),
+    ):
         (tmp_path / name).write_text(text, encoding="utf-8")
     assert len(list(broken_links(tmp_path))) == 1
 
@@ -106,12 +119,29 @@ def test_site(gudgeon, root, tmp_path):
     sphinx = pathlib.Path(gudgeon).parent / "site-venv/bin/sphinx-build"
     if not sphinx.exists():
         pytest.skip("no Sphinx in the build directory: make docs")
-    subprocess.run([sphinx, "-q", "-W", "--keep-going", "-c", root / "scripts/site", "-d", tmp_path / "trees", root / "docs", tmp_path / "site"],
-                   check=True, capture_output=True, text=True)
+    subprocess.run(
+        [
+            sphinx,
+            "-q",
+            "-W",
+            "--keep-going",
+            "-c",
+            root / "scripts/site",
+            "-d",
+            tmp_path / "trees",
+            root / "docs",
+            tmp_path / "site",
+        ],
+        check=True,
+        capture_output=True,
+        text=True,
+    )
     for page, text in pages_of(root)[2:]:
         html = (tmp_path / "site" / page.relative_to(root / "docs")).with_suffix("").as_posix() + ".html"
         html = pathlib.Path(html).read_text(encoding="utf-8")
-        assert not re.search(r"<(?:script|img|iframe)[^>]*src=\"(?:https?:)?//|<link[^>]*stylesheet[^>]*href=\"(?:https?:)?//", html), page.name
+        assert not re.search(
+            r"<(?:script|img|iframe)[^>]*src=\"(?:https?:)?//|<link[^>]*stylesheet[^>]*href=\"(?:https?:)?//", html
+        ), page.name
         assert html.count("<math") >= len(re.findall(r"^\$\$$", text, re.M)) // 2, page.name
     assert "joint.revolute" in (tmp_path / "site/searchindex.js").read_text(encoding="utf-8")
 
