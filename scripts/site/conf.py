@@ -10,6 +10,7 @@ project = "gudgeon"
 html_title = "gudgeon"
 html_theme = "furo"
 html_show_copyright = html_show_sphinx = html_copy_source = False
+html_show_search_summary = False
 html_static_path = ["static"]
 html_css_files = ["site.css"]
 html_math_renderer = "mathml"
