@@ -235,7 +235,7 @@ help:
 	@echo "           LINK=static|shared (libraries within the program, where Debian's archives are there; a path above means shared)"
 	@echo "           PREFIX=/usr/local DESTDIR= (before every path installed)"
 	@echo "           PYTEST='-k expression' (options for make test)  STABILITY='--required A02' (options for make stability)"
-	@echo "           BENCH='--quick --docs' (options for make bench; --docs writes docs/theory/performance.md)"
+	@echo "           BENCH='--quick --docs' (options for make bench; --docs writes docs/theory/evidence/performance.md)"
 
 # ---- building one mode ------------------------------------------------------------------------------
 
