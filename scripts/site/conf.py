@@ -1,5 +1,6 @@
 """Sphinx: the site of the pages of docs/, read as files, without network. Made by scripts/make_docs."""
 
+import importlib.resources
 import pathlib
 import re
 
@@ -11,7 +12,8 @@ html_title = "gudgeon"
 html_theme = "furo"
 html_show_copyright = html_show_sphinx = html_copy_source = False
 html_show_search_summary = False
-html_static_path = ["static"]
+# STIX Two Math, under the SIL Open Font License: not every system has a font whose roots and brackets grow
+html_static_path = ["static", str(importlib.resources.files("ziamath") / "fonts")]
 html_css_files = ["site.css"]
 html_math_renderer = "mathml"
 pygments_style = "default"
@@ -57,8 +59,10 @@ def write_inline(translator, node):
 
 
 def write_block(translator, node):
-    """An equation of its own, as MathML."""
-    translator.body.append(f'<div class="equation">{convert(node.astext().strip(), display="block")}</div>')
+    """An equation of its own, as MathML, and its number beside it."""
+    number = re.search(r"\\tag\{(\w+)\}", node.astext())
+    formula = convert(node.astext().replace(number[0] if number else "", "").strip(), display="block")
+    translator.body.append(f'<div class="equation">{formula}' + (f"<span>({number[1]})</span>" if number else "") + "</div>")
     raise nodes.SkipNode
 
 
