@@ -126,10 +126,11 @@ vtk-test:
 	@tests/vtk/set_up.sh $(abspath $(BUILD))/vtk
 	@$(BUILD)/vtk/venv/bin/python -B tests/vtk/read_motion.py $(BUILD)/gudgeon $(BUILD)/vtk/run
 
-# the pages of animations opened by Chromium, without a window
+# the pages of animations, and the site where there is one, opened by Chromium, without a window
 browser-test:
 	$(inner)release binary
 	@$(PYTHON) -B tests/browser/open_pages.py $(BUILD)/gudgeon $(BUILD)/browser
+	@$(PYTHON) -B tests/browser/open_site.py $(BUILD)/docs/site
 
 # a sweep as a job array of a Slurm on this host, with tasks that are killed and out of time; as root, see docs/how-to/batch.md
 slurm-test:

@@ -100,8 +100,7 @@ class Manual:
                 self.blocks[kind] = body.strip()
             else:
                 self.tables.setdefault(kind, []).append(section_of(kind, body))
-        decks = [path.read_text(encoding="utf-8") for path in (PLACE / "decks").glob("*.deck")]
-        self.decks = sorted(decks, key=lambda deck: (deck.count("\n"), deck))
+        self.decks = {path.name: path.read_text(encoding="utf-8") for path in sorted((PLACE / "decks").glob("*.deck"))}
 
     def verbs(self):
         """(verb, line of use, help)."""
@@ -114,12 +113,14 @@ class Manual:
         return [(name, words, takers.split()) for name, words, takers in found]
 
     def deck_with(self, kind, space):
-        """The shortest deck that has a table, without other tables of a group of which one is chosen."""
+        """The deck that is named after a table or its group, else the shortest that has it; of several laws of a group only this."""
         group, _, last = kind.partition(".")
         sign = {"integrator": rf"\nmethod *= (?:{last}|{{method}})\n", "energy": r" energy\."}.get(
             group, rf"\n\[{re.escape(kind)}\]"
         )
-        for deck in self.decks:
+        own, ours = (kind, f"{kind}.space"), (group, f"{group}.space")
+        for name in sorted(self.decks, key=lambda n: (n[:-5] not in own, n[:-5] not in ours, self.decks[n].count("\n"), n)):
+            deck = self.decks[name]
             if re.search(sign, deck) and (space is None or space == ("spatial" in deck)):
                 if re.search(rf"(?m)^{CHOSEN.get(group)} *= ", deck):
                     kept = [

@@ -40,7 +40,7 @@ def decks_of_reference():
 
 
 def test_decks_of_the_reference(gudgeon, root, tmp_path):
-    """Every page of a table shows a deck, for the plane and for space, which has the table and runs; each deck is a file of docs/reference/decks."""
+    """Every page of a table shows a deck, for the plane and for space, which has the table and runs; none is kept unseen."""
     shown = {}
     for page, k, deck in decks_of_reference():
         shown.setdefault(page, []).append(deck)
@@ -53,6 +53,9 @@ def test_decks_of_the_reference(gudgeon, root, tmp_path):
         assert done.returncode == 0, f"{path.name}: {done.stderr}"
         assert f"[{page}]" in deck or page.startswith(("integrator.", "energy")), page
         assert deck.count("\n") < 70, f"{path.name} is long"
+    heads = {deck.partition("\n")[0] for decks in shown.values() for deck in decks}
+    for path in (root / "docs/reference/decks").glob("*.deck"):
+        assert path.read_text(encoding="utf-8").partition("\n")[0] in heads, f"{path.name} is not shown"
     for page in (root / "docs/reference/tables").glob("*.md"):
         text = page.read_text(encoding="utf-8")
         wanted = 2 if "\n## In space\n" in text else 1
@@ -147,7 +150,7 @@ def test_site(gudgeon, root, tmp_path):
 
 
 def test_paths(root):
-    """Every path of the sources, scripts, tests, decks and documents that a document names is there; capitals stand for any name."""
+    """Every path of sources, scripts, tests, decks and documents that a document names is there; capitals stand for any name."""
     for page, text in pages_of(root):
         for path in re.findall(r"(?<![\w/.-])(?:src|scripts|tests|inputs|docs)/[\w./*-]+", text):
             if not re.search(r"[A-Z]{3}", path):
@@ -156,7 +159,8 @@ def test_paths(root):
 
 
 def test_source_tree(root):
-    """docs/developer/architecture.md names every folder of src/; its picture and the paths of its tables are those of the sources."""
+    """docs/developer/architecture.md names every folder of src/; its picture and the paths of its tables are those of the sources.
+    """
     text = (root / "docs/developer/architecture.md").read_text(encoding="utf-8")
     subprocess.run([root / "scripts/architecture_figure", "--check"], check=True)
     folders = [folder for top in (root / "src").iterdir() for folder in (top, *top.iterdir()) if folder.is_dir()]
