@@ -113,7 +113,7 @@ class Manual:
         return [(name, words, takers.split()) for name, words, takers in found]
 
     def deck_with(self, kind, space):
-        """The deck that is named after a table or its group, else the shortest that has it; of several laws of a group only this."""
+        """The deck named after a table or its group, else the shortest that has it; of several laws of a group only this."""
         group, _, last = kind.partition(".")
         sign = {"integrator": rf"\nmethod *= (?:{last}|{{method}})\n", "energy": r" energy\."}.get(
             group, rf"\n\[{re.escape(kind)}\]"
