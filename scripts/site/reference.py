@@ -177,11 +177,11 @@ def table_page(manual, kind):
 
 
 def by_group(manual):
-    """Tables by their group, in the order of the manual."""
+    """Tables by their group, in the order of the manual; first those that are a group of their own."""
     groups = {}
     for kind in manual.tables:
         groups.setdefault(kind.partition(".")[0], []).append(kind)
-    return groups
+    return dict(sorted(groups.items(), key=lambda item: len(item[1]) > 1))
 
 
 def pages_of(manual):
