@@ -114,7 +114,7 @@ bench-peers:
 	@tests/bench/peers/set_up.sh $(abspath $(BUILD))/bench/peers
 	@$(PYTHON) -B tests/bench/peers/peers.py --build $(abspath $(BUILD)) $(PEERS)
 
-# the worked examples of docs/new-kind.md added to a copy of the sources, built and run; some minutes
+# the worked examples of docs/developer/new-kind.md added to a copy of the sources, built and run; some minutes
 new-kind-test:
 	$(inner)release binary
 	@GUDGEON_NEW_KIND=1 GUDGEON_BUILD=$(abspath $(BUILD)) PYTEST_DISABLE_PLUGIN_AUTOLOAD=1 \
@@ -126,12 +126,13 @@ vtk-test:
 	@tests/vtk/set_up.sh $(abspath $(BUILD))/vtk
 	@$(BUILD)/vtk/venv/bin/python -B tests/vtk/read_motion.py $(BUILD)/gudgeon $(BUILD)/vtk/run
 
-# the pages of animations opened by Chromium, without a window
+# the pages of animations, and the site where there is one, opened by Chromium, without a window
 browser-test:
 	$(inner)release binary
 	@$(PYTHON) -B tests/browser/open_pages.py $(BUILD)/gudgeon $(BUILD)/browser
+	@$(PYTHON) -B tests/browser/open_site.py $(BUILD)/docs/site
 
-# a sweep as a job array of a Slurm on this host, with tasks that are killed and out of time; as root, see docs/batch.md
+# a sweep as a job array of a Slurm on this host, with tasks that are killed and out of time; as root, see docs/how-to/batch.md
 slurm-test:
 	$(inner)release binary
 	@tests/slurm/run.sh $(abspath $(BUILD))/gudgeon $(abspath $(BUILD))/slurm
@@ -188,7 +189,7 @@ film-table:
 
 film-errors:
 	$(inner)release film_programs
-	@$(BUILD)/films/film_errors > $(BUILD)/films/film_errors.csv && mv $(BUILD)/films/film_errors.csv docs/
+	@$(BUILD)/films/film_errors > $(BUILD)/films/film_errors.csv && mv $(BUILD)/films/film_errors.csv docs/data/
 
 lint:
 	@scripts/lint $(abspath $(BUILD))
@@ -198,7 +199,7 @@ format:
 
 docs:
 	$(inner)release binary
-	@scripts/make_docs $(BUILD)
+	@$(PYTHON) -B scripts/make_docs $(BUILD)
 
 clean:
 	rm -rf $(BUILD)
@@ -213,7 +214,7 @@ help:
 	@echo "make release    checks that version, changelog, citation and man page agree; build/gudgeon-VERSION.tar.gz"
 	@echo "make bench      the timers of tests/bench             make lint     format and style; make format corrects the format"
 	@echo "make bench-peers  other programs (Simbody, MuJoCo, Exudyn) on the same scenes: time against error; PEERS='--quick'"
-	@echo "make new-kind-test  the worked examples of docs/new-kind.md added to a copy of the sources, built and run"
+	@echo "make new-kind-test  the worked examples of docs/developer/new-kind.md added to a copy of the sources, built and run"
 	@echo "make vtk-test   the file of a motion (motion = vtkhdf) read by VTK itself, from PyPI in a virtual environment"
 	@echo "make browser-test  pages of animations and of runs opened by Chromium: no error, another picture after a step"
 	@echo "make slurm-test    a sweep as a job array of a Slurm on this host, with tasks killed and out of time (as root)"
@@ -223,9 +224,9 @@ help:
 	@echo "make fuzz       N=1000 broken decks through check, explain and run in both builds; FUZZ='--run 0.5' for options"
 	@echo "make fuzz SECONDS=1800  the deck reader, guided by coverage, in a build with sanitizers; FUZZ='--seed 2' for options"
 	@echo "make test-sanitize  the tests in a build with sanitizers of addresses, leaks, undefined behaviour: an hour; PYTEST='-k reader'"
-	@echo "make studies    the sweeps of inputs/studies, some minutes: STUDIES=--docs copies their results to docs/"
-	@echo "make film-table   the table of the film 'finite' anew, some minutes; make film-errors: docs/film_errors.csv"
-	@echo "make docs       docs/manual.md and the API pages      make clean    remove build/"
+	@echo "make studies    the sweeps of inputs/studies, some minutes: STUDIES=--docs copies their results to docs/data and docs/figures"
+	@echo "make film-table   the table of the film 'finite' anew, some minutes; make film-errors: docs/data/film_errors.csv"
+	@echo "make docs       pages of docs/reference, the site in build/docs/site, API pages; make clean: remove build/"
 	@echo "make install    program, man page, completions, decks below PREFIX=/usr/local; make uninstall takes them away again"
 	@echo "make test-debian  as root: 'make run && make test' in a bare Debian SUITE=trixie|bookworm in DIR=build/debian/SUITE"
 	@echo "make -j objects compile all sources without linking (-k: continue after errors)"
@@ -235,7 +236,7 @@ help:
 	@echo "           LINK=static|shared (libraries within the program, where Debian's archives are there; a path above means shared)"
 	@echo "           PREFIX=/usr/local DESTDIR= (before every path installed)"
 	@echo "           PYTEST='-k expression' (options for make test)  STABILITY='--required A02' (options for make stability)"
-	@echo "           BENCH='--quick --docs' (options for make bench; --docs writes docs/performance.md)"
+	@echo "           BENCH='--quick --docs' (options for make bench; --docs writes docs/theory/evidence/performance.md)"
 
 # ---- building one mode ------------------------------------------------------------------------------
 
@@ -264,7 +265,7 @@ ifeq ($(SUNDIALS_VERSION),)
 $(error no Fortran modules of SUNDIALS 6 or 7 in $(SUNDIALS_PREFIX): scripts/setup installs what is needed, SUNDIALS_DIR= names a prefix)
 endif
 
-# The source tree: two levels of folders, docs/architecture.md.
+# The source tree: two levels of folders, docs/developer/architecture.md.
 MAIN := src/app/main.f90
 SOURCES := $(filter-out $(MAIN),$(sort $(wildcard src/*/*.f90 src/*/*/*.f90 src/*/*/*.F90)))
 C_SOURCES := $(sort $(wildcard src/*/*/*.c))

@@ -19,7 +19,7 @@ is NaN. As a program it lists the channels of a run, or writes some as columns:
     python3 gudgeon_reader.py outputs/slider_crank_dry
     python3 gudgeon_reader.py outputs/slider_crank_dry slider.velocity.x gudgeon.force > table.csv
 
-Needs h5py and numpy. Format 2 of run.h5: docs/output.md.
+Needs h5py and numpy. Format 2 of run.h5: docs/reference/output.md.
 """
 
 import argparse

@@ -3,7 +3,7 @@
     python3 tests/bench/methods.py [--build build] [--limit SECONDS] [--rounds N] [--keep] [DECK[,NAME=VALUE]...]
 
 Without decks: all of inputs/, inputs/hard and grip.deck beside this file with a dynamic analysis at a tolerance. Writes methods.csv below bench/ of the build, of which
-report.py makes a table of docs/performance.md.
+report.py makes a table of docs/theory/evidence/performance.md.
 
 The error of a run is the maximum difference of positions of bodies to the reference, over their maximum range, or of angles (in space: Euler
 parameters), at the output times up to that at which two tight runs of different methods still agree. The time is processor time of the solution,

@@ -1,4 +1,4 @@
-"""docs/performance.md from the tables and pictures that the timers left in build/bench: `make bench BENCH=--docs`.
+"""docs/theory/evidence/performance.md from the tables and pictures that the timers left in build/bench: `make bench BENCH=--docs`.
 
 Tables of `make bench-peers` are in it if they are there. Nothing is measured here.
 """
@@ -83,7 +83,7 @@ def main():
     options = argparse.ArgumentParser(description=__doc__)
     options.add_argument("--build", type=pathlib.Path, default=ROOT / "build", help="where the tables are")
     given, _ = options.parse_known_args()
-    results, docs = given.build / "bench", ROOT / "docs"
+    results, figures, page = given.build / "bench", ROOT / "docs/figures", ROOT / "docs/theory/evidence/performance.md"
     text = ["# Performance", "",
             "Written by `make bench BENCH=--docs` (tests/bench/report.py) from the last measurement; what it means stands in "
             "[accuracy.md](accuracy.md). " + machine(), "",
@@ -94,13 +94,13 @@ def main():
             continue
         text += ["", f"## {heading}", "", words, "", table(results / name)]
         if picture and (results / picture).exists():
-            shutil.copy(results / picture, docs / f"performance_{picture}")
-            text += ["", f"![{heading}](performance_{picture})"]
+            shutil.copy(results / picture, figures / f"performance_{picture}")
+            text += ["", f"![{heading}](../../figures/performance_{picture})"]
     for picture in sorted((results / "peers").glob("peers_*.png")):
-        shutil.copy(picture, docs / f"performance_{picture.name}")
-        text += ["", f"![{picture.stem}](performance_{picture.name})"]
-    (docs / "performance.md").write_text("\n".join(text) + "\n", encoding="utf-8")
-    print(f"{docs / 'performance.md'} written.")
+        shutil.copy(picture, figures / f"performance_{picture.name}")
+        text += ["", f"![{picture.stem}](../../figures/performance_{picture.name})"]
+    page.write_text("\n".join(text) + "\n", encoding="utf-8")
+    print(f"{page} written.")
 
 
 if __name__ == "__main__":

@@ -2,7 +2,7 @@
 # Speed against error of the dry slider-crank beside a hand-coded program of the same scene (bench.py), time and memory of
 # large scenes (large_scenes.py), speed against error of each way of holding the constraints (holding.py), a small run from start to exit
 # (small_run.py), a sample beside an evaluation (sample_cost.py), the plane beside space (space_cost.py), the method that auto chooses
-# beside every named one on all decks (methods.py), an evaluation of each lubricant film (film_cost.f90). --docs: docs/performance.md from all of it (report.py).
+# beside every named one on all decks (methods.py), an evaluation of each lubricant film (film_cost.f90). --docs: docs/theory/evidence/performance.md from all of it (report.py).
 # Called by `make bench`, which builds the programs. Options go to all: --repeat N, --quick; --callgrind to the first.
 # Speed fails nothing: the exit code is 0 unless something could not be run at all.
 set -euo pipefail

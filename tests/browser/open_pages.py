@@ -42,6 +42,14 @@ found.walls.push([...z.querySelectorAll('path')].map(p=>+p.getAttribute('d').mat
 document.documentElement.setAttribute('data-found',encodeURIComponent(JSON.stringify(found)))}</script></body>"""
 
 
+def browser_here():
+    """A browser's command; None, and a word about it, if there is none."""
+    browser = next((name for name in BROWSERS if shutil.which(name)), None)
+    if browser is None:
+        print("browser-test: no Chromium; on Debian: apt-get install chromium", file=sys.stderr)
+    return browser
+
+
 def page_of(program, directory, name):
     """A deck's animation, and beside it the page of its run."""
     text = (ROOT / "inputs" / f"{name}.deck").read_text(encoding="utf-8")
@@ -104,9 +112,8 @@ def check_guide(browser, program, directory):
 
 def main(program, directory):
     """All pages."""
-    browser = next((name for name in BROWSERS if shutil.which(name)), None)
+    browser = browser_here()
     if browser is None:
-        print("browser-test: no Chromium; on Debian: apt-get install chromium", file=sys.stderr)
         return 1
     directory.mkdir(parents=True, exist_ok=True)
     for name in DECKS:

@@ -299,9 +299,9 @@ def test_what_it_does_not_go_with(gudgeon):
 
 
 def test_group_is_as_documented(gudgeon):
-    """docs/output.md names every attribute and dataset of /accuracy, and nothing else."""
+    """docs/reference/output.md names every attribute and dataset of /accuracy, and nothing else."""
     run = accurate(gudgeon, SPRING, "--accuracy", "1e-4", "--quiet")
-    text = (ROOT / "docs" / "output.md").read_text()
+    text = (ROOT / "docs/reference/output.md").read_text()
     with h5py.File(run.directory / "run.h5") as file:
         group = file["accuracy"]
         assert set(group) == set(re.findall(r"^\| `/accuracy/(\w+)`", text, flags=re.M))

@@ -1,4 +1,4 @@
-"""The dry slider-crank by every method: first impacts against the independent solution, to the accuracy of docs/accuracy.md."""
+"""The dry slider-crank by every method: first impacts against the independent solution, to the accuracy of docs/theory/evidence/accuracy.md."""
 
 import sys
 

@@ -1,4 +1,4 @@
-"""docs/output.md against real runs: every object and key documented, everything documented as always there present."""
+"""docs/reference/output.md against real runs: every object and key documented, everything documented as always there present."""
 
 import fnmatch
 import json
@@ -32,8 +32,8 @@ def made(gudgeon, root, tmp_path_factory):
 
 
 def table(root, heading):
-    """Rows of the table under a heading of docs/output.md."""
-    text = (root / "docs" / "output.md").read_text(encoding="utf-8")
+    """Rows of the table under a heading of docs/reference/output.md."""
+    text = (root / "docs/reference/output.md").read_text(encoding="utf-8")
     section = re.split(r"^#+ ", text.split(f"# {heading}\n", 1)[1], maxsplit=1, flags=re.M)[0]
     lines = [re.split(r"(?<!\\)\|", line)[1:-1] for line in section.splitlines() if line.startswith("|")]
     rows = [[cell.strip().strip("`") for cell in line] for line in lines]
@@ -71,7 +71,7 @@ def test_every_dataset_is_as_documented(made, root):
         found = datasets(file)
         for path, node in found.items():
             row = next((row for row in rows if fnmatch.fnmatch(path, row["path"])), None)
-            assert row, f"{path} is not in docs/output.md"
+            assert row, f"{path} is not in docs/reference/output.md"
             assert is_of_type(node.dtype, row["type"]), f"{path}: {node.dtype}"
             symbols = shape_symbols(row["shape"])
             assert len(symbols) == node.ndim, f"{path}: {node.shape}"
@@ -115,7 +115,7 @@ def test_datasets_of_other_scenes_are_documented(gudgeon, root, tmp_path, deck, 
     with h5py.File(tmp_path / "run" / "run.h5", "r") as file:
         for path, node in datasets(file).items():
             row = next((row for name, row in rows.items() if fnmatch.fnmatch(path, name)), None)
-            assert row, f"{path} is not in docs/output.md"
+            assert row, f"{path} is not in docs/reference/output.md"
             assert is_of_type(node.dtype, row["type"]), f"{path}: {node.dtype}"
             ranks = [0] if row["shape"] == "scalar" else [len(shape_symbols(word)) for word in re.findall(r"\([^)]*\)", row["shape"])]
             assert node.ndim in ranks, f"{path}: {node.shape}"
@@ -171,7 +171,7 @@ def test_every_key_of_the_summary_is_documented(gudgeon, root, tmp_path, options
     rows = {key: row for row in table(root, "summary.json") for key in re.findall(r"[a-zA-Z_]\w+", row["key"])}
     for key, value in summary.items():
         row = rows.get(re.sub(r"_\d+$", "_K", key))
-        assert row, f"{key} is not in docs/output.md"
+        assert row, f"{key} is not in docs/reference/output.md"
         told = row["what it is"]
         if isinstance(value, list):
             assert re.search(r"\blists?\b|\bthe same\b", told), f"{key}: {told}"

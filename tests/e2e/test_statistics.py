@@ -217,7 +217,7 @@ def test_layout_of_the_statistics(gudgeon):
         assert group["strobe"].attrs["units"].split() == ["N.m", "m/s"]
         assert group["spectrum"].shape == (len(group["frequency"]), len(group["spectrum_names"]))
         assert group["histogram_edges"].shape == (len(group["histogram_names"]), 8)
-        text = (ROOT / "docs" / "output.md").read_text()
+        text = (ROOT / "docs/reference/output.md").read_text()
         for name in group:
             assert group[name].attrs["long_name"], name
             assert f"`/statistics/{name}`" in text, name

@@ -423,7 +423,7 @@ def test_figures_of_a_sweep(gudgeon):
         assert_close(rows[:, 1], file["cases/mean"][:, at][[0, 2, 1, 3]], relative=1e-15)
         assert_close(rows[:, 2], file["cases/deviation"][:, at][[0, 2, 1, 3]], relative=1e-15)
         assert len(file["strobe/time"]) == 8 * 3
-        text = (ROOT / "docs" / "output.md").read_text()
+        text = (ROOT / "docs/reference/output.md").read_text()
         found = [f"/{group}/{name}" for group, node in file.items() if isinstance(node, h5py.Group) for name in node]
         assert [name for name in found if f"`{name}`" not in text] == []
 

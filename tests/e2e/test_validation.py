@@ -1,6 +1,6 @@
 """Joints, springs, dampers and drivers of space against a commercial code, closed forms and independent integrations.
 
-`python3 test_validation.py PROGRAM` prints the table of docs/validation.md.
+`python3 test_validation.py PROGRAM` prints the table of docs/theory/evidence/validation.md.
 """
 
 import functools
@@ -173,7 +173,7 @@ def shown(value):
 
 
 def main():
-    """The table of docs/validation.md."""
+    """The table of docs/theory/evidence/validation.md."""
     columns = ["position", "velocity", "acceleration", "orientation", "angular_velocity", "angular_acceleration", "force", "moment"]
     n = 0
     print("| deck | series | position | velocity | acceleration | Euler parameters | angular velocity | angular acceleration | force | moment |")

@@ -1,4 +1,4 @@
-!> Errors of all films against Reynolds' equation on a grid, over L/D, eccentricity and motion: film_errors > docs/film_errors.csv
+!> Errors of all films against Reynolds' equation on a grid, over L/D, eccentricity and motion, to docs/data/film_errors.csv
 program film_errors
    use, intrinsic :: iso_fortran_env, only: output_unit
    use film_comparison, only: column_names, error_row_t, grid_force, motion_names, ratios, row_of, steps_of_eps

@@ -1,4 +1,4 @@
-"""docs/new-kind.md, applied: its worked examples are added to a copy of the sources, by the lines that it names, built, and used."""
+"""docs/developer/new-kind.md, applied: its worked examples are added to a copy of the sources, by the lines that it names, built, and used."""
 
 import json
 import os
@@ -12,7 +12,7 @@ import pytest
 
 ROOT = pathlib.Path(__file__).resolve().parents[2]
 EXAMPLES = ROOT / "tests" / "new_kind"
-PAGE = (ROOT / "docs" / "new-kind.md").read_text(encoding="utf-8")
+PAGE = (ROOT / "docs/developer/new-kind.md").read_text(encoding="utf-8")
 
 CONTACT, JOINTS = "src/mechanics/contact/contact_registry.f90", "src/mechanics/joints/joint_registry.f90"
 CLEARANCE, METHODS = "src/mechanics/clearance/clearance_registry.f90", "src/integrators/methods/integrator_registry.f90"

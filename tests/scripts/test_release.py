@@ -7,7 +7,7 @@ import pytest
 from conftest import ROOT
 from scripts_of_root import load
 
-FILES = ("CHANGELOG.md", "CITATION.cff", "docs/manual.md")
+FILES = ("CHANGELOG.md", "CITATION.cff", "docs/reference/verbs.md")
 
 
 @pytest.fixture
@@ -23,20 +23,20 @@ def test_release_agrees(man_page):
 
 @pytest.mark.parametrize(("place", "old", "new"), [
     ("CHANGELOG.md", "## ", "## 9.9.9 (2000-01-01)\n\n## "), ("CITATION.cff", "version: ", "version: 9"),
-    ("CITATION.cff", 'date-released: "', 'date-released: "1'), ("docs/manual.md", "gudgeon ", "gudgeon 9"),
+    ("CITATION.cff", 'date-released: "', 'date-released: "1'), ("docs/reference/verbs.md", "Those of gudgeon ", "Those of gudgeon 9"),
     ("CHANGELOG.md", "- ", f"- {'x' * 120}"),
 ])
 def test_a_difference_is_told(man_page, tmp_path, place, old, new):
     """One line for a file that differs, which names it."""
     for name in FILES:
-        (tmp_path / name).parent.mkdir(exist_ok=True)
+        (tmp_path / name).parent.mkdir(parents=True, exist_ok=True)
         shutil.copy(ROOT / name, tmp_path / name)
     source = next((ROOT / "src").rglob("version.f90"))
     (tmp_path / "src").mkdir()
     shutil.copy(source, tmp_path / "src")
     path = tmp_path / place
     text = path.read_text(encoding="utf-8")
-    at = text.index("\n" + old) + 1 if not place.startswith("docs") else 0
+    at = text.index("\n" + old) + 1
     path.write_text(text[:at] + text[at:].replace(old, new, 1), encoding="utf-8")
     told = load("release").disagreements(tmp_path, man_page)
     assert len(told) == 1 and told[0].startswith(place)

@@ -1,4 +1,4 @@
-!> docs/film_errors.csv says what the films do: some of its rows computed anew, and the claims that are made of them.
+!> docs/data/film_errors.csv says what the films do: some of its rows computed anew, and the claims that are made of them.
 module test_film_errors
    use check, only: check_close, check_equal, check_true, suite_t
    use errors, only: error_t
@@ -37,8 +37,8 @@ contains
       character(200) :: text
       integer :: io, k, unit
 
-      open (newunit=unit, file="docs/film_errors.csv", status="old", action="read", iostat=io)
-      call check_equal(error, io, 0, "docs/film_errors.csv can be read")
+      open (newunit=unit, file="docs/data/film_errors.csv", status="old", action="read", iostat=io)
+      call check_equal(error, io, 0, "docs/data/film_errors.csv can be read")
       if (allocated(error)) return
       read (unit, "(a)") text
       call check_equal(error, trim(text), column_names, "columns")

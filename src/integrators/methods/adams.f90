@@ -4,7 +4,7 @@
 !> start at order 1. Not for stiff equations: the fixed-point iteration keeps the step short.
 !>
 !> Accuracy of events: the event function is zero to round-off, the time as accurate as the motion
-!> (docs/accuracy.md has the figures).
+!> (docs/theory/evidence/accuracy.md has the figures).
 !>
 !> Source: A. C. Hindmarsh et al., SUNDIALS, ACM Trans. Math. Softw. 31 (2005) 363-396.
 module adams

@@ -6,7 +6,7 @@
 !> spring without damper is followed, not damped.
 !>
 !> Accuracy of events: the event function is zero to round-off, the time as accurate as the motion
-!> (docs/accuracy.md has the figures).
+!> (docs/theory/evidence/accuracy.md has the figures).
 !>
 !> Source: A. C. Hindmarsh et al., SUNDIALS, ACM Trans. Math. Softw. 31 (2005) 363-396.
 module bdf

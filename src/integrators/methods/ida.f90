@@ -7,7 +7,7 @@
 !> state.
 !>
 !> Accuracy of events: the event function is zero to round-off, the time as accurate as the motion
-!> (docs/accuracy.md has the figures).
+!> (docs/theory/evidence/accuracy.md has the figures).
 !>
 !> Source: C. W. Gear, B. Leimkuhler and G. K. Gupta, Automatic integration of Euler-Lagrange equations
 !> with constraints, J. Comput. Appl. Math. 12-13 (1985) 77-90; A. C. Hindmarsh et al. (2005).

@@ -41,7 +41,7 @@ contains
 
       info%name = "film.finite"
       info%help = "bearing of finite length, L/D from 1/4 to 4, only positive pressure; fast, within 1 % of `grid`"
-      info%source = "fitted to Reynolds' equation on a grid, see docs/films.md"
+      info%source = "fitted to Reynolds' equation on a grid, see docs/theory/evidence/films.md"
       allocate (info%columns(0))
    end function finite_info
 

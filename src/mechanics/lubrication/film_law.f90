@@ -140,8 +140,8 @@ module film_law
       !> w = g' - (w_J + w_B)/2 z x g
       !>
       !> with a and b of `halves`. So F.v + f_1.w <= 0 wherever that holds for each half. Source: own derivation; long films: Gauss'
-      !> rule of two points. Limits: tilts that are small beside the gap that is left, see docs/films.md; a film that knows
-      !> better overrides this.
+      !> rule of two points. Limits: tilts that are small beside the gap that is left, see
+      !> docs/theory/evidence/films.md; a film that knows better overrides this.
       module subroutine film_tilted_force(self, motion, parameters, f, f_1)
          implicit none (type, external)
          class(film_law_t), intent(in) :: self                 !! the film

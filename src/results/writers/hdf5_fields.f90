@@ -1,4 +1,4 @@
-!> Unwrapped films in run.h5: a group /film_fields/NAME for each (docs/output.md).
+!> Unwrapped films in run.h5: a group /film_fields/NAME for each (docs/reference/output.md).
 module hdf5_fields
    use film_fields, only: film_field_t, moment_end, moment_min
    use hdf5, only: hid_t

@@ -1,4 +1,4 @@
-!> Writes run.h5 (layout: hdf5_layout.f90 and docs/output.md).
+!> Writes run.h5 (layout: hdf5_layout.f90 and docs/reference/output.md).
 !>
 !> Rows wait in memory until there is a block of them, or until ten seconds have passed; then they
 !> are written and the file is flushed. Its metadata goes to the disk in an order in which it never

@@ -1,4 +1,4 @@
-!> Writes sweep.h5: the cases, what came of every run, statistics over the runs of each case (docs/output.md).
+!> Writes sweep.h5: the cases, what came of every run, statistics over the runs of each case (docs/reference/output.md).
 !>
 !> The file is written whole, under another name first, so that there is never half of it.
 module sweep_file
