@@ -132,7 +132,7 @@ browser-test:
 	@$(PYTHON) -B tests/browser/open_pages.py $(BUILD)/gudgeon $(BUILD)/browser
 	@$(PYTHON) -B tests/browser/open_site.py $(BUILD)/docs/site
 
-# a sweep as a job array of a Slurm on this host, with tasks that are killed and out of time; as root, see docs/how-to/batch.md
+# a sweep as a job array of a Slurm on this host, with tasks that are killed and out of time; as root, see docs/reference/batch.md
 slurm-test:
 	$(inner)release binary
 	@tests/slurm/run.sh $(abspath $(BUILD))/gudgeon $(abspath $(BUILD))/slurm

@@ -4,7 +4,7 @@
 #     scripts/slurm/submit_sweep DECK [N]     submits an array of N tasks (20) and the job that merges them
 #
 # A task that reaches its time limit, is killed or loses its node is queued again and makes only what is missing: every run that
-# has ended is in the journal of its part. docs/how-to/batch.md tells more.
+# has ended is in the journal of its part. docs/reference/batch.md tells more.
 #SBATCH --job-name=gudgeon
 #SBATCH --time=04:00:00
 #SBATCH --cpus-per-task=1

@@ -1,4 +1,4 @@
-"""docs/how-to/warnings.md: what every deck of inputs/ warns of, and what a user should do; no more and no less than that."""
+"""docs/reference/warnings.md: what every deck of inputs/ warns of, and what a user should do; no more and no less than that."""
 
 import json
 import re
@@ -7,7 +7,7 @@ import pytest
 from support import ROOT, call, scratch
 
 DECKS = sorted(str(path.relative_to(ROOT)) for path in (ROOT / "inputs").rglob("*.deck"))
-ROWS = [[cell.strip() for cell in line.strip("|\n ").split("|")] for line in (ROOT / "docs/how-to/warnings.md").read_text().splitlines()
+ROWS = [[cell.strip() for cell in line.strip("|\n ").split("|")] for line in (ROOT / "docs/reference/warnings.md").read_text().splitlines()
         if line.startswith("| `inputs/")]
 
 
