@@ -49,8 +49,8 @@ contains
       end do
    end subroutine find_stabilisation
 
-   !> The stabilisation that suits a system: projection, which leaves neither violations nor the traces of gains in the motion; Baumgarte's
-   !> stabilisation where a driver jumps, because a jump cannot be projected; none where there is nothing to enforce.
+   !> The stabilisation that suits a system: projection, which leaves neither violations nor the traces of gains in the motion;
+   !> Baumgarte's stabilisation where a driver jumps, because a jump cannot be projected; none where there is nothing to enforce.
    subroutine choose_stabilisation(is_needed, is_smooth, way)
       logical, intent(in) :: is_needed                              !! there are constraints that the integrator does not enforce
       logical, intent(in) :: is_smooth                              !! no driver jumps
@@ -76,7 +76,7 @@ contains
       type is (stabilisation_baumgarte_t)
          words = "a driver jumps, and projection cannot follow a jump"
       class default
-         words = "removes all constraint violation without adding gains"
+         words = "removes all constraint violation, and has no gains to choose"
       end select
    end function reason_of_stabilisation
 
