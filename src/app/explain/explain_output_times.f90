@@ -61,7 +61,7 @@ contains
          if (loaded%system%clearance_joints%n > 0) then
             call say("the step is limited to a quarter revolution of any body with contacts", 2)
          end if
-         call say("otherwise the error tolerance determines the step", 2)
+         call say("the error tolerance determines the step", 2)
       end if
       if (loaded%system%clearance_joints%n == 0) return
       if (onset == "located") then
