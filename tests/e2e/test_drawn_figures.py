@@ -215,7 +215,7 @@ def test_loads_are_arrows(gudgeon, tmp_path):
         row = np.argmin(abs(file["time"][:] - 0.1))
         np.testing.assert_allclose(found[-1]["arrow"][0][0], file["bodies/position"][row, 0], atol=1e-4)
     assert "longest arrow 5 N" in (folder / "animation.n.6.last.50ms.gp").read_text(encoding="utf-8")
-    assert "arrows: loads and forces on journals, maximum 5 N" in (folder / "animation.n.6.last.50ms.html").read_text(encoding="utf-8")
+    assert "arrows: loads and forces on journals, longest 5 N" in (folder / "animation.n.6.last.50ms.html").read_text(encoding="utf-8")
     assert "g:[[" in (folder / "animation.n.6.last.50ms.html").read_text(encoding="utf-8")
 
 
