@@ -91,7 +91,7 @@ def test_loose_joint_is_magnified(gudgeon, tmp_path):
     np.testing.assert_allclose(journal - hole, factor * eccentricity, rtol=0.02)
     arrow = frame["arrow"][0][1] - frame["arrow"][0][0]
     np.testing.assert_allclose(arrow / np.hypot(*arrow), force / np.hypot(*force), atol=1e-3)
-    assert float(re.search(r"maximum arrow ([0-9.]+) N", script).group(1)) == float(f"{np.hypot(*force):.3g}")
+    assert float(re.search(r"longest arrow ([0-9.]+) N", script).group(1)) == float(f"{np.hypot(*force):.3g}")
 
 
 def test_paths_are_thinned_and_keep_peaks(gudgeon, tmp_path):
@@ -214,8 +214,8 @@ def test_loads_are_arrows(gudgeon, tmp_path):
     with h5py.File(tmp_path / "run" / "run.h5") as file:
         row = np.argmin(abs(file["time"][:] - 0.1))
         np.testing.assert_allclose(found[-1]["arrow"][0][0], file["bodies/position"][row, 0], atol=1e-4)
-    assert "maximum arrow 5 N" in (folder / "animation.n.6.last.50ms.gp").read_text(encoding="utf-8")
-    assert "arrows: loads and forces on journals, maximum 5 N" in (folder / "animation.n.6.last.50ms.html").read_text(encoding="utf-8")
+    assert "longest arrow 5 N" in (folder / "animation.n.6.last.50ms.gp").read_text(encoding="utf-8")
+    assert "arrows: loads and forces on journals, longest 5 N" in (folder / "animation.n.6.last.50ms.html").read_text(encoding="utf-8")
     assert "g:[[" in (folder / "animation.n.6.last.50ms.html").read_text(encoding="utf-8")
 
 

@@ -192,6 +192,7 @@ contains
       call suggest("Nm", "N.m")
       call suggest("kNm", "kN.m")
       call suggest("Kg", "kg")
+      call suggest("mmm", "mm")
       call suggest("mpa", "MPa")
       call suggest("sec", "s")
       call suggest("degrees", "deg")

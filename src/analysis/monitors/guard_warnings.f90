@@ -19,7 +19,7 @@ contains
          select case (g)
          case (guard_penetration)
             words = "penetration "//millimetres(breach%value)//", limit "//real_text(self%penetration, 3)// &
-                    " of the surface size, "//millimetres(limit)//" (guard 'penetration')"
+                    " times the smaller radius or the slider length, "//millimetres(limit)//" (guard 'penetration')"
          case (guard_clearance)
             words = "penetration up to "//millimetres(breach%value)//", more than the clearance, "//millimetres(limit)
          case (guard_law_range)

@@ -225,7 +225,7 @@ contains
          call look_at(system, equilibrium%q)
          call gather_films(system, linear%films)
          if (.not. is_steady(system)) then
-            equilibrium%words = "instantaneous only: the drivers accelerate bodies; stability is not determined"
+            equilibrium%words = "instantaneous only, since the drivers accelerate bodies; stability is not determined"
             return
          end if
          call find_eigenvalues(system, equilibrium%q, balance, linear%eigenvalues)

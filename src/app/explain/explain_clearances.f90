@@ -95,7 +95,7 @@ contains
                   " mm, journal radius "//to_text(1.0e3_wp*p(parameter_radius))//" mm, L/D = "// &
                   real_text(0.5_wp*p(parameter_length)/p(parameter_radius), 4), 4)
          if (films%law%description(p) /= "") call say(films%law%description(p), 4)
-         words = "entrainment speed: sum of the absolute angular speeds"
+         words = "entrainment speed: sum of the angular speeds of journal and bearing, each relative to the world"
          if (place%is_relative) words = "entrainment speed: relative speed of journal and bearing, as printed in Flores et al. "// &
             "(2008)"
          if (place%has_torque) words = words//"; shear torques act on the bodies"
@@ -115,9 +115,9 @@ contains
          end if
          decay = films%decay_of(item, film_motion_t(e=[near*set%items%pairs(item)%clearance, 0.0_wp]), &
                                 sum(inverse_mass(set%items%body(:, item))))
-         if (decay > 0.0_wp) call say("at "//real_text(near, 1)//" of the clearance the film stops the journal within "// &
-                                      real_text(1.0e6_wp/decay, 2)//" us: explicit methods need steps of about this size; "// &
-                                      "implicit methods (radau, bdf, ida) do not", 4)
+         if (decay > 0.0_wp) call say("at an eccentricity of "//real_text(near, 1)//" times the clearance the film brings the "// &
+                                      "journal to rest within "//real_text(1.0e6_wp/decay, 2)//" us: explicit methods need "// &
+                                      "steps of about this size; implicit methods (radau, bdf, ida) do not", 4)
       end associate
    end subroutine explain_film
 
@@ -127,7 +127,7 @@ contains
       real(wp), intent(in) :: step         !! length of fixed steps, 0: variable [s]
       character(:), allocatable :: words   !! to follow the duration
 
-      words = "; the first step of a contact is 1 % of it"
+      words = "; the integrator starts a contact with a step of 1 % of it"
       if (step > 0.0_wp) words = ", "//real_text(duration/step, 2)//" fixed steps"
    end function steps_of
 

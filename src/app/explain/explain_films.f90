@@ -48,7 +48,7 @@ contains
          return
       end if
       if (.not. (equilibrium%linear%is_judged .or. size(equilibrium%linear%films) == 0)) then
-         call say("no steady state exists; equilibrium "//equilibrium%words, 2)
+         call say("no steady state; equilibrium "//equilibrium%words, 2)
          return
       end if
       call say(equilibrium%words, 2)

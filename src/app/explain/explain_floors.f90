@@ -27,6 +27,7 @@ contains
       call system%begin_pace(0.0_wp, y, end)
       call say("")
       call say("numerical thresholds")
+      call say("each is a small part of a scale of this model; none is a setting", 2)
       call say("initial characteristic rate of the mechanism "//real_text(system%linkage%scales%pace, 3)//"/s, its size "// &
                real_text(1.0e3_wp*system%linkage%scales%length, 3)//" mm; the rate follows the maximum speed or angular speed "// &
                   "so far", 2)

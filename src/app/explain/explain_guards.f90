@@ -69,7 +69,7 @@ contains
                associate (limit => guards%limit(:, m), name => set%names(i)%s)
                   if (limit(guard_penetration) < huge(1.0_wp)) then
                      call say(name//": stops at a penetration of "//real_text(1.0e3_wp*limit(guard_penetration), 3)//" mm, "// &
-                              real_text(guards%penetration, 3)//" times the surface size (penetration)", 2)
+                              real_text(guards%penetration, 3)//" times the smaller radius or the slider length (penetration)", 2)
                   end if
                   if (limit(guard_clearance) < huge(1.0_wp)) then
                      call say(name//": "//verb_of(scene, "clearance")//" at a penetration of "// &
@@ -93,10 +93,10 @@ contains
    function verb_of(scene, key) result(verb)
       type(scene_t), intent(in) :: scene    !! the scene
       character(*), intent(in) :: key       !! key of [guards]
-      character(:), allocatable :: verb     !! warns, ends, or says nothing
+      character(:), allocatable :: verb     !! warns, stops, or says nothing
 
       select case (scene%settings%guards%word(key))
-      case ("stop"); verb = "ends"
+      case ("stop"); verb = "stops"
       case ("warn"); verb = "warns"
       case default; verb = "no warning"
       end select

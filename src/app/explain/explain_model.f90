@@ -32,7 +32,7 @@ contains
       associate (linkage => system%linkage, names => system%linkage%bodies%names, n => system%linkage%bodies%n)
          words = trim(merge("spatial", "planar ", scene%settings%is_spatial))
          words = counted(n, words//" body", words//" bodies")//", "//to_text(linkage%coordinates%n_q*n)//" coordinates"
-         if (scene%settings%is_spatial) words = words//" (including Euler parameters), "//to_text(size(linkage%mass))//" rates"
+         if (scene%settings%is_spatial) words = words//" (including Euler parameters), "//to_text(size(linkage%mass))//" velocities"
          call say(words, 2)
          do k = 1, linkage%reduced%known%n
             call say("'"//names(linkage%reduced%known%held(k)%body)%s//"': prescribed motion", 2)
@@ -44,7 +44,7 @@ contains
       end associate
       if (system%linkage%rows%n > system%linkage%rows%n_solve) then
          call say(counted(system%n_position, "unknown coordinate", "unknown coordinates")//", "// &
-                  counted(system%linkage%rows%n_solve, "constraint row", "constraint rows")//" in the equations", 2)
+                  counted(system%linkage%rows%n_solve, "constraint row", "constraint rows")//" in the equations that are solved", 2)
       end if
       do k = 1, size(scene%joints)
          call count_kind(scene%joints(k)%info, scene%joints(k)%items)
@@ -59,8 +59,8 @@ contains
          call say(counted(system%linkage%ideal(1)%set%n, "joint", "joints")//" with clearance treated as ideal, "// &
                   to_text(system%linkage%ideal(1)%set%n_row_item*system%linkage%ideal(1)%set%n)//" rows", 2)
       end if
-      words = trim(merge("rates      ", "coordinates", scene%settings%is_spatial))//" minus rows: "
-      call say(counted(system%linkage%rows%n, "constraint row", "constraint rows")//"; "//words// &
+      words = trim(merge("velocities ", "coordinates", scene%settings%is_spatial))//" minus rows: "
+      call say(counted(system%linkage%rows%n, "constraint row", "constraint rows")//" in all; "//words// &
                to_text(size(system%linkage%mass) - system%linkage%rows%n)//" ("// &
                to_text(size(twin%linkage%mass) - twin%linkage%rows%n)//" with all joints ideal)", 2)
       if (norm2(system%loading%gravity) > 0.0_wp) then

@@ -35,7 +35,7 @@ contains
          onset = trim(onset_words(controls%onset))
       end associate
       call say("")
-      call say("time points and maximum step")
+      call say("time points, where steps end, and maximum step")
       call ieee_get_status(status)
       call ieee_set_halting_mode(ieee_usual, .false.)
       do k = 1, loaded%plan%output_times%n
@@ -61,7 +61,7 @@ contains
          if (loaded%system%clearance_joints%n > 0) then
             call say("the step is limited to a quarter revolution of any body with contacts", 2)
          end if
-         call say("otherwise the error tolerance determines the step", 2)
+         call say("the error tolerance determines the step", 2)
       end if
       if (loaded%system%clearance_joints%n == 0) return
       if (onset == "located") then
@@ -90,7 +90,7 @@ contains
                do m = 1, size(value%expression%observables)
                   words = words//" "//value%expression%observables(m)%word
                end do
-               call say(table%items(i)%name//"."//table%info%columns(c)%name//" sees"//words//"; step-size control " &
+               call say(table%items(i)%name//"."//table%info%columns(c)%name//" depends on"//words//"; step-size control " &
                         //"handles kinks in these", 2)
             end associate
          end do

@@ -144,7 +144,7 @@ contains
       end if
       defaults = all_defaults(loaded%deck)
       call say("")
-      call say("defaults used")
+      call say("defaults used (0 often means: none, no limit, or computed; see gudgeon help TABLE)")
       do k = 1, size(defaults)
          if (is_worth(loaded%scene, defaults(k)%s)) call say(defaults(k)%s, 2)
       end do

@@ -138,6 +138,7 @@ contains
          call append_text(names, kinds(k)%name)
          last = kinds(k)%name(index(kinds(k)%name, ".", back=.true.) + 1:)
          call append_text(names, last)
+         if (last /= kinds(k)%name) call append_text(names, kinds(k)%name(:len(kinds(k)%name) - len(last) - 1))  ! group
          if (kinds(k)%name == wanted .or. last == wanted .or. index(kinds(k)%name, wanted//".") == 1) then
             if (is_found) call say("")
             call write_kind(kinds(k), .false.)

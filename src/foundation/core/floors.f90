@@ -59,27 +59,27 @@ contains
    pure function all_floors() result(list)
       type(floor_t), allocatable :: list(:)  !! (floors) in the order of the groups
 
-      list = [floor_t(gentle, of_contact, "minimum impact speed in damping terms, over the speed of the present penetration"), &
-              floor_t(remembered, of_speed, "minimum speed for error control during slow motion"), &
-              floor_t(late, of_run, "minimum speed for error control, from rest"), &
+      list = [floor_t(gentle, of_contact, "minimum impact speed in damping terms, over sqrt(F_N penetration/m)"), &
+              floor_t(remembered, of_speed, "minimum speed that velocity errors are relative to, in slow motion"), &
+              floor_t(late, of_run, "minimum speed that velocity errors are relative to, from rest"), &
               floor_t(idle_part, of_run, "characteristic speed of a mechanism that never moves"), &
-              floor_t(min_stabilisation, of_pace, "minimum gain of baumgarte_adaptive"), &
+              floor_t(min_stabilisation, of_pace, "minimum gain of stabilise = baumgarte_adaptive"), &
               floor_t(at_rest, of_speed, "negligible sliding speed, at onset and where drivers prescribe it"), &
               floor_t(standstill, of_speed, "sliding speed at the slip-to-stick transition"), &
               floor_t(captured, of_tolerance, "sliding speed at the slip-to-stick transition, in space"), &
               floor_t(contact_lever, of_contact, "lever arm of spin without friction torque, in space, over the penetration"), &
-              floor_t(torn, of_speed, "sliding speed that ends sticking by drift"), &
-              floor_t(min_band, of_speed, "reverse-slip tolerance after stick-slip chatter, initial"), &
+              floor_t(torn, of_speed, "drift speed of a sticking contact at which sticking ends"), &
+              floor_t(min_band, of_speed, "tolerated speed of slip against its direction, after stick-slip chatter, initial"), &
               floor_t(widest_band, of_speed, &
-                      "reverse-slip tolerance after stick-slip chatter, final; in space also speed of slow slip"), &
+                      "tolerated speed of slip against its direction, final; in space also speed of slow slip"), &
               floor_t(settling, of_pace, &
                       "decay rate of residual sliding while sticking; in space at least sqrt(F_N/(penetration m))"), &
               floor_t(chatter_time, of_contact, &
                       "stick-slip interval that counts as chatter, over sqrt(penetration m/F_N)"), &
-              floor_t(look_ahead, of_step, "look-ahead time for driver motion of a contact at rest"), &
+              floor_t(look_ahead, of_step, "look-ahead time for the motion that drivers give a contact at rest"), &
               floor_t(no_acceleration, of_acceleration, "negligible sliding acceleration"), &
-              floor_t(min_mobility, of_mobility, "negligible compliance"), &
-              floor_t(shortest_difference, of_time, "time for the rates of event functions")]
+              floor_t(min_mobility, of_mobility, "mobility of a contact that counts as immovable"), &
+              floor_t(shortest_difference, of_time, "time difference for the rates of event functions")]
    end function all_floors
 
 end module floors

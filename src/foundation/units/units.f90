@@ -258,7 +258,7 @@ contains
       character(:), allocatable :: message             !! what and which instead
 
       type(text_t), allocatable :: known(:)
-      type(unit_t) :: unit
+      type(unit_t) :: unit, left, right
       character(:), allocatable :: near
       logical :: has_first, has_second
       integer :: i, k, pass
@@ -280,9 +280,13 @@ contains
          return
       end if
       do i = 1, len(name) - 1
-         call find_unit(name(1:i), unit, has_first)
-         call find_unit(name(i + 1:), unit, has_second)
-         if (has_first .and. has_second .and. name(1:i) /= "K") then
+         call find_unit(name(1:i), left, has_first)
+         call find_unit(name(i + 1:), right, has_second)
+         if (.not. (has_first .and. has_second)) cycle
+         if (same_dimension(left%dimension, right%dimension)) then  ! too many letters, as in mmm
+            message = message//": did you mean '"//name(i + 1:)//"'?"
+            return
+         else if (name(1:i) /= "K") then
             message = message//": did you mean '"//name(1:i)//"."//name(i + 1:)//"'?"
             return
          end if

@@ -40,7 +40,8 @@ contains
       else
          words = "explicit steps of order 6 (verner: the tolerance is above "//real_text(order_8_up_to, 1)//")"
       end if
-      if (changes) words = words//"; implicit steps (radau) while stability limits these and radau takes fewer evaluations"
+      if (changes) words = words//"; implicit steps (radau) where stability, not accuracy, would limit the "// &
+         "explicit steps and radau takes fewer evaluations"
    end function what_there_is
 
    !> What was chosen, when and why.

@@ -63,7 +63,7 @@ contains
 
       select type (solver)
       type is (augmented_schur_t)
-         words = "equal to pivoting within round-off, and the fastest for these equations"
+         words = "the same result as pivoting within round-off, and the fastest for these equations"
       type is (augmented_sparse_t)
          words = "high joint count per body: the Schur complement would be dense"
       class default

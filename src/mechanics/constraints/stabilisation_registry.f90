@@ -76,7 +76,7 @@ contains
       type is (stabilisation_baumgarte_t)
          words = "a driver jumps, and projection cannot follow a jump"
       class default
-         words = "removes all constraint violation without adding gains"
+         words = "removes all constraint violation, and has no gains to choose"
       end select
    end function reason_of_stabilisation
 

@@ -19,7 +19,7 @@ contains
       if (symbols%magnified > 0.0_wp) words = "clearance × "//real_text(symbols%magnified, 2)
       if (.not. symbols%force > 0.0_wp) return
       if (len(words) > 0) words = words//",  "
-      words = words//"maximum arrow "//quantity_text("N", symbols%force, 3)
+      words = words//"longest arrow "//quantity_text("N", symbols%force, 3)
    end function short_legend
 
    !> The same in a sentence.
@@ -30,7 +30,7 @@ contains
       words = "bodies to scale"
       if (symbols%magnified > 0.0_wp) words = words//"; clearance of joints magnified "//real_text(symbols%magnified, 2)// &
                                               " times"
-      if (symbols%force > 0.0_wp) words = words//"; arrows: loads and forces on journals, maximum "// &
+      if (symbols%force > 0.0_wp) words = words//"; arrows: loads and forces on journals, longest "// &
                                           quantity_text("N", symbols%force, 3)
    end function long_legend
 

@@ -115,7 +115,7 @@ contains
    function curve_title(sweep, curve) result(title)
       type(sweep_t), intent(in) :: sweep         !! the cases
       integer, intent(in) :: curve               !! number of the curve
-      character(:), allocatable :: title         !! as `law hertz`; blank if there is one curve
+      character(:), allocatable :: title         !! as `law = hertz`; blank if there is one curve
 
       integer :: k
 
@@ -123,7 +123,7 @@ contains
       if (sweep%n_curves() == 1) return
       do k = sweep%n_together + 1, size(sweep%parameters)
          if (k > sweep%n_together + 1) title = title//", "
-         title = title//sweep%parameters(k)%name//" "//sweep%parameters(k)%texts(sweep%value_number(k, curve))%s
+         title = title//sweep%parameters(k)%name//" = "//sweep%parameters(k)%texts(sweep%value_number(k, curve))%s
       end do
    end function curve_title
 

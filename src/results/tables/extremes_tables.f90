@@ -5,7 +5,7 @@ module extremes_tables
    use extremes, only: extreme_t, extremes_t, joint_extremes_t
    use kinds, only: wp
    use result_table, only: only_shown, result_table_t
-   use text, only: append_text, counted, text_t, to_text
+   use text, only: append_text, counted, text_t
    implicit none (type, external)
    private
    public :: channel_extremes, joint_extremes
@@ -54,7 +54,7 @@ contains
          call append_text(table%notes, "-: no mean of a single output time")
       end if
       if (n == 0) table%group = ""
-      call rest(count([(extremes%is_nothing(k), k=1, n)]), "that are zero or round-off")
+      call rest(count([(extremes%is_nothing(k), k=1, n)]), "with zeros or round-off only")
       call rest(count([(.not. extremes%has_values(k), k=1, n)]), "without values")
 
    contains
@@ -64,7 +64,7 @@ contains
          integer, intent(in) :: how_many    !! their number
          character(*), intent(in) :: what   !! what they are
 
-         if (how_many > 0) call append_text(table%notes, to_text(how_many)//" channels "//what)
+         if (how_many > 0) call append_text(table%notes, counted(how_many, "channel", "channels")//" "//what)
       end subroutine rest
 
    end function channel_extremes
