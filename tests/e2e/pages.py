@@ -51,7 +51,8 @@ class Fence:
     def is_run(self):
         """Whether its commands are run on this machine."""
         needed = self.option("needs")
-        return self.kind == "sh" and "elsewhere" not in self.words and (needed is None or shutil.which(needed) is not None or importlib.util.find_spec(needed) is not None)
+        is_there = needed is None or shutil.which(needed) is not None or importlib.util.find_spec(needed) is not None
+        return self.kind == "sh" and "elsewhere" not in self.words and is_there
 
     @property
     def commands(self):
@@ -109,8 +110,9 @@ def environment(program, directory):
     """The program, this Python and the package gudgeon are found as if they were installed."""
     programs = directory / ".programs"
     programs.mkdir()
-    for name, target in (("gudgeon", program), ("python3", sys.executable)):
-        (programs / name).symlink_to(pathlib.Path(target).resolve())
+    (programs / "gudgeon").symlink_to(pathlib.Path(program).resolve())
+    (programs / "python3").write_text(f'#!/bin/sh\nexec "{sys.executable}" "$@"\n', encoding="utf-8")  # a link leaves its environment
+    (programs / "python3").chmod(0o755)
     path = f"{programs}:{os.environ['PATH']}"
     return {**os.environ, "PATH": path, "PYTHONPATH": str(ROOT / "scripts/python"), "GUDGEON": str(pathlib.Path(program).resolve()),
             "PYTHONDONTWRITEBYTECODE": "1", "LC_ALL": "C.UTF-8"}

@@ -117,6 +117,21 @@ def test_progress_is_passed_on(package, monkeypatch, tmp_path):
     assert lines == ["progress  50%, 2 s left"] and (told.value.code, told.value.message) == (5, "no more")
 
 
+def test_an_interrupted_call_ends_the_program(package, monkeypatch, tmp_path):
+    """Whatever interrupts Python also ends the program, by a signal at which it saves its motion."""
+    program = tmp_path / "program"
+    program.write_text("#!/bin/sh\ntrap 'echo saved >saved; kill $!; exit 7' TERM\necho 'progress   1%' >&2\nsleep 60 &\nwait\n")
+    program.chmod(0o755)
+    monkeypatch.setenv("GUDGEON", str(program))
+
+    def interrupt(line):
+        raise ArithmeticError(line)
+
+    with pytest.raises(ArithmeticError):
+        package.run("any.deck", progress=interrupt)
+    assert (tmp_path / "saved").exists()
+
+
 def test_tables(package):
     """Extremes, events and contacts as pandas has them, against the arrays and the summary."""
     pytest.importorskip("pandas")

@@ -27,8 +27,8 @@ DIAGNOSED = "error: "  # what messages of the program start with
 class GudgeonError(RuntimeError):
     """The program ended with an exit code other than 0.
 
-    `code` is the exit code (docs/reference/exit-codes.md; negative: the signal that ended it), `message` what the program said, and `run`
-    what it left behind, where a motion was begun: of a run that failed its results up to there.
+    `code` is the exit code (docs/reference/exit-codes.md; negative: the signal that ended it), `message` what the program said,
+    `run` its results up to there, if it got so far that there are some.
     """
 
     def __init__(self, code: int, message: str, run: Run | None = None):
@@ -45,7 +45,7 @@ def needed(module: str, use: str) -> Any:
 
 
 def program() -> str:
-    """Path of the program: GUDGEON of the environment, else beside the package, else on PATH, else build/gudgeon of this checkout."""
+    """Path of the program: GUDGEON in the environment, else beside the package, on PATH, or in build/ of this checkout."""
     named = os.environ.get("GUDGEON")
     if named:
         return named
@@ -58,7 +58,7 @@ def program() -> str:
 
 
 def words_of(options: Mapping[str, Any]) -> list[str]:
-    """Options as words: `method="bdf"` is --method bdf, `ideal=True` is --ideal, a list is its words; None and False are left out."""
+    """Options as words: `method="bdf"` is --method bdf, `ideal=True` is --ideal, a list is one word; None and False are omitted."""
     words = []
     for name, value in options.items():
         if value is None or value is False:

@@ -18,8 +18,8 @@ def spelled(value: Any) -> str:
 class Deck:
     """A deck as text.
 
-    `values` replace `$name` and `${name}`, anywhere in the text; those that the text does not have are values of the deck's own parameters, as
-    `--set`. What it includes is looked up in `folder`; results go to `outputs/NAME`.
+    `values` replace `$name` and `${name}`, anywhere in the text; those that the text does not have are values of the deck's own
+    parameters, as `--set`. Files that it includes are relative to `folder`; results go to `outputs/NAME`.
 
         crank = gudgeon.Deck.read("crank.deck")
         gudgeon.run(crank.having(c="0.1 mm"))

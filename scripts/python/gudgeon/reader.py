@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 """Reads what a run of gudgeon left behind: run.h5 as a dict of arrays with units.
 
-    from gudgeon.reader import read               # this file alone, named gudgeon_reader.py, does too: from gudgeon_reader import read
+    from gudgeon.reader import read               # or, of this file alone: from gudgeon_reader import read
 
     run = read("outputs/slider_crank_dry")        # the directory of a run, or its run.h5
     run["slider.velocity.x"]                      # an array, one number for each output instant

@@ -34,13 +34,13 @@ class Run:
 
     @functools.cached_property
     def summary(self) -> dict[str, Any]:
-        """summary.json (docs/reference/output.md); of a run that has not ended what run.h5 says up to now."""
+        """summary.json (docs/reference/output.md); of a run that has not ended, what run.h5 has so far."""
         path = self.directory / "summary.json"
         if path.exists():
             return json.loads(path.read_text(encoding="utf-8"))
         of = self.arrays()
-        return {**of.summary, "status": of.attributes["status"], "message": of.attributes["status_message"], "warnings": of.warnings,
-                "figures": [], "loose_joints": []}
+        return {**of.summary, "status": of.attributes["status"], "message": of.attributes["status_message"],
+                "warnings": of.warnings, "figures": [], "loose_joints": []}
 
     @property
     def status(self) -> str:
@@ -88,7 +88,7 @@ class Run:
         columns = ["unit", "least", "least_time", "greatest", "greatest_time", "mean", "rms"]
         with needed("h5py", USE).File(self.file, "r") as file:
             group = file.get("extremes/channels", {})
-            data = {name: group[name].asstr()[()] if name in ("unit", "name") else group[name][()] for name in ("name", *columns) if name in group}
+            data = {name: group[name].asstr()[()] if name in ("unit", "name") else group[name][()] for name in group}
         index = needed("pandas", "a table").Index(data.pop("name", []), name="channel")
         return needed("pandas", "a table").DataFrame(data, index=index, columns=columns)
 

@@ -26,8 +26,8 @@ def run(
     """Run a deck, a path or a `Deck`, and give its results.
 
     `set`: values of parameters, as {"c": "0.1 mm"}; `out`: directory of the results, else outputs/NAME. Options are those of
-    `gudgeon run`: `tolerance=1e-9`, `method="bdf"`, `ideal=True`, `write="channels"`, `accuracy=1e-6`. `progress`: True shows how far a
-    long run is, a function is called with that line. A run that fails is a GudgeonError.
+    `gudgeon run`: `tolerance=1e-9`, `method="bdf"`, `ideal=True`, `write="channels"`, `accuracy=1e-6`. `progress`: True shows how far
+    a long run is, a function is called with that line. A run that fails is a GudgeonError.
     """
     code, message, summary = call("run", deck, set, out, progress, options)
     there = Run(summary["directory"]) if summary else None
@@ -63,7 +63,7 @@ def precision(
     deck: str | os.PathLike[str] | Deck, *, set: Mapping[str, Any] | None = None, out: str | os.PathLike[str] | None = None,
     progress: Progress = False, **options: Any,
 ) -> pandas.DataFrame:
-    """Error and cost of methods and tolerances on a deck, a run in a row; `attrs["summary"]["choice"]` is the cheapest that is good enough.
+    """Error and cost of methods and tolerances, a run in a row; `attrs["summary"]["choice"]` is the cheapest within `accuracy`.
 
     Options are those of `gudgeon precision`: `methods=["verner", "bdf"]`, `accuracy=1e-6`, `budget="60s"`. `attrs` as of `sweep`.
     """
@@ -80,7 +80,8 @@ def table(summary: dict[str, Any], name: str) -> pandas.DataFrame:
     texts = dict.fromkeys(("message", "warnings", "reason"), str)
     frame = needed("pandas", "a table").read_csv(
         path, float_precision="round_trip", keep_default_na=False, na_values=[""], converters=texts)
-    units = {re.sub(r" \[.*\]$", "", heading): unit for heading in frame.columns for unit in re.findall(r" \[(.*)\]$", heading) or ["1"]}
+    pairs = (re.findall(r"^(.*?)(?: \[(.*)\])?$", heading)[0] for heading in frame.columns)
+    units = {name: unit or "1" for name, unit in pairs}
     frame.columns = list(units)
     frame.attrs.update(units=units, summary=summary, directory=summary["directory"])
     return frame
