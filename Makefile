@@ -44,7 +44,7 @@ inner = +@$(MAKE) $(parallel) MODE=
 # Tests on all processors where pytest-xdist is there, each file of tests on one of them; PYTEST='-n 0' for one after the other
 workers = $(if $(shell $(PYTHON) -c 'import xdist' 2>/dev/null && echo yes),-p xdist -n $(JOBS) --dist loadfile)
 
-.PHONY: all install uninstall debug run quick test mutate release test-sanitize test-debian check bench bench-peers new-kind-test vtk-test browser-test slurm-test stability certify fuzz figures studies film-table film-errors lint format docs clean help
+.PHONY: all install uninstall wheel debug run quick test mutate release test-sanitize test-debian check bench bench-peers new-kind-test vtk-test browser-test slurm-test stability certify fuzz figures studies film-table film-errors lint format docs clean help
 .PHONY: objects binary test_program bench_programs fuzz_program film_programs
 
 all:
@@ -96,6 +96,11 @@ test-debian:
 install:
 	$(inner)release binary
 	@scripts/install $(abspath $(BUILD))/gudgeon $(PREFIX) $(DESTDIR)
+
+# The Python package with the program inside
+wheel:
+	$(inner)release binary
+	@$(PYTHON) -B scripts/make_wheel $(abspath $(BUILD))/gudgeon $(abspath $(BUILD))
 
 uninstall:
 	@scripts/install --remove $(abspath $(BUILD))/gudgeon $(PREFIX) $(DESTDIR)
@@ -228,6 +233,7 @@ help:
 	@echo "make film-table   the table of the film 'finite' anew, some minutes; make film-errors: docs/data/film_errors.csv"
 	@echo "make docs       pages of docs/reference, the site in build/docs/site, API pages; make clean: remove build/"
 	@echo "make install    program, man page, completions, decks below PREFIX=/usr/local; make uninstall takes them away again"
+	@echo "make wheel      build/gudgeon-VERSION-py3-none-PLATFORM.whl: the Python package with the program inside"
 	@echo "make test-debian  as root: 'make run && make test' in a bare Debian SUITE=trixie|bookworm in DIR=build/debian/SUITE"
 	@echo "make -j objects compile all sources without linking (-k: continue after errors)"
 	@echo

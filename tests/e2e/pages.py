@@ -5,7 +5,7 @@ The first word after a fence says what is in it, the others how it is run:
     deck NAME.deck        a deck: written to NAME.deck in the page's directory
     LANGUAGE NAME         any other file, also `text NAME`
     sh [exit=N]           commands, run in that directory, one a line; the last one ends with exit code N (0)
-    sh needs=PROGRAM      run where PROGRAM is installed, else listed
+    sh needs=NAME         run where this program or Python package is installed, else listed
     sh elsewhere          not run: what needs a cluster or a program with a window is listed
     text                  lines of the output of the commands before, in their order; `...` stands for anything
 
@@ -14,6 +14,7 @@ As a program it runs pages and prints what their commands say:  python3 -B tests
 """
 
 import dataclasses
+import importlib.util
 import os
 import pathlib
 import re
@@ -50,7 +51,8 @@ class Fence:
     def is_run(self):
         """Whether its commands are run on this machine."""
         needed = self.option("needs")
-        return self.kind == "sh" and "elsewhere" not in self.words and (needed is None or shutil.which(needed) is not None)
+        is_there = needed is None or shutil.which(needed) is not None or importlib.util.find_spec(needed) is not None
+        return self.kind == "sh" and "elsewhere" not in self.words and is_there
 
     @property
     def commands(self):
@@ -105,13 +107,15 @@ def missing(shown, said):
 
 
 def environment(program, directory):
-    """The program, this Python and gudgeon_reader.py are found as if they were installed."""
+    """The program, this Python and the package gudgeon are found as if they were installed."""
     programs = directory / ".programs"
     programs.mkdir()
-    for name, target in (("gudgeon", program), ("python3", sys.executable)):
-        (programs / name).symlink_to(pathlib.Path(target).resolve())
+    (programs / "gudgeon").symlink_to(pathlib.Path(program).resolve())
+    (programs / "python3").write_text(f'#!/bin/sh\nexec "{sys.executable}" "$@"\n', encoding="utf-8")  # a link leaves its environment
+    (programs / "python3").chmod(0o755)
     path = f"{programs}:{os.environ['PATH']}"
-    return {**os.environ, "PATH": path, "PYTHONPATH": str(ROOT / "scripts"), "PYTHONDONTWRITEBYTECODE": "1", "LC_ALL": "C.UTF-8"}
+    return {**os.environ, "PATH": path, "PYTHONPATH": str(ROOT / "scripts/python"), "GUDGEON": str(pathlib.Path(program).resolve()),
+            "PYTHONDONTWRITEBYTECODE": "1", "LC_ALL": "C.UTF-8"}
 
 
 class Failure(AssertionError):

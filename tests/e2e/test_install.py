@@ -74,6 +74,7 @@ def test_uninstall_leaves_nothing_of_ours_and_all_that_is_not(root, gudgeon, ins
 
 
 def test_uninstall_takes_its_folders_away(root, gudgeon, installed):
+    call(["python3", "-c", "import gudgeon"], env={**os.environ, "PYTHONPATH": str(installed / "share/gudgeon/python")})
     remove(root, gudgeon, installed)
     assert files_below(installed) == []
     assert not (installed / "share/gudgeon").exists() and not (installed / "share/doc/gudgeon").exists()

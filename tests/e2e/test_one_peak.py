@@ -8,7 +8,6 @@ import json
 import math
 import os
 import re
-import sys
 
 import numpy as np
 import pytest
@@ -27,11 +26,10 @@ FORCES = ("N", "N.m")
 
 @pytest.fixture
 def reader(root, monkeypatch):
-    monkeypatch.syspath_prepend(str(root / "scripts"))
-    sys.modules.pop("gudgeon_reader", None)
-    import gudgeon_reader
+    monkeypatch.syspath_prepend(str(root / "scripts/python"))
+    from gudgeon import reader
 
-    return gudgeon_reader
+    return reader
 
 
 def text_of_deck(path, analysis="dynamic", **output):

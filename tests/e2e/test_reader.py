@@ -1,4 +1,4 @@
-"""scripts/gudgeon_reader.py against run.h5 as h5py shows it, and the dimensions that other readers look up."""
+"""The reader of the Python package, gudgeon.reader, against run.h5 as h5py shows it, and the dimensions that other readers look up."""
 
 import csv
 import io
@@ -29,10 +29,10 @@ channels = ball.position ball.orientation stone.velocity
 
 @pytest.fixture
 def reader(root, monkeypatch):
-    monkeypatch.syspath_prepend(str(root / "scripts"))
-    import gudgeon_reader
+    monkeypatch.syspath_prepend(str(root / "scripts/python"))
+    from gudgeon import reader
 
-    return gudgeon_reader
+    return reader
 
 
 def test_channels_are_those_of_the_file(gudgeon, reader):

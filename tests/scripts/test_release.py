@@ -7,7 +7,7 @@ import pytest
 from conftest import ROOT
 from scripts_of_root import load
 
-FILES = ("CHANGELOG.md", "CITATION.cff", "docs/reference/verbs.md")
+FILES = ("CHANGELOG.md", "CITATION.cff", "docs/reference/verbs.md", "scripts/python/pyproject.toml")
 
 
 @pytest.fixture
@@ -24,6 +24,7 @@ def test_release_agrees(man_page):
 @pytest.mark.parametrize(("place", "old", "new"), [
     ("CHANGELOG.md", "## ", "## 9.9.9 (2000-01-01)\n\n## "), ("CITATION.cff", "version: ", "version: 9"),
     ("CITATION.cff", 'date-released: "', 'date-released: "1'), ("docs/reference/verbs.md", "Those of gudgeon ", "Those of gudgeon 9"),
+    ("scripts/python/pyproject.toml", 'version = "', 'version = "9'),
     ("CHANGELOG.md", "- ", f"- {'x' * 120}"),
 ])
 def test_a_difference_is_told(man_page, tmp_path, place, old, new):
