@@ -6,6 +6,8 @@ import re
 
 from docutils import nodes
 from latex2mathml.converter import convert
+from pygments.lexers import IniLexer
+from sphinx.highlighting import lexers
 
 project = "gudgeon"
 html_title = "gudgeon"
@@ -18,6 +20,7 @@ html_css_files = ["site.css"]
 html_math_renderer = "mathml"
 pygments_style = "default"
 highlight_language = "text"
+lexers["deck"] = IniLexer()  # sections, keys and comments of a deck look alike
 extensions = ["myst_parser"]
 myst_enable_extensions = ["dollarmath", "amsmath"]
 myst_heading_anchors = 4
