@@ -6,7 +6,7 @@ import re
 
 from docutils import nodes
 from latex2mathml.converter import convert
-from pygments.lexers import IniLexer
+from pygments.lexers import IniLexer, TextLexer
 from sphinx.highlighting import lexers
 
 project = "gudgeon"
@@ -21,6 +21,7 @@ html_math_renderer = "mathml"
 pygments_style = "default"
 highlight_language = "text"
 lexers["deck"] = IniLexer()  # sections, keys and comments of a deck look alike
+lexers["csv"] = TextLexer()
 extensions = ["myst_parser"]
 myst_enable_extensions = ["dollarmath", "amsmath"]
 myst_heading_anchors = 4

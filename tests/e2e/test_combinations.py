@@ -118,7 +118,7 @@ def test_deck(deck, everything, record_property):
             assert "no errors" in done.stdout, where
         elif verb == "explain":
             for word in ("model", "not used", "method", "defaults used"):
-                assert f"\n{word}\n" in done.stdout, where
+                assert re.search(rf"^{word}\b", done.stdout, re.M), where
         else:
             summary = done.run.summary
             assert summary["status"] == "complete", where

@@ -91,7 +91,7 @@ def test_what_is_no_number(gudgeon):
     assert {never[key] for key in ("least", "least_time", "greatest", "greatest_time", "mean", "rms")} == {None}
     assert_close([numbers["request.half.min"], numbers["request.half.max"], numbers["request.half.mean"]], [x[has].min(), x[has].max(), mean], 1e-12)
     assert {numbers[f"request.never.{word}"] for word in ("mean", "rms", "peak", "min", "max")} == {None}
-    assert "1 channels without values" in (directory / "out" / "summary.txt").read_text()
+    assert "1 channel without values" in (directory / "out" / "summary.txt").read_text()
 
 
 def test_extremes_of_rows(gudgeon):

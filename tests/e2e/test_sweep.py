@@ -499,7 +499,7 @@ def test_figures_of_a_sweep_with_missing_runs(gudgeon):
     assert "gnuplot" not in done.stdout + done.stderr
     script = (directory / "out" / "figures" / "bifurcation.motor.moment.gp").read_text()
     assert (directory / "out" / "figures" / "bifurcation.motor.moment.png").stat().st_size > 3000
-    assert "law hertz" in script and "lankarani" not in script
+    assert "law = hertz" in script and "lankarani" not in script
 
 
 @pytest.mark.parametrize(("values", "factor", "unit"), (("1000 .. 5000 rpm in 3", 60 / (2 * np.pi), "rpm"),

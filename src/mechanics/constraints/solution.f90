@@ -116,14 +116,19 @@ contains
       call self%solver%solve_damped(inverse_mass, rows, g, self%b, damping(k), n_refinement(k), self%a, self%lambda, self%bad_row)
       if (self%is_redundant .and. self%solver%left_over > left) call find_finer(self, inverse_mass, rows, g)
       if (self%bad_row == 0 .and. must_agree .and. (self%is_redundant .or. self%solver%is_iterative)) then
-         associate (weighted => abs(self%solver%residual(:rows%n_solve))*self%row_weight(:rows%n_solve))
-            if (.not. (self%solver%left_over <= contradiction .or. maxval(weighted) <= round_off*self%rate**2)) then
-               self%bad_row = maxloc(weighted, dim=1)
-            end if
-         end associate
+         if (.not. self%solver%left_over <= contradiction) self%bad_row = contradicting_row(self, rows%n_solve)
       end if
       if (self%bad_row > 0) status = 1
    end subroutine solution_find
+
+   !> The row with the maximum residual; 0 if that is round-off, as where all right-hand sides are.
+   pure integer function contradicting_row(self, n) result(row)
+      class(solution_t), intent(in) :: self   !! the solution
+      integer, intent(in) :: n                !! solved rows
+
+      row = max(1, maxloc(abs(self%solver%residual(:n))*self%row_weight(:n), dim=1))
+      if (abs(self%solver%residual(row))*self%row_weight(row) <= round_off*self%rate**2) row = 0
+   end function contradicting_row
 
    !> Accelerations of bodies that nothing holds.
    pure subroutine find_free(n, body, n_v, n_body, inverse_mass, g, a)
