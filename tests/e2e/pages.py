@@ -26,6 +26,7 @@ import tempfile
 ROOT = pathlib.Path(__file__).resolve().parent.parent.parent
 FOLDERS = ("docs/tutorials", "docs/how-to")
 PAGES = sorted(page for folder in FOLDERS for page in (ROOT / folder).glob("*.md") if page.name != "index.md")
+MOST_WORDS = 25  # of a sentence
 TOLERANCE = 0.02  # of a number in a line of output; digits that change from one processor or compiler to another are shown as `...`
 NUMBER = re.compile(r"(?<![\w.])[-+]?\d+(?:\.\d+)?(?:e[-+]?\d+)?(?!\w|\.\d)", re.I)
 
@@ -72,6 +73,16 @@ def fences(text):
 def prose(text):
     """A page without its fences."""
     return re.sub(r"^```[^\n`]*\n.*?^```$", "", text, flags=re.M | re.S)
+
+
+def long_sentences(text):
+    """Sentences of a page with more than MOST_WORDS words, headings and tables apart; a formula or code within a line is a word."""
+    text = re.sub(r"\$[^$\n]+\$", "formula", re.sub(r"\$\$.*?\$\$", "", prose(text), flags=re.S))
+    text = re.sub(r"`[^`]*`", "code", re.sub(r"^(?:\||#).*$", "", text, flags=re.M))
+    for block in re.split(r"\n\s*\n|\n(?=- |\d+\. )", re.sub(r"!?\[([^\]]*)\]\([^)]*\)", r"\1", text)):
+        for sentence in re.split(r"(?<=[.?!])\s+(?=\S)", " ".join(block.split())):
+            if len(sentence.split()) > MOST_WORDS:
+                yield sentence
 
 
 def pictures(text):

@@ -6,6 +6,7 @@ import re
 import subprocess
 
 import pytest
+from pages import prose
 
 OUTSIDE = re.compile(r"https?://|mailto:")
 
@@ -68,15 +69,10 @@ def pages_of(root):
     return [(page, page.read_text(encoding="utf-8")) for page in pages]
 
 
-def without_code(text):
-    """A page without its blocks of code."""
-    return re.sub(r"(?ms)^```.*?^```$", "", text)
-
-
 def anchors_of(text):
     """Anchors of the headings of a page, as forges and the site make them."""
     found = {}
-    for heading in re.findall(r"^#{1,6} (.*)$", without_code(text), re.M):
+    for heading in re.findall(r"^#{1,6} (.*)$", prose(text), re.M):
         words = re.sub(r"\[([^\]]*)\]\([^)]*\)", r"\1", heading).replace("`", "").strip().lower()
         name = re.sub(r"[^\w\- ]", "", words).replace(" ", "-")
         found[name] = found.get(name, -1) + 1
@@ -86,7 +82,7 @@ def anchors_of(text):
 def broken_links(root):
     """Links to a file that is not there, or to a heading that its page does not have."""
     for page, text in pages_of(root):
-        for target in re.findall(r"\]\(([^)\s]+)\)", re.sub(r"`[^`\n]*`", "", without_code(text))):
+        for target in re.findall(r"\]\(([^)\s]+)\)", re.sub(r"`[^`\n]*`", "", prose(text))):
             path, _, anchor = target.partition("#")
             there = pathlib.Path(os.path.normpath(page.parent / path)) if path else page
             if OUTSIDE.match(target):
@@ -147,6 +143,12 @@ def test_site(gudgeon, root, tmp_path):
         ), page.name
         assert html.count("<math") >= len(re.findall(r"^\$\$$", text, re.M)) // 2, page.name
     assert "joint.revolute" in (tmp_path / "site/searchindex.js").read_text(encoding="utf-8")
+
+
+def test_words_of_the_field(root):
+    """Pages, messages and names have no private words."""
+    done = subprocess.run([root / "scripts/check_words"], cwd=root, capture_output=True, text=True, check=False)
+    assert done.returncode == 0, done.stdout
 
 
 def test_paths(root):

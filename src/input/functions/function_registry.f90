@@ -1,4 +1,4 @@
-!> The kinds of named functions: two lines each (`use`, `case`).
+!> The kinds of named functions: two lines each (`use`, `case`), and their number.
 module function_registry
    use function_cam, only: function_cam_t
    use function_harmonic, only: function_harmonic_t

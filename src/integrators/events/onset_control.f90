@@ -9,10 +9,9 @@
 !> uncontrolled  the contact starts at the end of the step, however deep that is
 !>
 !> and the impact speed is the rate of penetration where the contact starts. A contact that starts at a penetration
-!> gets the energy of its spring for nothing: the residual of the energy ledger shows it, except for sets with `energy_jumps`, whose
-!> ledger books it as a loss below zero. Ends of contacts and all other
-!> events are located in every way. A contact that starts and ends within a step does not come about; that there was one is noted
-!> (`passed_onsets`).
+!> gets the energy of its spring for nothing. The residual of the energy ledger shows it, except for sets with `energy_jumps`: there
+!> the ledger has a negative loss. Separations and all other events are located in each of these. A contact that starts and ends
+!> within a step is left out and counted (`passed_onsets`).
 !>
 !> Signs: event functions of onsets are penetrations. Source: Flores et al. (2008), section 3.5, procedures 1 and 2, eqs.
 !> (3.18)-(3.24), corrected: the printed (3.20) has the wrong sign before the fraction, (3.22) and (3.23) the wrong one in the

@@ -1,4 +1,4 @@
-!> The integrators: two lines each (`use`, `case`).
+!> The integrators: two lines each (`use`, `case`), and their number.
 module integrator_registry
    use adams, only: adams_t
    use auto, only: auto_t

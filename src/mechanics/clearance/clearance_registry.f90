@@ -1,4 +1,4 @@
-!> The geometries of joints with clearance: two lines each (`use`, `case`).
+!> The geometries of joints with clearance: two lines each (`use`, `case`), and their number.
 module clearance_registry
    use clearance_ball, only: clearance_ball_t
    use clearance_balls, only: clearance_balls_t

@@ -23,7 +23,7 @@ module solution
    real(wp), parameter :: left = 1.0e-9_wp           !! residual of the rows, of the maximum term, that is small enough [1]
    real(wp), parameter :: better = 0.1_wp            !! part of the residual that a finer damping must leave, to be taken [1]
    real(wp), parameter :: contradiction = 1.0e-2_wp  !! residual of rows always dependent that is an error [1]
-   real(wp), parameter :: round_off = 1.0e-10_wp     !! no error: such a part of the square of the characteristic rate [1]
+   real(wp), parameter :: round_off = 1.0e-10_wp     !! residual that is round-off, over the square of the characteristic rate [1]
 
    !> The last solution, and how it is found.
    type :: solution_t
@@ -121,7 +121,7 @@ contains
       if (self%bad_row > 0) status = 1
    end subroutine solution_find
 
-   !> The row with the maximum residual; 0 if that is round-off, as where all right-hand sides are.
+   !> The row with the maximum residual; 0 if that is round-off, as it is where every right-hand side is round-off.
    pure integer function contradicting_row(self, n) result(row)
       class(solution_t), intent(in) :: self   !! the solution
       integer, intent(in) :: n                !! solved rows

@@ -1,4 +1,4 @@
-!> The ways of solving the augmented equations: two lines each (`use`, `case`).
+!> The ways of solving the augmented equations: two lines each (`use`, `case`), and their number.
 module solver_registry
    use augmented, only: augmented_t
    use augmented_complete, only: augmented_complete_t
@@ -12,7 +12,7 @@ module solver_registry
 
 contains
 
-   !> Number of ways.
+   !> Number of solvers.
    pure integer function n_solver_kinds()
       n_solver_kinds = 5
    end function n_solver_kinds

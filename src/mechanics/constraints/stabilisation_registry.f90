@@ -1,4 +1,4 @@
-!> The stabilisation methods: two lines each (`use`, `case`).
+!> The stabilisation methods: two lines each (`use`, `case`), and their number.
 module stabilisation_registry
    use stabilisation, only: stabilisation_t
    use stabilisation_augmented_lagrangian, only: stabilisation_augmented_lagrangian_t
@@ -15,7 +15,7 @@ module stabilisation_registry
 
 contains
 
-   !> Number of ways.
+   !> Number of stabilisation methods.
    pure integer function n_stabilisation_kinds()
       n_stabilisation_kinds = 7
    end function n_stabilisation_kinds

@@ -1,4 +1,4 @@
-!> The kinds of normal laws and of friction laws: two lines each (`use`, `case`).
+!> The kinds of normal laws and of friction laws: two lines each (`use`, `case`), and their number.
 module contact_registry
    use friction_ambrosio, only: friction_ambrosio_t
    use friction_brown_mcphee, only: friction_brown_mcphee_t

@@ -1,4 +1,4 @@
-!> The kinds of force elements: two lines each (`use`, `case`).
+!> The kinds of force elements: two lines each (`use`, `case`), and their number.
 module force_registry
    use force_point, only: force_point_t
    use force_set, only: force_set_t

@@ -1,4 +1,4 @@
-!> The kinds of ideal joints and drivers: two lines each (`use`, `case`).
+!> The kinds of ideal joints and drivers: two lines each (`use`, `case`), and their number.
 module joint_registry
    use driver_angle, only: driver_angle_t
    use driver_distance, only: driver_distance_t

@@ -1,4 +1,4 @@
-!> The kinds of films: two lines each (`use`, `case`).
+!> The kinds of films: two lines each (`use`, `case`), and their number.
 module film_registry
    use film_butenschoen, only: film_butenschoen_t
    use film_finite, only: film_finite_t

@@ -1,4 +1,4 @@
-!> What figures of curves draw: where the numbers of their channels stand in the files of the run, and how far these reach.
+!> What figures of curves draw: where the numbers of their channels stand in the files of the run, and their ranges.
 !>
 !> No row is kept: what a figure needs of each it reads from the file (`row_reader`), so that memory does not grow with the run.
 module drawn_rows
@@ -22,13 +22,13 @@ module drawn_rows
       integer :: series = 0                !! number of its course
    end type file_column_t
 
-   !> How far the numbers of a column reach, and how often they turn and fall.
+   !> Range of the numbers of a column, and how often they turn and fall.
    type :: course_t
       real(wp) :: range(2) = [huge(1.0_wp), -huge(1.0_wp)]  !! (2) minimum, maximum; without numbers reversed, SI [any]
       integer :: turns = 0                                  !! from rising to falling, or back
       integer :: falls = 0                                  !! from one number to the next
       real(wp), private :: before = huge(1.0_wp)            !! the number before; huge: nothing came before, SI [any]
-      integer, private :: way = 0                           !! 1: rising, -1: falling
+      integer, private :: direction = 0                     !! 1: rising, -1: falling
    end type course_t
 
    !> The rows.
@@ -107,7 +107,7 @@ contains
       end do
    end subroutine sample
 
-   !> One number more.
+   !> Take one more number of a column.
    pure subroutine follow(x, course)
       real(wp), intent(in) :: x                  !! the number, SI [any]
       type(course_t), intent(inout) :: course    !! of its column
@@ -115,9 +115,9 @@ contains
       if (ieee_is_nan(x)) return
       associate (before => course%before)
          if (before < huge(1.0_wp)) then
-            if ((x - before)*course%way < 0.0_wp) course%turns = course%turns + 1
+            if ((x - before)*course%direction < 0.0_wp) course%turns = course%turns + 1
             if (x < before) course%falls = course%falls + 1
-            if (x < before .or. x > before) course%way = merge(-1, 1, x < before)
+            if (x < before .or. x > before) course%direction = merge(-1, 1, x < before)
          end if
          course%range = [min(course%range(1), x), max(course%range(2), x)]
          before = x
@@ -150,7 +150,7 @@ contains
       do k = 0, size(self%scalars)
          associate (course => self%courses(k))
             call archive%put([course%range, course%before])
-            call archive%put([course%turns, course%falls, course%way])
+            call archive%put([course%turns, course%falls, course%direction])
          end associate
       end do
    end subroutine save_rows
@@ -170,7 +170,7 @@ contains
             call archive%get(course%before)
             call archive%get(course%turns)
             call archive%get(course%falls)
-            call archive%get(course%way)
+            call archive%get(course%direction)
          end associate
       end do
    end subroutine load_rows

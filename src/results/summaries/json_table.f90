@@ -1,7 +1,7 @@
-!> Writes tables to an object of JSON: facts as members, rows as a list of objects.
+!> Writes tables to an object of JSON: facts as members, rows as members or as a list of objects.
 module json_table
    use json_text, only: json_object_t
-   use result_table, only: in_json, result_column_t, result_table_t
+   use result_table, only: as_members, in_json, result_column_t, result_table_t
    use text, only: text_t
    implicit none (type, external)
    private
@@ -40,7 +40,7 @@ contains
       end do
    end subroutine put_tables
 
-   !> Add the facts of a table, and its rows in a list of its name.
+   !> Add the facts of a table, and its rows: as members, or in a list of its name.
    subroutine put_table(json, table, depth)
       type(json_object_t), intent(inout) :: json       !! grown
       type(result_table_t), intent(in) :: table        !! the table
@@ -50,7 +50,13 @@ contains
       integer :: k, row
 
       do k = 1, size(table%facts)
-         call put_value(json, table%facts(k), 1)
+         if (iand(table%facts(k)%formats, in_json) /= 0) call put_value(json, table%facts(k)%name, table%facts(k), 1)
+      end do
+      do k = 1, size(table%columns)
+         if (iand(table%columns(k)%formats, as_members) == 0) cycle
+         do row = 1, table%n
+            call put_value(json, table%columns(1)%texts(row)%s, table%columns(k), row)
+         end do
       end do
       if (all(iand(table%columns%formats, in_json) == 0)) return
       allocate (objects(min(table%n, table%most_in_json)))
@@ -60,7 +66,9 @@ contains
 
             call one%start(depth + 1)
             do k = 1, size(table%columns)
-               call put_value(one, table%columns(k), row)
+               associate (column => table%columns(k))
+                  if (iand(column%formats, in_json) /= 0) call put_value(one, column%name, column, row)
+               end associate
             end do
             objects(row)%s = one%get()
          end block
@@ -69,23 +77,23 @@ contains
    end subroutine put_table
 
    !> Add a value of a column; one with parts has a member for each.
-   subroutine put_value(json, column, row)
+   subroutine put_value(json, name, column, row)
       type(json_object_t), intent(inout) :: json       !! grown
+      character(*), intent(in) :: name                 !! of a value without parts
       type(result_column_t), intent(in) :: column      !! the column
       integer, intent(in) :: row                       !! row of the value
 
       integer :: k
 
-      if (iand(column%formats, in_json) == 0) return
-      if (allocated(column%texts)) call json%put_text(column%name, column%texts(row)%s)
-      if (allocated(column%integers)) call json%put_integer(column%name, column%integers(row))
-      if (allocated(column%logicals)) call json%put_logical(column%name, column%logicals(row))
+      if (allocated(column%texts)) call json%put_text(name, column%texts(row)%s)
+      if (allocated(column%integers)) call json%put_integer(name, column%integers(row))
+      if (allocated(column%logicals)) call json%put_logical(name, column%logicals(row))
       if (allocated(column%parts)) then
          do k = 1, size(column%parts)
             call json%put_real(column%parts(k)%s, column%reals((row - 1)*size(column%parts) + k))
          end do
       else if (allocated(column%reals)) then
-         call json%put_real(column%name, column%reals(row))
+         call json%put_real(name, column%reals(row))
       end if
    end subroutine put_value
 

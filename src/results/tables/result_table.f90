@@ -11,7 +11,8 @@ module result_table
    use text, only: split_blank, text_t
    implicit none (type, external)
    private
-   public :: in_all, in_csv, in_hdf5, in_json, in_text_files, name_with_unit, only_shown, result_column_t, result_table_t
+   public :: as_members, in_all, in_csv, in_hdf5, in_json, in_text_files, only_shown
+   public :: name_with_unit, result_column_t, result_table_t
 
    integer, parameter :: in_hdf5 = 1                    !! written in HDF5 files
    integer, parameter :: in_json = 2                    !! in JSON
@@ -19,6 +20,7 @@ module result_table
    integer, parameter :: in_text_files = in_json + in_csv   !! in both
    integer, parameter :: in_all = in_hdf5 + in_text_files   !! in all files for programs
    integer, parameter :: only_shown = 0                 !! for people only
+   integer, parameter :: as_members = 8                 !! in JSON each value is a member, named by the first column
 
    !> A column, or a fact: a column of one row. Only the list of its type is allocated.
    type :: result_column_t
@@ -63,7 +65,6 @@ module result_table
    contains
       procedure :: start
       procedure :: fact
-      procedure :: real_facts
       procedure :: put
       procedure :: section
    end type result_table_t
@@ -119,27 +120,6 @@ contains
       end select
       self%facts = [self%facts, one]
    end subroutine fact
-
-   !> Append facts, all at once: their number is not bounded.
-   subroutine real_facts(self, names, values, formats)
-      class(result_table_t), intent(inout) :: self      !! the table
-      type(text_t), intent(in) :: names(:)              !! (m) in all formats
-      real(wp), intent(in) :: values(:)                 !! (m) values, SI; NaN: missing [any]
-      integer, intent(in) :: formats                    !! which formats have them
-
-      type(result_column_t), allocatable :: facts(:)
-      integer :: k
-
-      associate (n => size(self%facts))
-         allocate (facts(n + size(names)))
-         facts(:n) = self%facts
-         do k = 1, size(names)
-            facts(n + k) = new_column(names(k)%s, "1", "", formats=formats)
-            facts(n + k)%reals = values(k:k)
-         end do
-      end associate
-      call move_alloc(facts, self%facts)
-   end subroutine real_facts
 
    !> Append a column, with values of one type.
    subroutine put(self, name, unit, help, reals, integers, counts, texts, logicals, dataset, formats, shape, parts, heading, &

@@ -5,7 +5,7 @@ module statistics_tables
    use contact_statistics, only: histogram, joint_statistics_t, joints_of, statistics_of_joints
    use event_list, only: event_list_t
    use kinds, only: wp
-   use result_table, only: in_hdf5, in_json, result_table_t
+   use result_table, only: as_members, in_hdf5, result_table_t
    use statistics, only: number_t, statistics_t
    use text, only: join, real_text, text_t
    implicit none (type, external)
@@ -53,11 +53,10 @@ contains
          names(k)%s = numbers(k)%name
          table%units(k)%s = numbers(k)%unit
       end do
-      call table%real_facts(names, numbers%value, in_json)
       call table%put("names", "1", "names of the statistics", texts=names, formats=in_hdf5, heading="statistic")
       call table%put("units", "1", "their units", texts=table%units, formats=in_hdf5)
-      call table%put("values", "rows", "statistics after the transient", numbers%value, formats=in_hdf5, &
-                     heading="value", digits=9)
+      call table%put("values", "rows", "statistics after the transient", numbers%value, &
+                     formats=in_hdf5 + as_members, heading="value", digits=9)
    end function table_of_numbers
 
    !> Names of what the values of another table belong to.
