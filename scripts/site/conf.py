@@ -6,7 +6,9 @@ import re
 
 from docutils import nodes
 from latex2mathml.converter import convert
-from pygments.lexers import IniLexer, TextLexer
+from pygments.lexer import RegexLexer
+from pygments.lexers import TextLexer
+from pygments.token import Comment, Keyword, String, Text
 from sphinx.highlighting import lexers
 
 project = "gudgeon"
@@ -20,13 +22,20 @@ html_css_files = ["site.css"]
 html_math_renderer = "mathml"
 pygments_style = "default"
 highlight_language = "text"
-lexers["deck"] = IniLexer()  # sections, keys and comments of a deck look alike
-lexers["csv"] = TextLexer()
 extensions = ["myst_parser"]
 myst_enable_extensions = ["dollarmath", "amsmath"]
 myst_heading_anchors = 4
 suppress_warnings = ["myst.header"]
 root_doc = "index"
+
+
+class DeckLexer(RegexLexer):
+    """Comments, sections and texts of a deck."""
+
+    tokens = {"root": [(r"#.*", Comment), (r"^\[[\w.]+\]", Keyword), (r'"[^"]*"', String), (r"[^\s#\"\[]+|\s+|.", Text)]}
+
+
+lexers["deck"], lexers["csv"] = DeckLexer(), TextLexer()
 
 PARTS = ("tutorials", "how-to", "reference", "theory", "developer")
 

@@ -1,4 +1,4 @@
-!> Joints with clearance of a scene: loose ones sorted into sets that share geometry and laws, ideal ones as ideal joints.
+!> Joints with clearance of a scene: sorted into sets that share geometry and laws; those that are ideal become ideal joints.
 !>
 !> Rows that say `level = ideal`, or all of them in the reference run with ideal joints, become the joint that their geometry is
 !> without clearance; a geometry that is none keeps its contact.
@@ -29,11 +29,11 @@ module build_clearances
 
    integer, parameter :: levels_as_written = 0  !! every joint with clearance as its row says
    integer, parameter :: levels_ideal = 1       !! every one ideal: the reference run with ideal joints
-   integer, parameter :: levels_clearance_joints = 2       !! every one loose: all that a deck can have words for
+   integer, parameter :: levels_clearance_joints = 2       !! all with clearance: all that a deck can have words for
 
 contains
 
-   !> Joints with clearance: sets of loose ones that share geometry and laws, and sets of ideal ones, one per kind of joint.
+   !> Joints with clearance: sets that share geometry and laws, and sets of those that are ideal, one per type of joint.
    subroutine add_clearances(scene, levels, angle, is_driven, system)
       type(scene_t), intent(in) :: scene              !! the scene
       integer, intent(in) :: levels                   !! how they are taken, one of the above

@@ -50,9 +50,9 @@ module drawing
       real(wp) :: axis(3) = 0.0_wp          !! (3) of a slide; normal of a plane; own frame of i, zero: none [1]
       real(wp) :: radius = 0.0_wp           !! of a bearing: of its hole; 0: not known [m]
       real(wp) :: clearance = 0.0_wp        !! of a bearing: radial clearance [m]
-      real(wp) :: gaps(2) = 0.0_wp          !! (2) of a loose slide: on the side of R90 axis, and on the other; 0: not loose [m]
+      real(wp) :: gaps(2) = 0.0_wp          !! (2) of a slide with clearance: on the side of R90 axis, and on the other; 0: none [m]
       real(wp) :: sides(2) = 0.0_wp         !! (2) of a slide: half length and height of what slides; 0: as its shapes [m]
-      real(wp) :: half_length = 0.0_wp      !! of a loose slide: of what slides [m]
+      real(wp) :: half_length = 0.0_wp      !! of a slide with clearance: of what slides [m]
       real(wp) :: axis_j(3) = 0.0_wp        !! (3) of a loose slide: direction of its length, own frame of j [1]
    end type mark_t
 

@@ -1,4 +1,4 @@
-!> A translational joint with clearance in space: a block of body j loose in a straight guide of rectangular section of body i.
+!> A translational joint with clearance in space: a block of body j in a straight guide of rectangular section of body i.
 !>
 !> The guide's line goes through its point along z, its four surfaces lie on both sides of it along x and y, at half the
 !> block's width (x) and height (y) plus the gap. The block has the same axes in body j where the deck puts the bodies, and is

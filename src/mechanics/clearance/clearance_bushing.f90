@@ -1,4 +1,4 @@
-!> A revolute joint with clearance in space: a pin of body j loose in a bushing of body i, with a contact at each of its two bases,
+!> A revolute joint with clearance in space: a pin of body j in a bushing of body i, with a contact at each of its two bases,
 !> a film, or both.
 !>
 !> Equations: `socket_contacts`; forces: `point_contacts`; films: `socket_films`. The bases are half of `journal_length` either side

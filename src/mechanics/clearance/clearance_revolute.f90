@@ -1,4 +1,4 @@
-!> Planar: a revolute joint with clearance, a journal (pin) of body j loose in a bearing (hole) of body i.
+!> Planar: a revolute joint with clearance, a journal (pin) of body j in a bearing (hole) of body i.
 !>
 !> Equations: `round_contacts`; forces: `point_contacts`; films: `bearing_films`. The law is fitted to an internal contact of radii
 !> R and R - c. `level` says what there is between the surfaces: dry contact (`clearance`), a film that holds them apart

@@ -1,4 +1,4 @@
-!> A spherical joint with clearance: a ball of body j loose in a socket of body i, in space: dry contact, a film, or both.
+!> A spherical joint with clearance: a ball of body j in a socket of body i, in space: dry contact, a film, or both.
 !>
 !> Equations: `socket_contacts`, `socket_films`; forces: `point_contacts`. The law is fitted to an internal contact of radii R and R
 !> - c.

@@ -1,4 +1,4 @@
-!> A thrust bearing with clearance in space: two collars of body j, loose between the faces of a bearing of body i.
+!> A thrust bearing with clearance in space: two collars of body j between the faces of a bearing of body i.
 !>
 !> The faces of the bearing are across its axis z, half of `length` either side of its point. The collars are beyond them, so that
 !> each has the clearance `gap` where the pin's point is in the middle. Face and collar meet on a circle of `face_radius` about

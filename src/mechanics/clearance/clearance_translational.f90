@@ -1,4 +1,4 @@
-!> Planar: a translational joint with clearance, a slider of body j loose between two straight surfaces of body i.
+!> Planar: a translational joint with clearance, a slider of body j between two straight surfaces of body i.
 !>
 !> The guide's line goes through its point P along the unit axis s, fixed in body i; its surfaces lie on both sides of it, at
 !> half the slider's height plus the gap of the side: upper along R90 s (normal n = R90 s, into the material), lower against it

@@ -1,4 +1,4 @@
-!> A ball of body j loose in a socket of body i or beside a ball of it, or a pin with round bases loose in a bushing, in space.
+!> A ball of body j in a socket of body i or beside a ball of it, or a pin with round bases in a bushing, in space.
 !>
 !> With rho = r_j^P - r_i^P the place of a ball, or of a base of the pin, as body i sees it, and u the bushing's axis:
 !>

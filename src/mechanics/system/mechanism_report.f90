@@ -141,7 +141,7 @@ contains
       end do
    end subroutine report_energy
 
-   !> Values of the joints with clearance that are taken as ideal; they stand behind the loose ones.
+   !> Values of the joints with clearance that are taken as ideal; they stand behind the others.
    subroutine report_ideal(system, readings, values)
       class(mechanism_t), intent(in) :: system     !! the system
       type(readings_t), intent(in) :: readings(:)  !! (sets) what is read of them

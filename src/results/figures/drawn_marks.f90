@@ -78,7 +78,7 @@ contains
       call add_mark(drawing, mark)
    end subroutine add_load
 
-   !> Sides of what slides in a guide, gaps and direction of one that is loose.
+   !> Sides of what slides in a guide, gaps and direction of one with clearance.
    subroutine measure_slide(scene, item, tie, mark)
       type(scene_t), intent(in) :: scene         !! the scene
       type(item_t), intent(in) :: item           !! the row

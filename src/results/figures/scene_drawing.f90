@@ -2,8 +2,8 @@
 !>
 !> A body has the rows of [shapes] that name it. One without is drawn by the points that it carries (`body_outline`). Columns
 !> `radius`, `radius_i` and `radius_j` of a row that ties two points are circles about them, of discs and gears, in space across
-!> their axes (`drawn_axes`); of clearance joints in space they are balls. What slides in a loose guide is the block of its row, and
-!> only where it has points beyond it drawn by them too. Joints and forces are marks (`drawn_marks`).
+!> their axes (`drawn_axes`); of clearance joints in space they are balls. What slides in a guide with clearance is the block of its
+!> row; its points are drawn only where they lie beyond the block. Joints and forces are marks (`drawn_marks`).
 module scene_drawing
    use body_outline, only: distinct_points, outline, same_place
    use drawing, only: add_part, drawing_t, part_t, round_part
@@ -120,7 +120,7 @@ contains
       end do
    end subroutine add_rounds
 
-   !> Blocks of loose guides, as their rows have them; a body whose points all are in one block needs no other outline.
+   !> Blocks in guides with clearance, as their rows have them; a body whose points all are in one block needs no other outline.
    subroutine add_blocks(scene, has_shape, drawing, has_part)
       type(scene_t), intent(in) :: scene            !! the scene
       logical, intent(in) :: has_shape(0:)          !! (0:bodies) whether rows of [shapes] say how a body looks

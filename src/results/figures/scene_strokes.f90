@@ -1,7 +1,8 @@
 !> A mechanism as strokes in a picture: bodies, joints by their symbols, clearance joints magnified, forces as arrows.
 !>
-!> Each style has lines `x y colour` for gnuplot, polylines apart by a blank line. A loose round joint is a bearing with a journal
-!> in it, larger than a pin; the eccentricity is magnified by one factor for all, so that the largest clearance fills the symbol.
+!> Each style has lines `x y colour` for gnuplot, polylines apart by a blank line. A round joint with clearance is a bearing with a
+!> journal in it, larger than a pin; the eccentricity is magnified by one factor for all, so that the largest clearance fills the
+!> symbol.
 !> The ground is hatched where joints stand on it.
 module scene_strokes
    use drawing, only: drawing_t, in_files, mark_bearing, mark_damper, mark_link, mark_pin, mark_plane, mark_slide, &
@@ -42,7 +43,7 @@ module scene_strokes
    type :: symbols_t
       real(wp) :: size = 1.0_wp                   !! of the scene [m]
       real(wp) :: scale = 1.0_wp                  !! numbers of the picture over lengths [any/m]
-      real(wp) :: magnified = 0.0_wp              !! factor of eccentricities; 0: no loose round joints [1]
+      real(wp) :: magnified = 0.0_wp              !! factor of eccentricities; 0: no round joints with clearance [1]
       real(wp) :: force = 0.0_wp                  !! force of the longest arrow; 0: there are none [N]
       real(wp), allocatable :: ways(:, :)         !! (2, marks) of slides: minimum and maximum place of j along the axis [m]
       real(wp), allocatable :: walls(:, :)        !! (2, marks) of slides: from the guide's line to its walls, as `gaps` [m]
