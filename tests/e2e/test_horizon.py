@@ -137,8 +137,8 @@ def test_driven_pendulum(gudgeon):
         text = PENDULUM.format(damping=0.6393, torque=torque, omega=omega, end=end)
         summary = study(gudgeon, text, exponent_instants=1600)
         assert_same_exponents(summary)
-        times, growth = pendulum_growth(0.6393, torque, omega, end, 400)
-        first = 100
+        times, growth = pendulum_growth(0.6393, torque, omega, end, 416)
+        first = 104
         slopes = np.array([np.polyfit(t, g, 1)[0] for t, g in zip(np.split(times[first:-1], 8), np.split(growth[first:-1], 8))])
         rate, half = slopes.mean(), 2.365 * slopes.std(ddof=1) / math.sqrt(8)
         assert abs(summary["exponent"] - rate) <= summary["exponent_interval"] + half, torque
