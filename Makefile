@@ -44,7 +44,7 @@ inner = +@$(MAKE) $(parallel) MODE=
 # Tests on all processors where pytest-xdist is there, each file of tests on one of them; PYTEST='-n 0' for one after the other
 workers = $(if $(shell $(PYTHON) -c 'import xdist' 2>/dev/null && echo yes),-p xdist -n $(JOBS) --dist loadfile)
 
-.PHONY: all install uninstall wheel debug run quick test mutate release test-sanitize test-debian check bench bench-peers new-kind-test vtk-test browser-test slurm-test stability certify fuzz figures studies film-table film-errors lint format docs clean help
+.PHONY: all install uninstall wheel debug run quick test mutate release test-sanitize test-debian check bench bench-peers new-kind-test vtk-test browser-test slurm-test stability certify release_for_tests debug_for_tests fuzz figures studies film-table film-errors lint format docs clean help
 .PHONY: objects binary test_program bench_programs fuzz_program film_programs
 
 all:
@@ -69,9 +69,12 @@ quick:
 
 test:
 	@scripts/setup
-	$(inner)release binary test_program fuzz_program
-	$(inner)debug binary test_program fuzz_program
+	+@$(MAKE) $(parallel) release_for_tests debug_for_tests
 	$(pytest) --durations=15 $(PYTEST) tests
+
+# Both builds at once: while one waits for a long source or links, the other has work for all processors
+release_for_tests debug_for_tests:
+	+@$(MAKE) MODE=$(@:_for_tests=) binary test_program fuzz_program
 
 # Changes one operator, constant or condition of src at a time and counts the tests that notice; N, SEED, DIR=src/math
 SEED ?= 1

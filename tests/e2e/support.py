@@ -195,6 +195,43 @@ def run_with(program, text, **settings):
     return Run(directory / "out")
 
 
+class WrittenRun:
+    """A run of a deck whose writes to one of its files are counted (end_at_write.c), and what a SIGKILL before any of them leaves."""
+
+    def __init__(self, program, deck, place, name):
+        self.place = place
+        self.name = name
+        self.command = [str(program), "run", str(deck), "--quiet", "--out"]
+        self.shim = place / "end_at_write.so"
+        source = ROOT / "tests" / "e2e" / "end_at_write.c"
+        subprocess.run([os.environ.get("CC", "cc"), "-shared", "-fPIC", f'-DNAME="{name}"', "-o", self.shim, source, "-ldl"], check=True)
+        self.told = self._run("whole")
+        self.writes = self.told.count(f"write to {name}")
+        self.whole = place / "whole" / name
+
+    def _run(self, out, expect=0, **how):
+        env = {**os.environ, "LD_PRELOAD": str(self.shim), **how}
+        done = subprocess.run([*self.command, self.place / out], env=env, capture_output=True, text=True, timeout=LIMIT)
+        assert done.returncode == expect, done
+        return done.stderr
+
+    def left_by_kills(self, places):
+        """(n, file) for writes in order: the file as it is before the n-th write. A second run copies it there: what the system has of
+        it is what stays when the process is killed. At the first, the middle and the last one another run is killed indeed, and must
+        have left as many bytes."""
+        copies = self.place / "copies"
+        copies.mkdir()
+        self._run("copied", GUDGEON_COPY_AT=",".join(map(str, places)), GUDGEON_COPIES=str(copies))
+        assert sorted(int(path.name) for path in copies.iterdir()) == list(places)
+        for n in places:
+            if n in (places[0], places[len(places) // 2], places[-1]):
+                self._run("killed", -signal.SIGKILL, GUDGEON_KILL_AT=str(n))
+                left = self.place / "killed" / self.name
+                assert left.stat().st_size == (copies / str(n)).stat().st_size
+                yield n, left
+            yield n, copies / str(n)
+
+
 def split_row(row):
     """The cells of a row; a quoted text is one cell."""
     return [quoted or word for quoted, word in re.findall(r'"([^"]*)"|(\S+)', row)]

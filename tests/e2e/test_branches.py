@@ -36,7 +36,7 @@ def rotations(rows):
                                  [2 * (x * z - w * y), 2 * (y * z + w * x), 1 - 2 * (x * x + y * y)]]), 2, 0)
 
 
-def free_on_constant_velocity(inertia, spin, times, h=2e-4):
+def free_on_constant_velocity(inertia, spin, times, h=1e-3):
     """Euler parameters of a body that a joint of e_3 = 0 holds at its centre of mass, without loads: Euler's equations with the moment
     that keeps n . w = 2 e_3' = 0, n = (-e_2, e_1, e_0) in the body, by the classical method of Runge and Kutta."""
     def rate(state):

@@ -1,7 +1,7 @@
 """Every deck of inputs/ through check, explain and a shortened run, as it is and with --ideal, in the build with run-time checks.
 
 Decks are found by themselves. A run is that of a copy which says what is different: a twentieth of the motion, fewer output
-instants, statistics of every channel with a period, and more figures: a time history, a spectrum, a section.
+instants and pictures of an animation, statistics of every channel with a period, and more figures: a time history, a spectrum, a section.
 Every call ends with exit code 0 and its own words: decks of inputs/ are right, and none has a mechanism that --ideal stops.
 """
 
@@ -19,6 +19,7 @@ FOLDERS = ("inputs", "inputs/hard", "inputs/studies")
 DECKS = sorted(path for folder in FOLDERS for path in (ROOT / folder).glob("*.deck"))
 PART = 20  # of the motion that is run
 INSTANTS = 25  # of output
+FRAMES = 8  # of an animation
 PERIODS = 4  # of the statistics
 PICTURES = (b"\x89PNG", b"GIF89a", b"<!DOCTYPE html>")  # how figures, animations and their pages begin
 CRASH = re.compile(r"Backtrace|runtime error|Program received signal|SIG[A-Z]{3}|internal mistake", re.IGNORECASE)
@@ -46,6 +47,7 @@ def shortened(deck, analysis, end):
     body = first_body(text_of(deck))
     figures = re.sub(r"\(t=([\d.]+)", lambda found: f"(t={float(found.group(1)) / PART:.17g}", own[-1].strip() if own else "")
     figures = f"{figures} {body}.velocity"
+    figures = re.sub(r"\banimation\b(?!\()", f"animation(n={FRAMES})", figures)
     if analysis == "dynamic":
         figures += f" spectrum({body}.velocity.x) section({body}.velocity.x,{body}.velocity.y)"
     settings = {"output": {"every": every, "from": "0 s", "last": "0 s", "figures": figures, "motion": "vtkhdf"}}

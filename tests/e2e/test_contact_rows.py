@@ -16,9 +16,12 @@ FOLDERS = ("inputs", "inputs/hard", "inputs/studies")
 STEP = {"inputs/hard/dropped_ball.deck": "10 us", "inputs/bouncing_ball.deck": "10 us"}  # of rk4; others take 1 us
 END = {  # of motions that are long; others run as they are
     "inputs/bouncing_ball.deck": "0.65 s",
+    "inputs/crosshead.deck": "0.02 s",
+    "inputs/double_pendulum.deck": "0.5 s",
+    "inputs/four_bar_spatial.deck": "0.3 s",
     "inputs/friction.deck": "0.05 s",
     "inputs/incline.deck": "0.05 s",
-    "inputs/shaken_pendulum.deck": "0.5 s",
+    "inputs/shaken_pendulum.deck": "0.05 s",
     "inputs/hard/dropped_ball.deck": "0.8 s",
     "inputs/hard/pin_at_rest.deck": "0.03 s",
     "inputs/hard/wedged_slider.deck": "5 ms",
@@ -36,13 +39,14 @@ DECKS = [
 
 
 def shortened(deck, method):
-    """A deck's text for a short motion by a method, without figures, every channel written."""
+    """A deck's text for a short motion by a method, without figures (one, where those of an included deck would come), every channel written."""
     name = str(deck.relative_to(ROOT))
     text = re.sub(r'(?m)^(\s*include\s+)"([^"]+)"', lambda found: f'{found.group(1)}"{deck.parent / found.group(2)}"', deck.read_text())
     end = END.get(name)
-    if "slider_crank" in text:
-        end = "4 ms"
     settings = {"analysis.dynamic": {"method": method, "end": end}, "output": {"figures": "", "channels": "*", "from": "0 s"}}
+    if "slider_crank" in text:
+        end = settings["analysis.dynamic"]["end"] = "4 ms"
+        settings["output"]["every"] = "20 us"
     if method == "rk4":
         settings["analysis.dynamic"]["step"] = STEP.get(name, "1 us")
     if end is None:
@@ -53,7 +57,7 @@ def shortened(deck, method):
         if not re.search(rf"(?m)^\s*\[{re.escape(section)}\]", text):
             text += f"\n[{section}]\n"
         text = changed(text, section, **keys)
-    return changed(text, "output", figures=None)
+    return changed(text, "output", figures="slider.velocity" if "include " in text else None)
 
 
 def run_of(program, text, *options):

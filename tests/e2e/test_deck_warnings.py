@@ -4,7 +4,7 @@ import json
 import re
 
 import pytest
-from support import ROOT, call, scratch
+from support import ROOT, call, changed, scratch, written
 
 DECKS = sorted(str(path.relative_to(ROOT)) for path in (ROOT / "inputs").rglob("*.deck"))
 ROWS = [[cell.strip() for cell in line.strip("|\n ").split("|")] for line in (ROOT / "docs/reference/warnings.md").read_text().splitlines()
@@ -22,13 +22,20 @@ def test_rows_name_decks():
         assert deck.strip("`") in DECKS and len(warning) > 10 and len(what) > 10
 
 
-@pytest.mark.slow
+def with_fewer_members(path):
+    """A deck whose cases have two members each, which differ by 1 nm: there are sixteen for their statistics' sake."""
+    text = re.sub(r'(?m)^(\s*include\s+)"([^"]+)"', lambda found: f'{found.group(1)}"{path.parent / found.group(2)}"', path.read_text())
+    return written(scratch(), changed(text, "ensemble", runs=2))
+
+
 @pytest.mark.parametrize("deck", DECKS)
 def test_warnings(gudgeon, deck):
-    """The warnings of a deck's run, or sweep, are those of the table."""
+    """The warnings of a deck's run, or sweep of all cases, are those of the table."""
     out = scratch() / "out"
-    options = ("sweep",) if "studies/" in deck else ("run", "--write", "channels")
-    call(gudgeon, options[0], ROOT / deck, "--out", out, *options[1:], "--quiet", expect=5 if "dead_point" in deck else 0)
+    if "studies/" in deck:
+        call(gudgeon, "sweep", with_fewer_members(ROOT / deck), "--out", out, "--quiet")
+    else:
+        call(gudgeon, "run", ROOT / deck, "--out", out, "--write", "channels", "--quiet", expect=5 if "dead_point" in deck else 0)
     told = [words for words in json.loads((out / "summary.json").read_text())["warnings"] if "omitted: --write" not in words]
     rows = [pattern(warning) for name, warning, _ in ROWS if name.strip("`") == deck]
     for words in told:

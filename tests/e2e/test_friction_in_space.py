@@ -1,5 +1,7 @@
 """Friction that remembers, in space: against the plane, and against independent integrations of a pin that turns and slides."""
 
+import functools
+
 import numpy as np
 import pytest
 from scipy.integrate import solve_ivp
@@ -79,6 +81,7 @@ def sliding_rates(t, v, friction):
     return (load(t) + friction) / np.array([MASS, INERTIA / ARM**2])
 
 
+@functools.lru_cache(maxsize=None)
 def phases(sliding, static, end):
     """Times at which the pin begins to slide and comes to rest, by Coulomb's law for a vector; and its velocity at the end."""
     times, t, v = [], 0.0, np.zeros(2)

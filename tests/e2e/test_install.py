@@ -6,6 +6,7 @@ import shutil
 import subprocess
 
 import pytest
+from conftest import ROOT, built, directory_of
 
 SLIDER_CRANK = "share/gudgeon/decks/slider_crank_dry.deck"
 
@@ -20,9 +21,17 @@ def files_below(folder):
     return sorted(str(path.relative_to(folder)) for path in folder.rglob("*") if not path.is_dir())
 
 
+@pytest.fixture(scope="module")
+def installed(tmp_path_factory):
+    """A prefix below a DESTDIR that the release build was installed to, for all tests that change nothing there."""
+    place = tmp_path_factory.mktemp("dest")
+    call([ROOT / "scripts/install", built(directory_of("release") / "gudgeon"), "/opt/mine", place])
+    return place / "opt/mine"
+
+
 @pytest.fixture
-def installed(root, gudgeon, tmp_path):
-    """A prefix below a DESTDIR that the release build was installed to."""
+def installed_to_change(root, gudgeon, tmp_path):
+    """Another one, of one test."""
     call([root / "scripts/install", gudgeon, "/opt/mine", tmp_path / "dest"])
     return tmp_path / "dest/opt/mine"
 
@@ -62,39 +71,39 @@ def test_the_installed_program_works_from_anywhere(installed, tmp_path):
     call([program, "check", installed / "share/gudgeon/decks/valve_train.deck"], cwd=elsewhere)
 
 
-def test_uninstall_leaves_nothing_of_ours_and_all_that_is_not(root, gudgeon, installed):
-    mine = installed / "share/gudgeon/decks/my.deck"
+def test_uninstall_leaves_nothing_of_ours_and_all_that_is_not(root, gudgeon, installed_to_change):
+    mine = installed_to_change / "share/gudgeon/decks/my.deck"
     mine.write_text("deck = 1\n")
-    other = installed / "bin/other"
+    other = installed_to_change / "bin/other"
     other.write_text("#!/bin/sh\n")
-    assert "is kept" in remove(root, gudgeon, installed)
-    assert files_below(installed) == ["bin/other", "share/gudgeon/decks/my.deck"]
+    assert "is kept" in remove(root, gudgeon, installed_to_change)
+    assert files_below(installed_to_change) == ["bin/other", "share/gudgeon/decks/my.deck"]
     mine.unlink()
-    remove(root, gudgeon, installed, expect=9)
+    remove(root, gudgeon, installed_to_change, expect=9)
 
 
-def test_uninstall_takes_its_folders_away(root, gudgeon, installed):
-    call(["python3", "-c", "import gudgeon"], env={**os.environ, "PYTHONPATH": str(installed / "share/gudgeon/python")})
-    remove(root, gudgeon, installed)
-    assert files_below(installed) == []
-    assert not (installed / "share/gudgeon").exists() and not (installed / "share/doc/gudgeon").exists()
+def test_uninstall_takes_its_folders_away(root, gudgeon, installed_to_change):
+    call(["python3", "-c", "import gudgeon"], env={**os.environ, "PYTHONPATH": str(installed_to_change / "share/gudgeon/python")})
+    remove(root, gudgeon, installed_to_change)
+    assert files_below(installed_to_change) == []
+    assert not (installed_to_change / "share/gudgeon").exists() and not (installed_to_change / "share/doc/gudgeon").exists()
 
 
-def test_installing_again_drops_what_is_gone(root, gudgeon, installed):
-    gone = installed / "share/gudgeon/decks/of_an_earlier_version.deck"
+def test_installing_again_drops_what_is_gone(root, gudgeon, installed_to_change):
+    gone = installed_to_change / "share/gudgeon/decks/of_an_earlier_version.deck"
     gone.write_text("deck = 1\n")
-    with open(installed / "share/gudgeon/installed", "a", encoding="utf-8") as listing:
+    with open(installed_to_change / "share/gudgeon/installed", "a", encoding="utf-8") as listing:
         listing.write("share/gudgeon/decks/of_an_earlier_version.deck\n")
-    call([root / "scripts/install", gudgeon, "/opt/mine", installed.parents[1]])
+    call([root / "scripts/install", gudgeon, "/opt/mine", installed_to_change.parents[1]])
     assert not gone.exists()
-    assert (installed / SLIDER_CRANK).exists()
+    assert (installed_to_change / SLIDER_CRANK).exists()
 
 
-def test_a_listing_that_leads_elsewhere_is_refused(root, gudgeon, installed, tmp_path):
+def test_a_listing_that_leads_elsewhere_is_refused(root, gudgeon, installed_to_change, tmp_path):
     precious = tmp_path / "dest/opt/precious"
     precious.write_text("kept\n")
-    (installed / "share/gudgeon/installed").write_text("../precious\n")
-    remove(root, gudgeon, installed, expect=9)
+    (installed_to_change / "share/gudgeon/installed").write_text("../precious\n")
+    remove(root, gudgeon, installed_to_change, expect=9)
     assert precious.exists()
 
 

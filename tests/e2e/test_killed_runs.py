@@ -8,7 +8,7 @@ import time
 import h5py
 import numpy as np
 import pytest
-from support import ROOT, plain, plain_deck
+from support import WrittenRun, plain, plain_deck
 
 
 def histories(path):
@@ -62,33 +62,22 @@ def test_a_run_killed_at_any_write(gudgeon, tmp_path, condition):
     """A SIGKILL before any of the writes to run.h5, from the first flush to the last one of the end, leaves a file that can be read
     and has the rows of the same run without a kill: as many as /time says, or more of the last block. A run that a condition ends has a
     message besides, written where an empty one was."""
-    shim = tmp_path / "end_at_write.so"
-    source = ROOT / "tests" / "e2e" / "end_at_write.c"
-    subprocess.run([os.environ.get("CC", "cc"), "-shared", "-fPIC", "-o", shim, source, "-ldl"], check=True)
     deck = tmp_path / "scene.deck"
     text = plain_deck((("analysis.dynamic", "end", "30 ms"), ("output", "every", "4 us")))
     if condition:
         text += f"\n[guards]\nstop = {condition}\n"
     deck.write_text(text + "\n[statistics]\nafter = 5 ms\nchannels = slider.velocity\n")
 
-    def killed(out, **how):
-        env = {**os.environ, "LD_PRELOAD": str(shim), **how}
-        return subprocess.run([gudgeon, "run", deck, "--out", out, "--quiet"], env=env, capture_output=True, text=True, timeout=60)
-
-    done = killed(tmp_path / "whole")
-    assert done.returncode == 0, done
-    assert "in two pages" not in done.stderr
-    writes = done.stderr.count("write to run.h5")
-    whole, status, message = histories(tmp_path / "whole" / "run.h5")
+    run = WrittenRun(gudgeon, deck, tmp_path, "run.h5")
+    assert "in two pages" not in run.told
+    whole, status, message = histories(run.whole)
     assert status == "complete" and bool(message) == bool(condition)
     assert len(whole["time"]) > 12 * 512 and len(whole["events"]) > 40
     lengths = []
     # the last writes one by one, those before in strides that are no multiple of what a block takes
-    for at in [*range(1, writes - 60, 17), *range(writes - 60, writes + 1)]:
-        out = tmp_path / "killed"
-        assert killed(out, GUDGEON_KILL_AT=str(at)).returncode == -signal.SIGKILL
+    for at, left in run.left_by_kills([*range(1, run.writes - 60, 17), *range(run.writes - 60, run.writes + 1)]):
         try:
-            found, status, text = histories(out / "run.h5")
+            found, status, text = histories(left)
         except OSError as failure:  # before the first flush there is no file yet
             assert "signature not found" in str(failure) and not lengths, (at, failure)
             continue

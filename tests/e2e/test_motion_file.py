@@ -9,7 +9,7 @@ import subprocess
 import h5py
 import numpy as np
 import pytest
-from support import ROOT, call, plain_deck, written
+from support import ROOT, WrittenRun, call, plain_deck, written
 
 TYPES = ("Vertices", "Lines", "Polygons", "Strips")
 DATA = ("velocity", "normal_force", "penetration", "state")
@@ -60,11 +60,12 @@ def steps_of(path):
         n_point = root["NumberOfPoints"][:]
         assert len(n_point) == 1 and not steps["PartOffsets"][:n].any() and (steps["NumberOfParts"][:n] == 1).all()
         at = steps["PointOffsets"][:n]
-        found = {"time": steps["Values"][:n], "Points": np.array([root["Points"][i : i + n_point[0]] for i in at]).reshape(n, n_point[0], 3)}
+        rows = root["Points"][:]
+        found = {"time": steps["Values"][:n], "Points": np.array([rows[i : i + n_point[0]] for i in at]).reshape(n, n_point[0], 3)}
         for name in DATA:
             at = steps["PointDataOffsets"][name][:n]
-            rows = [root["PointData"][name][i : i + n_point[0]] for i in at]
-            found[name] = np.array(rows).reshape(n, n_point[0], *root["PointData"][name].shape[1:])
+            rows = root["PointData"][name][:]
+            found[name] = np.array([rows[i : i + n_point[0]] for i in at]).reshape(n, n_point[0], *rows.shape[1:])
         cells = 0
         for kind in TYPES:
             group = root[kind]
@@ -166,29 +167,18 @@ motion = vtkhdf
 
 def test_a_run_killed_at_any_write(gudgeon, tmp_path):
     """A SIGKILL at any write leaves no file, or one that can be read, with the steps that it says."""
-    shim = tmp_path / "end_at_write.so"
-    source = ROOT / "tests" / "e2e" / "end_at_write.c"
     name = "motion.vtkhdf"
-    subprocess.run([os.environ.get("CC", "cc"), "-shared", "-fPIC", f'-DNAME="{name}"', "-o", shim, source, "-ldl"], check=True)
     deck = tmp_path / "scene.deck"
     changes = (("analysis.dynamic", "end", "12 ms"), ("output", "every", "20 us"))
     deck.write_text(plain_deck(changes).replace("[output]\n", "[output]\nmotion = vtkhdf\n"), encoding="utf-8")
 
-    def killed(out, **how):
-        env = {**os.environ, "LD_PRELOAD": str(shim), **how}
-        return subprocess.run([gudgeon, "run", deck, "--out", out, "--quiet"], env=env, capture_output=True, text=True, timeout=60)
-
-    done = killed(tmp_path / "whole")
-    assert done.returncode == 0, done
-    writes = done.stderr.count(f"write to {name}")
-    whole = steps_of(tmp_path / "whole" / name)
-    assert len(whole["time"]) == 601 and writes > 100
+    run = WrittenRun(gudgeon, deck, tmp_path, name)
+    whole = steps_of(run.whole)
+    assert len(whole["time"]) == 601 and run.writes > 100
     lengths = []
-    for at in [*range(1, writes - 30, 13), *range(writes - 30, writes + 1)]:
-        out = tmp_path / "killed"
-        assert killed(out, GUDGEON_KILL_AT=str(at)).returncode == -signal.SIGKILL
+    for at, left in run.left_by_kills([*range(1, run.writes - 30, 37), *range(run.writes - 30, run.writes + 1)]):
         try:
-            found = steps_of(out / name)
+            found = steps_of(left)
         except OSError as failure:  # before the first flush there is no file yet
             assert "signature not found" in str(failure) and not lengths, (at, failure)
             continue

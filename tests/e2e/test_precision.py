@@ -364,7 +364,7 @@ def test_nothing_is_chosen_without_a_confirmed_reference(gudgeon):
     assert "none: no confirmed reference" in (study.directory / "summary.txt").read_text()
 
 
-@pytest.mark.parametrize("seconds", [4 * SLOWNESS, 8 * SLOWNESS])
+@pytest.mark.parametrize("seconds", [2 * SLOWNESS, 4 * SLOWNESS])
 def test_the_budget_is_kept(gudgeon, seconds):
     """A comparison that would take minutes ends in time: the budget and the start and end of a process."""
     text = plain_deck([("analysis.dynamic", "end", "240 ms")])

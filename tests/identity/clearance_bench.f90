@@ -312,6 +312,7 @@ contains
             gradient(c) = (high(n_before + contact) - low(n_before + contact))/(2.0_wp*h)
          end do
          call get_gaps(bench, 0.0_wp, delta, rate)
+         if (abs(delta(n_before + contact) - depth) < 1.0e-15_wp) exit
          bench%q(1:2, body) = bench%q(1:2, body) + gradient*(depth - delta(n_before + contact))/sum(gradient**2)
       end do
       call get_gaps(bench, 0.0_wp, delta, rate)
