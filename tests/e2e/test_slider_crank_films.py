@@ -25,17 +25,17 @@ CELLS = [(c, viscosity) for c in (0.5, 0.2, 0.1) for viscosity in (400, 40)]  # 
 def film_force(e, e_dot, spin, c, viscosity):
     """Force on the journal, eqs. (5.14) to (5.18) for the entraining speed w_J + w_B and parting as well as approaching."""
     size = math.hypot(*e)
-    n = e / size if size > 0 else np.array([1.0, 0.0])
-    t = np.array([-n[1], n[0]])
-    eps, eps_dot = size / c, float(e_dot @ n) / c
-    w = (spin * size - 2 * float(e_dot @ t)) / c
+    n = (e[0] / size, e[1] / size) if size > 0 else (1.0, 0.0)
+    eps, eps_dot = size / c, (e_dot[0] * n[0] + e_dot[1] * n[1]) / c
+    w = (spin * size - 2 * (e_dot[1] * n[0] - e_dot[0] * n[1])) / c
     q = 1 - eps**2
     root, s = math.sqrt(q), 2 + eps**2
     speed = math.sqrt(q * ((w / 2) ** 2 + eps_dot**2))
     part = (speed + 3 * eps * max(eps_dot, 0.0)) / (speed + 1.5 * eps * abs(eps_dot)) if speed > 0 else 1.0
-    along = -6 / (s * q * root) * (4 * eps * speed + math.pi * s * eps_dot * part)
-    across = 6 * math.pi * w * part / (s * root)
-    return viscosity * LENGTH * (BEARING - c) ** 3 / c**2 * (along * n + across * t)
+    scale = viscosity * LENGTH * (BEARING - c) ** 3 / c**2
+    along = -6 * scale / (s * q * root) * (4 * eps * speed + math.pi * s * eps_dot * part)
+    across = 6 * scale * math.pi * w * part / (s * root)
+    return along * n[0] - across * n[1], along * n[1] + across * n[0]
 
 
 @functools.lru_cache
@@ -43,19 +43,18 @@ def reference(c, viscosity, turns):
     """Least films of each turn at the output instants, and the eccentricity there."""
 
     def place(t, y):
-        crank, rod = OMEGA * t, y[0]
-        pin = THROW * np.array([math.cos(crank), math.sin(crank)])
-        end = pin + ROD * np.array([math.cos(rod), math.sin(rod)])
-        speed = THROW * OMEGA * np.array([-math.sin(crank), math.cos(crank)]) + ROD * y[2] * np.array([-math.sin(rod), math.cos(rod)])
-        return pin, end, end - [y[1], 0], speed - [y[3], 0]
+        crank, rod = OMEGA * t, float(y[0])
+        pin = THROW * math.cos(crank), THROW * math.sin(crank)
+        reach = ROD * math.cos(rod), ROD * math.sin(rod)
+        e = pin[0] + reach[0] - float(y[1]), pin[1] + reach[1]
+        e_dot = -OMEGA * pin[1] - float(y[2]) * reach[1] - float(y[3]), OMEGA * pin[0] + float(y[2]) * reach[0]
+        return pin, reach, e, e_dot
 
     def rates(t, y):
-        pin, end, e, e_dot = place(t, y)
-        force = film_force(e, e_dot, y[2], c * 1e-3, viscosity * 1e-3)
-        arm = HALF * np.array([math.cos(y[0]), math.sin(y[0])])
-        pull = -OMEGA**2 * pin  # acceleration of the crank pin
-        reach = end - pin
-        moment = reach[0] * force[1] - reach[1] * force[0] - ROD_MASS * (arm[0] * pull[1] - arm[1] * pull[0])
+        pin, reach, e, e_dot = place(t, y)
+        force = film_force(e, e_dot, float(y[2]), c * 1e-3, viscosity * 1e-3)
+        pull = -OMEGA**2 * pin[0], -OMEGA**2 * pin[1]  # acceleration of the crank pin
+        moment = reach[0] * force[1] - reach[1] * force[0] - ROD_MASS * HALF / ROD * (reach[0] * pull[1] - reach[1] * pull[0])
         return [y[2], y[3], moment / (ROD_INERTIA + ROD_MASS * HALF**2), -force[0] / SLIDER_MASS]
 
     instants = np.arange(turns * INSTANTS + 1) * TURN / INSTANTS
