@@ -451,11 +451,15 @@ $(B)/tests/many_decks: $(call object,$(FUZZ_MAIN) $(COVERAGE)) $(OBJECTS) $(B)/o
 	@echo "  LD $@"
 	@$(LINK_PROGRAM)
 
-# What runs once takes longer to optimise than it can gain: tests, the reading of decks, the verbs, the studies and the figures.
+# What runs once takes longer to optimise than it can gain: the reading of decks, the verbs, the studies and the figures; and the tests,
+# not what they test: with -O1 or -Og some take three times as long to compile.
 ifeq ($(MODE),release)
 RUNS_ONCE := input/scene input/adams studies results/figures results/comparison app
-$(TEST_OBJECTS) $(call object,$(filter $(call of_folders,$(RUNS_ONCE)),$(SOURCES))) \
+$(call object,$(filter $(call of_folders,$(RUNS_ONCE)),$(SOURCES))) \
   $(call named_objects,src/analysis/assembly/driver_conflict.f90): private FFLAGS += -O1
+endif
+ifneq ($(MODE),sanitize)
+$(TEST_OBJECTS): private FFLAGS += -O0
 endif
 
 # Kernels that are text of a procedure so that they are part of it: the compiler finds sine and cosine too large for that. Their loops
