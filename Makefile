@@ -459,7 +459,7 @@ $(call object,$(filter $(call of_folders,$(RUNS_ONCE)),$(SOURCES))) \
   $(call named_objects,src/analysis/assembly/driver_conflict.f90): private FFLAGS += -O1
 endif
 ifneq ($(MODE),sanitize)
-$(TEST_OBJECTS): private FFLAGS += -O0
+$(TEST_OBJECTS): private FFLAGS += -O0 $(if $(filter release,$(MODE)),-ffrontend-optimize)
 endif
 
 # Kernels that are text of a procedure so that they are part of it: the compiler finds sine and cosine too large for that. Their loops
