@@ -16,7 +16,7 @@ LIMIT = 5_000_000  # bytes of a page
 def page_of(gudgeon, text, figures, *options):
     """Run a deck's text with figures; the page of its animation and run.h5."""
     directory = scratch()
-    call(gudgeon, "run", written(directory, changed(text, "output", figures=figures)), "--out", directory / "run", "--quiet", *options)
+    call(gudgeon, "run", written(directory, changed(text, "output", figures=figures, channels=None)), "--out", directory / "run", "--quiet", *options)
     (page,) = (directory / "run" / "figures").glob("animation*.html")
     return page, directory / "run" / "run.h5"
 
@@ -50,7 +50,7 @@ def test_positions_are_those_of_the_run(gudgeon, make):
     with h5py.File(results) as file:
         rows = rows_at(file["time"][:], data["t"])
         place = file["bodies/position"][:][rows]
-        names = [name.decode() for name in file["bodies/name"][:]]
+        names = [name.decode() for name in file["bodies/names"][:]]
         if data["spatial"]:
             p = file["bodies/orientation"][:][rows]
             turn = rotation_of(np.concatenate([p[..., 1:], p[..., :1]], axis=-1))
@@ -83,10 +83,10 @@ def test_plots_keep_the_extremes(gudgeon):
     page, results = crank_page(gudgeon)
     data = page_data(page)
     assert [plot["title"] for plot in data["plots"]] == ["slider.velocity", "energy.kinetic", "gudgeon.force"]
-    assert [plot["unit"] for plot in data["plots"]] == ["m/s", "J", "N"]
+    assert [plot["unit"] for plot in data["plots"]] == ["m/s", "J", "kN"]
     (curve,) = data["plots"][0]["curves"]
     with h5py.File(results) as file:
-        names = [name.decode() for name in file["bodies/name"][:]]
+        names = [name.decode() for name in file["bodies/names"][:]]
         times, speed = file["time"][:], file["bodies/velocity"][:, names.index("slider"), 0]
     assert curve["n"] == "slider.velocity.x" and len(curve["x"]) > 100 and np.all(np.diff(curve["x"]) >= 0)
     for t, v in zip(curve["x"], curve["y"]):
@@ -95,11 +95,13 @@ def test_plots_keep_the_extremes(gudgeon):
     np.testing.assert_allclose([curve["y"].min(), curve["y"].max()], [inside.min(), inside.max()], rtol=1e-6)
 
 
-def test_a_page_stays_below_its_limit(gudgeon):
+def test_a_page_stays_below_its_limit(gudgeon, monkeypatch, tmp_path):
     """200 positions of 700 bodies do not fit: every second stays, at its place, and the page says so."""
-    rows = "\n".join(f"b{k} 1 {k}" for k in range(700))
-    text = f"deck = 1\n[scene]\ntitle = 'many'\ngravity = 0 -9.81 m/s^2\n[bodies]\nname mass[kg] x[m]\n{rows}\n" \
-        "[analysis.dynamic]\nend = 199 ms\nmethod = verner\n[output]\nevery = 1 ms\nchannels = b0.position\n"
+    rows = "\n".join(f"b{k} 1 1 {k}" for k in range(700))
+    points = "\n".join(f"p{k} b{k} 0.1" for k in range(700))
+    text = f"deck = 1\n[scene]\ntitle = \"many\"\ngravity = 0 -9.81 m/s^2\n[bodies]\nname mass[kg] inertia[kg.m^2] x[m]\n{rows}\n[points]\nname body xi[m]\n{points}\n" \
+        "[analysis.dynamic]\nend = 199 ms\nmethod = verner\n[output]\nevery = 1 ms\n"
+    monkeypatch.setenv("PATH", str(tmp_path))  # without gnuplot: the page is what is looked at
     page, _ = page_of(gudgeon, text, "animation(n=200, last=199ms)")
     data = page_data(page)
     assert LIMIT / 2 < page.stat().st_size < LIMIT
@@ -154,14 +156,15 @@ def obj(points, faces):
 
 def mesh_deck(name, columns="", cells="", space="planar"):
     """A crank drawn by a mesh."""
-    return CRANK.replace("[bodies]", f"[shapes]\nname body shape file{columns}\nbob crank mesh '{name}'{cells}\n[bodies]") \
+    return CRANK.replace("[bodies]", f"[shapes]\nname body shape file{columns}\nbob crank mesh {name}{cells}\n[bodies]") \
         .replace("motion = vtkhdf", "figures = animation(n=2)").replace("end = 1 s", "end = 100 ms")
 
 
 @pytest.mark.parametrize(("name", "content", "volume"), [
     ("cube.stl", text_stl(triangles(CUBE, SIDES)), 1.0), ("cube.STL", binary_stl(triangles(CUBE, SIDES)), 1.0),
     ("cube.obj", obj(CUBE, SIDES), 1.0), ("tetrahedron.stl", binary_stl(triangles(TETRAHEDRON, FACES)), 5.0),
-    ("tetrahedron.obj", obj(TETRAHEDRON, FACES), 5.0)])
+    ("tetrahedron.obj", obj(TETRAHEDRON, FACES), 5.0)],
+    ids=["text", "bytes", "obj", "tetrahedron", "tetrahedron_obj"])
 def test_meshes_have_their_volume(gudgeon, tmp_path, name, content, volume):
     """Volume and centroid of a cube and of a tetrahedron by the divergence theorem, in their unit and at their place."""
     (tmp_path / name).write_bytes(content)
@@ -189,7 +192,7 @@ def test_edges_of_a_cube_are_drawn(gudgeon, tmp_path):
 
 BAD = {
     "no_triangles.stl": (b"solid\nendsolid\n", "no triangles"),
-    "nan.stl": (text_stl(triangles(CUBE, SIDES)).replace(b"vertex 1", b"vertex nan", 1), "nan.stl:5: not a finite number: 'nan'"),
+    "nan.stl": (text_stl(triangles(CUBE, SIDES)).replace(b"vertex 1", b"vertex nan", 1), "nan.stl:6: not a finite number: 'nan'"),
     "infinite.stl": (binary_stl(np.full((1, 3, 3), np.inf, "<f4")), "triangle 1 has a coordinate that is not finite"),
     "two.stl": (b"solid\nfacet normal 0 0 1\nouter loop\nvertex 0 0 0\nvertex 1 0 0\nendloop\nendfacet\nendsolid\n", "two.stl:7: a facet has three"),
     "four.stl": (b"solid\nfacet\nouter loop\n" + 4 * b"vertex 0 0 0\n" + b"endloop\nendfacet\n", "four.stl:7: a fourth vertex"),
@@ -219,10 +222,11 @@ def test_bad_meshes_are_named(gudgeon, tmp_path, name):
 
 @pytest.mark.parametrize(("deck", "words"), [
     (mesh_deck("gone.stl"), "no such file"), (mesh_deck("."), "it is a directory"),
-    (mesh_deck("x").replace("crank mesh 'x'", "crank mesh -"), "needs an STL or OBJ file"),
+    (mesh_deck("x").replace("crank mesh x", "crank mesh -"), "needs an STL or OBJ file"),
     (mesh_deck("cube.stl").replace("crank mesh", "crank box"), "a box has no file: write shape mesh"),
     (mesh_deck("cube.stl", " file_unit", " 0mm"), "file_unit"),
-    (mesh_deck("half.stl").replace("[bodies]", "[shapes]\nname body shape file\nmore crank mesh half.stl\n[bodies]", 1), "have 60000 triangles (allowed 50000)")])
+    (mesh_deck("half.stl").replace("[bodies]", "[shapes]\nname body shape file\nmore crank mesh half.stl\n[bodies]", 1), "have 60000 triangles (allowed 50000)")],
+    ids=["gone", "directory", "no_file", "box", "unit", "too_many"])
 def test_rows_of_meshes_are_checked(gudgeon, tmp_path, deck, words):
     """A missing file, a file of another shape, a unit of no length, more triangles than a page holds."""
     (tmp_path / "cube.stl").write_bytes(binary_stl(triangles(CUBE, SIDES)))

@@ -13,7 +13,7 @@ from visit import browser_here, visit, watched  # noqa: E402
 END = r"^end( *)= .*"
 # runs that are ended early: the page is of the same kind
 SHORTER = {"big_end": "0.05 turns of motor", "billiards": "60 ms", "bouncing_ball": "1 s", "double_pendulum": "1 s", "ferris_wheel": "2 s",
-           "four_bar": "0.5 s", "four_bar_spatial": "0.2 s", "friction": "0.2 s", "gate": "2 s", "hanging_chain": "0.4 s", "hatch": "2 s",
+           "four_bar": "0.5 s", "four_bar_spatial": "0.2 s", "friction": "0.2 s", "gate": "2 s", "hanging_chain": "2 s", "hatch": "2 s",
            "journal_bearing": "50 ms", "pinball": "100 ms", "slider_crank_6_6_ball": "5 ms", "slider_crank_6_6_bushing": "5 ms",
            "slider_crank_6_6_lubricated": "5 ms", "slider_crank_6_6_planar": "5 ms", "slider_crank_dry": "4 ms",
            "slider_crank_lubricated": "4 ms", "slider_crank_translational": "4 ms", "slider_crank_two_joints": "4 ms", "valve_train": "20 ms"}

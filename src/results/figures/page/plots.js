@@ -6,7 +6,7 @@ const text = (x, y, s, anchor, colour) =>
 const safe = s => s.replace(/[<>&"]/g, c => `&#${c.charCodeAt(0)};`);
 const short = x => +x.toPrecision(4);
 const points = list => list.map(p => p[0].toFixed(2) + ',' + p[1].toFixed(2)).join(' ');
-const X = t => 52 + 356 * (t - first) / (last - first);
+const X = t => 62 + 346 * (t - first) / (last - first);
 
 function element(height) {
   const svg = document.createElementNS('http://www.w3.org/2000/svg', 'svg');
@@ -25,6 +25,7 @@ function timePlot(svg, plot) {
   const pad = hi > lo ? 0.06 * (hi - lo) : Math.abs(hi) || 1, rows = Math.ceil(plot.curves.length / 2), top = 22 + 16 * rows, bottom = top + 120;
   const Y = v => bottom - 120 * (v - lo + pad) / (hi - lo + 2 * pad);
   svg.setAttribute('viewBox', `0 0 420 ${bottom + 24}`);
+  const label = v => Math.abs(v) < 1e-6 * (hi - lo) ? '0' : short(v);
   const lines = plot.curves.map((c, i) => {
     const pieces = [[]];
     c.y.forEach((v, k) => {
@@ -34,15 +35,15 @@ function timePlot(svg, plot) {
     return pieces.map(p => `<polyline points="${points(p)}" fill="none" stroke="${strokes[i % strokes.length]}" stroke-width="1.3"/>`).join('');
   });
   svg.innerHTML = text(6, 15, safe(plot.title + (plot.unit ? ' [' + plot.unit + ']' : ''))) +
-    (lo < 0 && hi > 0 ? `<path d="M52 ${Y(0)}H408" stroke="#ddd"/>` : '') + lines.join('') +
-    `<path d="M52 ${top}V${bottom}H408" stroke="#404040" fill="none"/>` + text(48, Y(hi) + 4, short(hi), 'end') + text(48, Y(lo) + 4, short(lo), 'end') +
-    text(52, bottom + 16, unit(first, 's')) + text(408, bottom + 16, unit(last, 's'), 'end') +
+    (lo < 0 && hi > 0 ? `<path d="M62 ${Y(0)}H408" stroke="#ddd"/>` : '') + lines.join('') +
+    `<path d="M62 ${top}V${bottom}H408" stroke="#404040" fill="none"/>` + text(58, Y(hi) + 4, label(hi), 'end') + text(58, Y(lo) + 4, label(lo), 'end') +
+    text(62, bottom + 16, unit(first, 's')) + text(408, bottom + 16, unit(last, 's'), 'end') +
     `<path class="cursor" stroke="#d1495b"/>` +
     plot.curves.map((c, i) => `<text class="value" x="${10 + 205 * (i % 2)}" y="${31 + 16 * Math.floor(i / 2)}" font-size="12" fill="${strokes[i % strokes.length]}"></text>`).join('');
   const cursor = svg.querySelector('.cursor'), values = svg.querySelectorAll('.value');
   svg.onpointerdown = svg.onpointermove = e => {
     if (e.type === 'pointermove' && !(e.buttons & 1)) return;
-    const box = svg.getBoundingClientRect(), t = first + (last - first) * ((e.clientX - box.left) / box.width * 420 - 52) / 356;
+    const box = svg.getBoundingClientRect(), t = first + (last - first) * ((e.clientX - box.left) / box.width * 420 - 62) / 346;
     seek(t);
   };
   return () => {
@@ -66,10 +67,13 @@ const across = () => camera && D.spatial ? [V3().setFromMatrixColumn(camera.matr
 const dot = (a, b) => a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
 const turned = (b, s) => { const q = poseAt(b).q; return vec(s).applyQuaternion(new THREE.Quaternion(...q)).toArray(); };
 
+// The guide that a joint with clearance is; none if it is another
+const isGuide = j => D.marks.find(m => m.k === 2 && m.l === j + 1 && m.d > 0);
+
 // A joint with clearance in the view of the picture, its clearance filling the plot
 function orbit(svg, j) {
   const joint = D.joints[j], t = f64(D.track.t), e = f32(D.track.e[j]);
-  const m = D.marks.find(m => m.k === 2 && m.l === j + 1 && m.d > 0);
+  const m = isGuide(j);
   let big = joint.c;
   for (let k = 0; k < e.length; k += 3) big = Math.max(big, Math.hypot(e[k], e[k + 1], e[k + 2]));
   const g = 120 / big, R = 165, r = R - joint.c * g, title = text(6, 16, safe(joint.n)) + text(414, 16, 'clearance ' + safe(joint.cw), 'end');
@@ -77,7 +81,6 @@ function orbit(svg, j) {
   return () => {
     const [u, v] = across(), now = vectorAt(eccentricities, D.joints.length, j), path = [];
     if (m) { svg.innerHTML = slider(m, joint, now, u, v); return; }
-    if (!(joint.c > 0)) { svg.innerHTML = text(6, 16, safe(joint.n) + ': see the picture'); return; }
     for (let k = 0; k < t.length && t[k] <= timeAt(at); k++) {
       const s = [e[3 * k], e[3 * k + 1], e[3 * k + 2]];
       path.push([210 + g * dot(u, s), 200 - g * dot(v, s)]);
@@ -85,7 +88,7 @@ function orbit(svg, j) {
     const x = 210 + g * dot(u, now), y = 200 - g * dot(v, now);
     svg.innerHTML = circle(210, 200, R, '#fff4d6') + circle(x, y, r, journal) +
       `<polyline points="${points(path.slice(-400))}" fill="none" stroke="${red}"/>` + circle(x, y, 4, red) + title +
-      text(210, 390, 'path of the journal (drawn smaller than the hole)', 'middle');
+      text(210, 392, 'path of the journal (drawn smaller than the hole)', 'middle');
   };
 }
 
@@ -118,9 +121,11 @@ function buildPlots() {
   cursors = [];
   const j = +$('joint').value, point = tracePoint();
   if (D.joints.length) {
-    const svg = element(402);
-    svg.setAttribute('class', 'orbit');
-    cursors.push(orbit(svg, j));
+    if (D.joints[j].c > 0 || isGuide(j)) {
+      const svg = element(402);
+      svg.setAttribute('class', 'orbit');
+      cursors.push(orbit(svg, j));
+    }
     const y = Array.from(f32(D.track.f[j])), most = y.reduce((a, b) => Math.max(a, b), 0), f = most >= 1e4 ? 1e-3 : 1;
     cursors.push(timePlot(element(160), {title: 'force in ' + D.joints[j].n, unit: f < 1 ? 'kN' : 'N',
       curves: [{n: 'force', x: f64(D.track.t), y: y.map(v => v * f)}]}));

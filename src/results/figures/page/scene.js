@@ -51,8 +51,10 @@ function addPart(part, solid) {
   }
   part.l.forEach(l => l.slice(1).forEach((v, k) => {
     const a = raised(points[l[k]], 1), b = raised(points[v], 1);
-    solid.lit.rod(a, b, rodRadius, colour, true);
-    [a, b].forEach(p => solid.lit.ball(p, rodRadius, colour));
+    if (D.spatial) solid.lit.rod(a, b, rodRadius, colour, true);
+    else solid.flat.strip([a, b], false, V3(0, 0, 1), 2 * rodRadius, colour);
+    [a, b].forEach(p => D.spatial ? solid.lit.ball(p, rodRadius, colour)
+      : solid.flat.add(new THREE.CircleBufferGeometry(rodRadius, 14), new THREE.Matrix4().setPosition(p), colour));
   }));
 }
 
@@ -120,7 +122,9 @@ function plane(m, solid) {
     wall(solid, raised(p, -1).addScaledVector(u, m.w[0] - 0.2 * S), raised(p, -1).addScaledVector(u, m.w[1] + 0.2 * S), n.clone().negate());
     return;
   }
-  const half = Math.max(Math.abs(m.w[0]), Math.abs(m.w[1])) + 0.15 * S;
+  const same = D.marks.filter(o => o.k === 7 && o.b[0] === m.b[0] && String(o.s[0]) === String(m.s[0]) && String(o.a) === String(m.a));
+  if (same[0] !== m) return;                                                     // one area for all that touch one plane
+  const half = Math.max(...same.map(o => Math.max(Math.abs(o.w[0]), Math.abs(o.w[1])))) + 0.06 * S;
   const turn = new THREE.Quaternion().setFromUnitVectors(V3(0, 0, 1), n);
   solid.pale.add(new THREE.BoxBufferGeometry(2 * half, 2 * half, 0.004 * S),
     new THREE.Matrix4().compose(p.clone().addScaledVector(n, -0.002 * S), turn, V3(1, 1, 1)), grey);

@@ -106,7 +106,8 @@ function buildLabels() {
   D.marks.forEach(m => {
     if (used.has(m.n)) return;
     used.add(m.n);
-    add(m.n, '#333', () => place(m.b[0], m.s[0]).add(m.k === 3 || m.k === 4 || m.k === 8 ? place(m.b[1], m.s[1]) : place(m.b[0], m.s[0])).multiplyScalar(0.5));
+    add(m.n, '#333', () => m.k === 3 || m.k === 4 || m.k === 8 ? place(m.b[0], m.s[0]).add(place(m.b[1], m.s[1])).multiplyScalar(0.5)
+      : m.k === 2 ? place(m.b[1], m.s[1]) : place(m.b[0], m.s[0]));
   });
 }
 
