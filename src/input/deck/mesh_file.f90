@@ -24,9 +24,9 @@ module mesh_file
 
    !> What is read so far.
    type :: mesh_t
-      real(wp), allocatable :: corners(:, :)   !! (9, capacity) corners of triangles, one after the other
+      real(wp), allocatable :: corners(:, :)   !! (9, capacity) corners of triangles, one after the other [unit of the file]
       integer :: n = 0                         !! triangles
-      real(wp), allocatable :: vertices(:, :)  !! (3, capacity) of OBJ
+      real(wp), allocatable :: vertices(:, :)  !! (3, capacity) of OBJ [unit of the file]
       integer :: n_vertex = 0                  !! of OBJ
    end type mesh_t
 
@@ -35,7 +35,7 @@ contains
    !> Read a file.
    subroutine read_mesh(path, table, message)
       character(*), intent(in) :: path                       !! of the file
-      real(wp), allocatable, intent(out) :: table(:, :)      !! (n, 9) corners of triangles, in the unit of the file
+      real(wp), allocatable, intent(out) :: table(:, :)      !! (n, 9) corners of triangles [unit of the file]
       character(:), allocatable, intent(out) :: message      !! empty: success; else what is wrong, with the line of the file
 
       character(:), allocatable :: bytes
@@ -56,7 +56,7 @@ contains
    subroutine triangles_of_bytes(bytes, is_obj, table, line, message)
       character(*), intent(in) :: bytes                      !! content of the file
       logical, intent(in) :: is_obj                          !! OBJ, not STL
-      real(wp), allocatable, intent(out) :: table(:, :)      !! (n, 9) corners of triangles
+      real(wp), allocatable, intent(out) :: table(:, :)      !! (n, 9) corners of triangles [unit of the file]
       integer, intent(out) :: line                           !! where something is wrong; 0: in the whole file
       character(:), allocatable, intent(out) :: message      !! empty: success; else what is wrong
 
@@ -248,7 +248,7 @@ contains
    !> The numbers of a line.
    subroutine read_numbers(line, x, message)
       character(*), intent(in) :: line                       !! blanks between numbers
-      real(wp), allocatable, intent(out) :: x(:)             !! (any) the numbers
+      real(wp), allocatable, intent(out) :: x(:)             !! (any) the numbers [unit of the file]
       character(:), allocatable, intent(inout) :: message    !! what is wrong
 
       integer :: at, last
@@ -302,7 +302,7 @@ contains
 
    !> Append a triangle.
    subroutine add_triangle(corners, mesh)
-      real(wp), intent(in) :: corners(9)   !! (9) three corners, in the unit of the file
+      real(wp), intent(in) :: corners(9)   !! (9) three corners [unit of the file]
       type(mesh_t), intent(inout) :: mesh  !! grows
 
       real(wp), allocatable :: larger(:, :)

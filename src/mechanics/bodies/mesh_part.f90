@@ -16,7 +16,7 @@ contains
 
    !> The part of a mesh.
    subroutine part_of_mesh(table, scale, rotation, centre, body, part)
-      real(wp), intent(in) :: table(:, :)      !! (n, 9) corners of triangles, in the unit of the file
+      real(wp), intent(in) :: table(:, :)      !! (n, 9) corners of triangles [unit of the file]
       real(wp), intent(in) :: scale            !! this unit [m]
       real(wp), intent(in) :: rotation(3, 3)   !! (3, 3) turn of the mesh in the body [1]
       real(wp), intent(in) :: centre(3)        !! (3) where its origin is, own frame [m]
@@ -47,8 +47,8 @@ contains
 
    !> Places of corners, each once, and which of them the corners are.
    subroutine merge_corners(table, s, corners)
-      real(wp), intent(in) :: table(:, :)               !! (n, 9) corners of triangles
-      real(wp), allocatable, intent(out) :: s(:, :)     !! (3, any) places
+      real(wp), intent(in) :: table(:, :)               !! (n, 9) corners of triangles [unit of the file]
+      real(wp), allocatable, intent(out) :: s(:, :)     !! (3, any) places [unit of the file]
       integer, intent(out) :: corners(:, :)             !! (3, n) numbers of the places
 
       real(wp), allocatable :: all(:, :)
@@ -78,8 +78,8 @@ contains
 
    !> Whether two places are the same to the last bit.
    pure logical function all_equal(a, b)
-      real(wp), intent(in) :: a(3)   !! (3) the one
-      real(wp), intent(in) :: b(3)   !! (3) the other
+      real(wp), intent(in) :: a(3)   !! (3) the one [unit of the file]
+      real(wp), intent(in) :: b(3)   !! (3) the other [unit of the file]
 
       all_equal = .not. any(a < b .or. a > b)
    end function all_equal
@@ -101,7 +101,7 @@ contains
 
    !> Edges that are seen.
    subroutine find_edges(s, corners, edges)
-      real(wp), intent(in) :: s(:, :)                     !! (3, any) vertices
+      real(wp), intent(in) :: s(:, :)                     !! (3, any) vertices [m]
       integer, intent(in) :: corners(:, :)                !! (3, n) of triangles
       integer, allocatable, intent(out) :: edges(:, :)    !! (2, any) their ends
 

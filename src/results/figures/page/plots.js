@@ -49,7 +49,7 @@ function timePlot(svg, plot) {
   return () => {
     const now = timeAt(at);
     cursor.setAttribute('d', `M${X(now)} ${top}V${bottom}`);
-    plot.curves.forEach((c, i) => { values[i].textContent = c.n + ' ' + short(valueAt(c, now)); });
+    plot.curves.forEach((c, i) => { values[i].textContent = c.n + ' ' + label(valueAt(c, now)); });
   };
 }
 
