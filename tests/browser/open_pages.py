@@ -37,7 +37,7 @@ found.plots=cursors.length;found.triangles=renderer.info.render.triangles"""
 # pictures per second while the page plays, and the processor's time for one
 RATE = """await new Promise(r=>requestAnimationFrame(r));$('play').click();let n=0,t0=performance.now(),spent=0;const own=draw;
 draw=()=>{const t=performance.now();own();renderer.getContext().finish();spent+=performance.now()-t;n++};
-await new Promise(r=>setTimeout(r,3000));found.rate=1000*n/(performance.now()-t0);found.cost=spent/n"""
+await new Promise(r=>setTimeout(r,2000));found.rate=1000*n/(performance.now()-t0);found.cost=spent/n"""
 # a browser without WebGL
 BLIND = """<script>HTMLCanvasElement.prototype.getContext=()=>null</script>"""
 SEEN_BLIND = """found.text=$('scene').textContent;found.plots=cursors.length;$('step').click();found.time=$('time').textContent;

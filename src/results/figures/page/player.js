@@ -3,11 +3,14 @@ let playing = false, before = 0;
 const seconds = 6;                     // of the whole motion at speed 1
 const tracePoint = () => D.points[+$('trace').value] || null;
 
+let shown = 0;                         // when all numbers were shown last: ten times a second are enough while it plays
 function show(u) {
   at = Math.min(Math.max(u, 0), N - 1);
-  $('slider').value = at;
-  $('time').textContent = 't = ' + unit(timeAt(at), 's');
-  cursors.forEach(move => move());
+  const all = !playing || before - shown > 100;
+  if (all) shown = before;
+  if (all) $('slider').value = at;
+  if (all) $('time').textContent = 't = ' + unit(timeAt(at), 's');
+  cursors.forEach(move => move(all));
   needsDraw = true;
 }
 
@@ -27,7 +30,7 @@ function tick(now) {
     if (next > N - 1 && next < N) at = next;   // the last position stands as long as every other
   }
   before = now;
-  if (renderer && needsDraw) { needsDraw = false; draw(); if (D.spatial && D.joints.length && !playing) cursors[0](); }
+  if (renderer && needsDraw) { needsDraw = false; draw(); if (D.spatial && D.joints.length && !playing) cursors[0](true); }
   requestAnimationFrame(tick);
 }
 

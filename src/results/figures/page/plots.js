@@ -11,11 +11,14 @@ const X = t => 62 + 346 * (t - first) / (last - first);
 function element(height) {
   const svg = document.createElementNS('http://www.w3.org/2000/svg', 'svg');
   svg.setAttribute('viewBox', `0 0 420 ${height}`);
-  side.append(svg);
+  const box = document.createElement('div');
+  box.append(svg);
+  side.append(box);
   return svg;
 }
 
-// A plot over time: {title, unit, curves: [{n, x, y}]}. Returns what moves its cursor.
+// A plot over time: {title, unit, curves: [{n, x, y}]}. Returns what moves its cursor, and its numbers if all is to be shown: the cursor
+// is an element of its own, so that the curves are not drawn again as it moves.
 function timePlot(svg, plot) {
   let lo = Infinity, hi = -Infinity;
   plot.curves.forEach(c => c.y.forEach((v, k) => {
@@ -38,18 +41,20 @@ function timePlot(svg, plot) {
     (lo < 0 && hi > 0 ? `<path d="M62 ${Y(0)}H408" stroke="#ddd"/>` : '') + lines.join('') +
     `<path d="M62 ${top}V${bottom}H408" stroke="#404040" fill="none"/>` + text(58, Y(hi) + 4, label(hi), 'end') + text(58, Y(lo) + 4, label(lo), 'end') +
     text(62, bottom + 16, unit(first, 's')) + text(408, bottom + 16, unit(last, 's'), 'end') +
-    `<path class="cursor" stroke="#d1495b"/>` +
     plot.curves.map((c, i) => `<text class="value" x="${10 + 205 * (i % 2)}" y="${31 + 16 * Math.floor(i / 2)}" font-size="12" fill="${strokes[i % strokes.length]}"></text>`).join('');
-  const cursor = svg.querySelector('.cursor'), values = svg.querySelectorAll('.value');
+  const cursor = document.createElement('i'), values = svg.querySelectorAll('.value');
+  cursor.style.top = 100 * top / (bottom + 24) + '%';
+  cursor.style.height = 100 * 120 / (bottom + 24) + '%';
+  svg.parentNode.append(cursor);
   svg.onpointerdown = svg.onpointermove = e => {
     if (e.type === 'pointermove' && !(e.buttons & 1)) return;
     const box = svg.getBoundingClientRect(), t = first + (last - first) * ((e.clientX - box.left) / box.width * 420 - 62) / 346;
     seek(t);
   };
-  return () => {
+  return all => {
     const now = timeAt(at);
-    cursor.setAttribute('d', `M${X(now)} ${top}V${bottom}`);
-    plot.curves.forEach((c, i) => { values[i].textContent = c.n + ' ' + label(valueAt(c, now)); });
+    cursor.style.transform = `translateX(${X(now) / 4.2}%)`;
+    if (all) plot.curves.forEach((c, i) => { values[i].textContent = c.n + ' ' + label(valueAt(c, now)); });
   };
 }
 
@@ -78,7 +83,8 @@ function orbit(svg, j) {
   for (let k = 0; k < e.length; k += 3) big = Math.max(big, Math.hypot(e[k], e[k + 1], e[k + 2]));
   const g = 120 / big, R = 165, r = R - joint.c * g, title = text(6, 16, safe(joint.n)) + text(414, 16, 'clearance ' + safe(joint.cw), 'end');
   const circle = (x, y, q, fill) => `<circle cx="${x}" cy="${y}" r="${q}" fill="${fill}" stroke="#404040"/>`;
-  return () => {
+  return all => {
+    if (!all) return;
     const [u, v] = across(), now = vectorAt(eccentricities, D.joints.length, j), path = [];
     if (m) { svg.innerHTML = slider(m, joint, now, u, v); return; }
     for (let k = 0; k < t.length && t[k] <= timeAt(at); k++) {

@@ -1,6 +1,6 @@
 // Camera, orbit, standard views, names and axes over the picture.
 const frame = $('scene');
-let renderer = null, camera, controls, needsDraw = true, isFitted = true;
+let renderer = null, camera, controls, needsDraw = true, isFitted = true, isTurned = true;
 
 const directions = {front: [0, -1, 0], top: [0, 0, 1], right: [1, 0, 0], isometric: [1, -1, 0.8]};
 
@@ -31,7 +31,7 @@ function startView() {
     controls.mouseButtons.LEFT = THREE.MOUSE.PAN;
     controls.touches.ONE = THREE.TOUCH.PAN;
   }
-  controls.addEventListener('change', () => { needsDraw = true; });
+  controls.addEventListener('change', () => { needsDraw = isTurned = true; });
   controls.addEventListener('start', () => { isFitted = false; });
   window.addEventListener('resize', resize);
   buildBodies();
@@ -43,7 +43,7 @@ function resize() {
   const a = frame.clientWidth / frame.clientHeight;
   camera.left = -a; camera.right = a; camera.top = 1; camera.bottom = -1;
   if (isFitted) fit(); else camera.updateProjectionMatrix();
-  needsDraw = true;
+  needsDraw = isTurned = true;
 }
 
 function setView(name) {
@@ -88,7 +88,7 @@ function fit() {
   camera.updateProjectionMatrix();
   controls.update();
   isFitted = true;
-  needsDraw = true;
+  needsDraw = isTurned = true;
 }
 
 // Names of bodies and joints as text over the picture
@@ -142,5 +142,6 @@ function draw() {
   showPoses();
   renderer.render(world, camera);
   placeLabels();
-  drawCorner();
+  if (isTurned) drawCorner();
+  isTurned = false;
 }
