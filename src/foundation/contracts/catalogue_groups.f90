@@ -1,13 +1,13 @@
-!> Groups of the catalogue: one quantity of all the items of a room, and a list of them that grows.
+!> Groups of the catalogue: one quantity of all the items of a group, and a list of them that grows.
 module catalogue_groups
    use kind_info, only: channel_t
    implicit none (type, external)
    private
    public :: group_t, resize_groups
 
-   !> One quantity of all the items of a room.
+   !> One quantity of all the items of a group.
    type :: group_t
-      integer :: room = 0                     !! workspace, one of the above
+      integer :: item_group = 0                     !! group of items, one of the above
       type(channel_t) :: channel              !! name, SI unit, frame, components and long name
       logical, allocatable :: has(:)          !! (items) which of them have the channel
       logical, allocatable :: is_wanted(:)    !! (items) whose value someone reads; others may not be found
@@ -37,7 +37,7 @@ contains
       type(group_t), intent(inout) :: from  !! the quantity; afterwards without texts and values
       type(group_t), intent(inout) :: to    !! the same
 
-      to%room = from%room
+      to%item_group = from%item_group
       to%channel%components = from%channel%components
       to%channel%code = from%channel%code
       call move_alloc(from%channel%name, to%channel%name)

@@ -57,7 +57,7 @@ contains
       call add_parts(data, drawing)
       call add_marks(data, drawing, symbols)
       call add_joints(data, catalogue)
-      call add_track(data, track, size(catalogue%rooms(group_clearances)%names), note)
+      call add_track(data, track, size(catalogue%item_groups(group_clearances)%names), note)
       call data%line("plots:"//plots//",")
       if (n_left_out > 0) note = note//"Not shown: "//to_text(n_left_out)//" more curves. "
       call page%line("<!DOCTYPE html>")
@@ -111,8 +111,8 @@ contains
       integer :: k
 
       call data%add("bodies:[""ground"",")
-      do k = 1, size(catalogue%rooms(group_bodies)%names)
-         call data%add(""""//escaped(catalogue%rooms(group_bodies)%names(k)%s, .false.)//""",")
+      do k = 1, size(catalogue%item_groups(group_bodies)%names)
+         call data%add(""""//escaped(catalogue%item_groups(group_bodies)%names(k)%s, .false.)//""",")
       end do
       call data%line("],")
       call data%add("points:[")
@@ -238,7 +238,7 @@ contains
       real(wp) :: clearance
       integer :: k
 
-      associate (room => catalogue%rooms(group_clearances))
+      associate (room => catalogue%item_groups(group_clearances))
          call data%add("joints:[")
          do k = 1, size(room%names)
             clearance = 0.0_wp

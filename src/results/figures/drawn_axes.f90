@@ -5,7 +5,7 @@
 module drawn_axes
    use body_outline, only: same_place
    use item, only: find_place, item_t
-   use kind_info, only: leaves_way
+   use kind_info, only: free_translation
    use kinds, only: wp
    use rotations, only: axes_across, rotation_about, rotation_of_parameters
    use scene, only: scene_t, table_t
@@ -96,7 +96,7 @@ contains
                axis = axis_of(tables(k)%items(i))
                tie = tie_of(scene, tables(k)%info, tables(k)%items(i))
                if (.not. norm2(axis) > 0.0_wp .or. tie%n < 2 .or. tie%by_joint .or. tie%body(2) == 0) cycle
-               if (tables(k)%info%leaves /= leaves_way .and. find_place(tables(k)%items(i), "slider") == 0) cycle
+               if (tables(k)%info%free /= free_translation .and. find_place(tables(k)%items(i), "slider") == 0) cycle
                call find_frame(scene, tables(k)%items(i), tie, axis, frames(:, :, tie%body(2)))
             end do
          end do

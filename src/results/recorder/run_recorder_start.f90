@@ -120,7 +120,7 @@ contains
       integer :: k
 
       wants = self%selection%has_group(group)
-      if (wants) wants = self%selection%has_item(self%items, self%items%groups(group)%room, item)
+      if (wants) wants = self%selection%has_item(self%items, self%items%groups(group)%item_group, item)
       wants = wants .or. self%reader%reads(group) .or. self%keeper%reads(group)
       if (allocated(self%statistics%channels)) wants = wants .or. reads(self%statistics%channels)
       if (allocated(self%statistics%spectra)) wants = wants .or. reads(self%statistics%spectra)
