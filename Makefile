@@ -24,6 +24,7 @@ SUNDIALS_DIR ?=
 HDF5_DIR ?=
 SUITESPARSE_DIR ?=
 FFTW_DIR ?=
+THREE_DIR ?= /usr/share/javascript/three
 LAPACK ?=
 ifeq ($(origin ARCH),undefined)
 ifeq ($(shell uname -m),x86_64)
@@ -33,7 +34,7 @@ endif
 endif
 ARCH := $(strip $(ARCH))
 
-export FC PYTHON SUNDIALS_DIR HDF5_DIR SUITESPARSE_DIR FFTW_DIR LAPACK
+export FC PYTHON SUNDIALS_DIR HDF5_DIR SUITESPARSE_DIR FFTW_DIR THREE_DIR LAPACK
 export OPENBLAS_NUM_THREADS := 1
 export PYTHONDONTWRITEBYTECODE := 1
 
@@ -241,7 +242,7 @@ help:
 	@echo "make -j objects compile all sources without linking (-k: continue after errors)"
 	@echo
 	@echo "Variables: MODE=release|debug  ARCH=x86-64-v3 (ARCH= for the compiler's default)  BUILD=build  JOBS=$(JOBS)"
-	@echo "           SUNDIALS_DIR= HDF5_DIR= SUITESPARSE_DIR= FFTW_DIR= (prefixes)  LAPACK='-L... -l...'  FC=gfortran  PYTHON=/usr/bin/python3"
+	@echo "           SUNDIALS_DIR= HDF5_DIR= SUITESPARSE_DIR= FFTW_DIR= (prefixes)  THREE_DIR= (three.js)  LAPACK='-L... -l...'  FC=gfortran  PYTHON=/usr/bin/python3"
 	@echo "           LINK=static|shared (libraries within the program, where Debian's archives are there; a path above means shared)"
 	@echo "           PREFIX=/usr/local DESTDIR= (before every path installed)"
 	@echo "           PYTEST='-k expression' (options for make test)  STABILITY='--required A02' (options for make stability)"
@@ -272,6 +273,12 @@ SUNDIALS_VERSION := $(if $(wildcard $(SUNDIALS_MODULES)/fsundials_core_mod.mod),
 SUNDIALS_INDEX := $(if $(shell grep '^.define SUNDIALS_INT64_T' $(SUNDIALS_PREFIX)/include/sundials/sundials_config.h 2>/dev/null),64,32)
 ifeq ($(SUNDIALS_VERSION),)
 $(error no Fortran modules of SUNDIALS 6 or 7 in $(SUNDIALS_PREFIX): scripts/setup installs what is needed, SUNDIALS_DIR= names a prefix)
+endif
+
+# three.js: scripts that the page of an animation holds
+THREE_FILES := $(THREE_DIR)/build/three.min.js $(THREE_DIR)/examples/js/controls/OrbitControls.js
+ifneq ($(words $(wildcard $(THREE_FILES))),2)
+$(error no three.js in $(THREE_DIR): scripts/setup installs what is needed (libjs-three), THREE_DIR= names a folder)
 endif
 
 # The source tree: two levels of folders, docs/developer/architecture.md.
@@ -423,6 +430,11 @@ stale := $(filter-out $(interfaces),$(wildcard $(B)/mod/*.mod $(B)/mod/*.smod))
 ifneq ($(stale),)
 $(shell rm -f $(stale))
 endif
+
+# Text that becomes part of the program
+page := src/results/figures/page_bytes
+$(call object,$(call named,$(page).c)): private CFLAGS += -DTHREE='"$(THREE_DIR)"'
+$(call object,$(page).c): $(wildcard src/results/figures/page/*) $(THREE_FILES)
 
 objects: $(OBJECTS) $(TEST_OBJECTS) $(MAIN_OBJECT) $(call object,$(BENCH_MAINS) $(FILM_MAINS) $(FUZZ_MAIN))
 binary: $(B)/gudgeon

@@ -28,6 +28,7 @@ class Gudgeon(MakefilePackage):
         env["HDF5_DIR"] = spec["hdf5"].prefix
         env["SUITESPARSE_DIR"] = spec["suite-sparse"].prefix
         env["FFTW_DIR"] = spec["fftw"].prefix
+        # three.js: set THREE_DIR to the unpacked npm package three@0.111 before the installation
         env["LAPACK"] = spec["lapack"].libs.ld_flags
 
     @property

@@ -6,8 +6,10 @@ module tables
    use deck_types, only: deck_t, text_of
    use defaults, only: read_default, remember_default
    use diagnostics, only: diagnostics_t
+   use file_path, only: beside, plain_path
    use item, only: item_t, location_t, value_t
    use kind_info, only: cell_file, kind_info_t
+   use mesh_file, only: read_mesh
    use name_table, only: name_table_t
    use number_lists, only: read_samples
    use quantities, only: is_numeric
@@ -28,6 +30,7 @@ module tables
       type(name_table_t) :: names               !! names so far
    end type table_t
 
+   integer, parameter :: numbers_of_triangle = 9  !! size of a column that names a file of triangles
    character(*), parameter :: default_mark = "-"  !! a cell that takes the default
 
 contains
@@ -69,10 +72,29 @@ contains
          if (info%columns(k)%cell /= cell_file) cycle
          do n = 1, size(items)
             if (.not. items(n)%values(k)%given) cycle
-            call read_samples(deck, "in column "//info%columns(k)%name//" of "//info%name, items(n)%values(k), mistakes)
+            associate (place => "in column "//info%columns(k)%name//" of "//info%name, value => items(n)%values(k))
+               if (info%columns(k)%size == numbers_of_triangle) then
+                  call read_triangles(deck, place, value, mistakes)
+               else
+                  call read_samples(deck, place, value, mistakes)
+               end if
+            end associate
          end do
       end do
    end subroutine read_items
+
+   !> A file of triangles.
+   subroutine read_triangles(deck, place, value, mistakes)
+      type(deck_t), intent(in) :: deck                !! the deck
+      character(*), intent(in) :: place               !! as `in column file of shapes`
+      type(value_t), intent(inout) :: value           !! the cell with its path; receives a row for each triangle
+      type(diagnostics_t), intent(inout) :: mistakes  !! collects what is wrong
+
+      character(:), allocatable :: message
+
+      call read_mesh(plain_path(beside(deck%sources(value%location%file)%place, value%text)), value%table, message)
+      if (len(message) > 0) call mistakes%add(value%location, "cannot read the mesh '"//value%text//"' "//place, message)
+   end subroutine read_triangles
 
    !> All lines of all sections of some name.
    subroutine find_lines(deck, name, line, section)

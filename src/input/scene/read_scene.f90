@@ -16,6 +16,7 @@ module read_scene
    use joint_registry, only: n_joint_kinds
    use kind_info, only: is_of_space, kind_info_t
    use kind_list, only: clearance_info, force_info, joint_info, kind_named, known
+   use mesh_file, only: most_triangles
    use option_check, only: check_options
    use precision_info, only: check_precision
    use lubricant, only: oil_of_row
@@ -31,6 +32,7 @@ module read_scene
    use settings, only: check_sections, has_section, read_settings
    use spatial_bodies, only: mistake_of_body, new_spatial_bodies, new_spatial_points
    use tables, only: read_items
+   use text, only: to_text
    implicit none (type, external)
    private
    public :: check_space, finish_scene, list_names, resolve_tables, scene_from_deck
@@ -232,7 +234,7 @@ contains
       type(scene_t), intent(in) :: scene                  !! tables, references resolved
       type(diagnostics_t), intent(inout) :: diagnostics   !! errors found
 
-      integer :: k
+      integer :: k, n
 
       associate (gravity => scene%settings%header%values(place_of(scene%settings%header, "gravity")))
          if (gravity%given .and. gravity%vector%n /= merge(3, 2, scene%settings%is_spatial)) then
@@ -248,6 +250,15 @@ contains
          do k = 1, size(items)
             if (mistake_of_shape(items(k), scene%settings%is_spatial) == "") cycle
             call diagnostics%add(items(k)%location, mistake_of_shape(items(k), scene%settings%is_spatial), "in this row")
+         end do
+         n = 0
+         do k = 1, size(items)
+            if (.not. items(k)%is_given("file")) cycle
+            n = n + size(items(k)%values(place_of(items(k), "file"))%table, 1)
+            if (n > most_triangles) call diagnostics%add(items(k)%location, "the meshes of all shapes up to this one have "// &
+                                      to_text(n)//" triangles (allowed "//to_text(most_triangles)//")", "in this row", &
+                                                         "save meshes with fewer triangles")
+            if (n > most_triangles) exit
          end do
       end associate
       if (.not. scene%settings%is_spatial) return

@@ -2,15 +2,18 @@
 !>
 !> polygon: corners `points`, two numbers each in the plane, three in space. circle, cylinder, sphere: `radius` about the centre
 !> (xi, eta, zeta), the first two across `axis`, a cylinder of that `length` with the centre in its middle. box: `length`, `width`
-!> and `height` along xi, eta and zeta about the centre, turned by `angle` about `axis`; without height a rectangle.
+!> and `height` along xi, eta and zeta about the centre, turned by `angle` about `axis`; without height a rectangle. mesh: the
+!> triangles of `file`, an STL file (text or binary) or an OBJ file, whose numbers are in `file_unit`; its origin is at the centre,
+!> turned by `angle` about `axis`.
 !>
-!> They have no part in the motion. Source: none. Limits: faces of spheres and cylinders are flat.
+!> They have no part in the motion. Source: none. Limits: faces of spheres and cylinders are flat; 50,000 triangles in a deck.
 module shapes
    use drawing, only: add_stroke, in_both, in_files, in_pictures, part_t, round_part, start_part
    use item, only: item_t, place_of
-   use kind_info, only: add_direction, add_list, add_number, add_reference, add_word, dim_angle, dim_length, kind_info_t, &
-      same_dimension
+   use kind_info, only: add_direction, add_file, add_list, add_number, add_reference, add_word, dim_angle, dim_length, &
+      kind_info_t, same_dimension
    use kinds, only: wp
+   use mesh_part, only: part_of_mesh
    use rotations, only: axes_across, rotation_about
    implicit none (type, external)
    private
@@ -30,7 +33,7 @@ contains
       info%help = "shapes of bodies for figures and for other programs; default: lines between the points of the body"
       info%source = ""
       call add_reference(info, "body", "bodies", "the body, or ground")
-      call add_word(info, "shape", "type of the shape", choices="polygon circle box cylinder sphere")
+      call add_word(info, "shape", "type of the shape", choices="polygon circle box cylinder sphere mesh")
       call add_list(info, "points", "of a polygon: its corners, xi and eta of each, in space zeta too", default="")
       call add_number(info, "radius", dim_length, "of a circle, cylinder or sphere", default="0 m", lower=0.0_wp)
       call add_number(info, "length", dim_length, "length of a box along xi, of a cylinder along its axis", default="0 m", &
@@ -40,8 +43,12 @@ contains
       call add_number(info, "xi", dim_length, "centre of the shape, except polygons, in the body frame", default="0 m")
       call add_number(info, "eta", dim_length, "the same, second coordinate", default="0 m")
       call add_number(info, "zeta", dim_length, "the same, third coordinate", default="0 m")
-      call add_direction(info, "axis", "axis of a circle or cylinder; rotation axis of a box", default='"0 0 1"')
-      call add_number(info, "angle", dim_angle, "rotation angle of a box about the axis", default="0 rad")
+      call add_direction(info, "axis", "axis of a circle or cylinder; rotation axis of a box or mesh", default='"0 0 1"')
+      call add_number(info, "angle", dim_angle, "rotation angle of a box or mesh about the axis", default="0 rad")
+      call add_file(info, "file", "of a mesh: an STL or OBJ file, relative to the deck", default="")
+      info%columns(size(info%columns))%size = 9  ! numbers of a triangle
+      call add_number(info, "file_unit", dim_length, "length that is 1 in the file of a mesh", default="1 mm", lower=0.0_wp, &
+         open_lower=.true.)
    end function shapes_info
 
    !> What is wrong with a row; blank: nothing.
@@ -53,7 +60,13 @@ contains
       integer :: n, of_corner
 
       message = ""
+      if (item%is_given("file") .and. item%word("shape") /= "mesh") then
+         message = "a "//item%word("shape")//" has no file: write shape mesh"
+         return
+      end if
       select case (item%word("shape"))
+      case ("mesh")
+         if (.not. item%is_given("file")) message = "the mesh '"//item%name//"' needs an STL or OBJ file in column file"
       case ("polygon")
          associate (list => item%values(place_of(item, "points")))
             n = 0
@@ -97,6 +110,10 @@ contains
       case ("box")
          call box_part(0.5_wp*[item%number("length"), item%number("width"), item%number("height")], centre, &
                        rotation_about(item%direction("axis"), item%number("angle")), body, part)
+      case ("mesh")
+         points = place_of(item, "file")
+         call part_of_mesh(item%values(points)%table, item%number("file_unit"), &
+                           rotation_about(item%direction("axis"), item%number("angle")), centre, body, part)
       case ("circle")
          call round_part(part, body, centre, axes(:, 1:2), item%number("radius"))
       case ("cylinder")

@@ -23,6 +23,7 @@ module figures
    use film_fields, only: film_field_t
    use plot_table, only: plot_table_t, tell_empty, write_plot
    use kinds, only: wp
+   use page_plots, only: plots_text
    use path_data, only: make_path, path_t
    use path_script, only: figure_text, path_of
    use scene_plot, only: write_scene_plot
@@ -65,7 +66,8 @@ contains
       do k = 1, size(list)
          if (any([(names(i)%s == file_of(list(k)), i=1, size(names))]) .or. .not. is_of_run(list(k))) cycle
          if (draws_mechanism(list(k))) then
-            call write_scene(directory//"/figures", title, list(k), catalogue, drawing, keeper, is_written, pages, error)
+            call write_scene(directory//"/figures", title, list, k, catalogue, extremes, rows, drawing, keeper, is_written, pages, &
+                             error)
          else if (list(k)%kind == figure_film) then
             call write_field_plot(directory//"/figures", title, tables(k)%heading, list(k)%name, fields, is_written, error)
          else if (list(k)%kind > figure_portrait) then
@@ -193,31 +195,38 @@ contains
    end subroutine tell_missing
 
    !> A figure of the mechanism, and of an animation its page.
-   subroutine write_scene(folder, title, figure, catalogue, drawing, keeper, is_written, pages, error)
+   subroutine write_scene(folder, title, figures, number, catalogue, extremes, rows, drawing, keeper, is_written, pages, error)
       character(*), intent(in) :: folder                         !! of the figures
       character(*), intent(in) :: title                          !! of the scene, any text
-      type(figure_t), intent(in) :: figure                       !! the figure
+      type(figure_t), intent(in) :: figures(:)                   !! (n) all figures of the run
+      integer, intent(in) :: number                              !! of this one
       type(catalogue_t), intent(in) :: catalogue                 !! what was recorded
+      type(extremes_t), intent(in) :: extremes                   !! what is round-off
+      type(drawn_rows_t), intent(in) :: rows                     !! numbers of curves
       type(drawing_t), intent(in) :: drawing                     !! what the scene looks like
       type(frame_keeper_t), intent(in) :: keeper                 !! pictures of its motion
       logical, intent(out) :: is_written                         !! the run came to its instants
       type(text_t), allocatable, intent(inout) :: pages(:)       !! (any) pages written
       type(error_t), allocatable, intent(out) :: error           !! a file cannot be written
 
-      integer :: k
+      character(:), allocatable :: plots
+      integer :: k, n_left_out
 
       is_written = .false.
-      do k = 1, size(keeper%n)
-         if (keeper%plan%wanted(k)%name /= figure%name .or. keeper%n(k) == 0) cycle
+      associate (figure => figures(number))
+         k = findloc([(keeper%plan%wanted(k)%name == figure%name .and. keeper%n(k) > 0, k=1, size(keeper%n))], .true., dim=1)
+         if (k == 0) return
          is_written = .true.
-         call write_scene_plot(folder, title, figure, catalogue, drawing, keeper%frames(:keeper%n(k), k), keeper%tracks(k), error)
-         if (allocated(error)) return
-         if (figure%kind /= figure_animation) return
-         call write_file(folder//"/"//figure%name//".html", &
-                         page_text(title, catalogue, drawing, keeper%frames(:keeper%n(k), k), keeper%tracks(k)), error)
+         associate (list => keeper%frames(:keeper%n(k), k))
+            call write_scene_plot(folder, title, figure, catalogue, drawing, list, keeper%tracks(k), error)
+            if (allocated(error) .or. figure%kind /= figure_animation) return
+            call plots_text(folder, figures, catalogue, extremes, rows, [list(1)%t, list(size(list))%t], plots, n_left_out, error)
+            if (allocated(error)) return
+            call write_file(folder//"/"//figure%name//".html", &
+                            page_text(title, catalogue, drawing, list, keeper%tracks(k), plots, n_left_out), error)
+         end associate
          call append_text(pages, "figures/"//figure%name//".html")
-         return
-      end do
+      end associate
    end subroutine write_scene
 
 end module figures

@@ -1,13 +1,15 @@
-!> Text and files inside a page of HTML that asks no network: text that is nothing but text, and bytes in base 64.
+!> Text, files and numbers inside a page of HTML that asks no network: text that is nothing but text, bytes and numbers in base 64.
 !>
 !> Source of base 64: IETF RFC 4648, section 4.
 module html_text
+   use, intrinsic :: iso_fortran_env, only: int32, real32, real64
+   use kinds, only: wp
    use plot_text, only: valid_utf8
    use text, only: replace
    use text_buffer, only: buffer_t
    implicit none (type, external)
    private
-   public :: base_64, escaped, in_attribute
+   public :: base_64, doubles_in_base_64, escaped, floats_in_base_64, in_attribute, integers_in_base_64
 
 contains
 
@@ -71,5 +73,41 @@ contains
          end do
       end do
    end function base_64
+
+   !> Numbers as bytes in base 64, four each, in the order of bytes of this machine: IEEE single precision.
+   pure function floats_in_base_64(values) result(s)
+      real(wp), intent(in) :: values(:)        !! (n) the numbers; beyond the range of single precision infinite [any]
+      character(:), allocatable :: s           !! 16/3 letters each
+
+      character(:), allocatable :: bytes
+
+      allocate (character(4*size(values)) :: bytes)
+      bytes = transfer(real(values, real32), bytes)
+      s = base_64(bytes)
+   end function floats_in_base_64
+
+   !> The same, eight bytes each: IEEE double precision.
+   pure function doubles_in_base_64(values) result(s)
+      real(wp), intent(in) :: values(:)        !! (n) the numbers [any]
+      character(:), allocatable :: s           !! 32/3 letters each
+
+      character(:), allocatable :: bytes
+
+      allocate (character(8*size(values)) :: bytes)
+      bytes = transfer(real(values, real64), bytes)
+      s = base_64(bytes)
+   end function doubles_in_base_64
+
+   !> The same, integers of four bytes.
+   pure function integers_in_base_64(values) result(s)
+      integer, intent(in) :: values(:)         !! (n) the numbers
+      character(:), allocatable :: s           !! 16/3 letters each
+
+      character(:), allocatable :: bytes
+
+      allocate (character(4*size(values)) :: bytes)
+      bytes = transfer(int(values, int32), bytes)
+      s = base_64(bytes)
+   end function integers_in_base_64
 
 end module html_text

@@ -1,0 +1,43 @@
+// What the run wrote (D): arrays in base 64, little-endian, and the pose of each body at any time between two positions.
+'use strict';
+const $ = id => document.getElementById(id);
+const bytes = s => Uint8Array.from(atob(s), c => c.charCodeAt(0)).buffer;
+const f32 = s => new Float32Array(bytes(s)), f64 = s => new Float64Array(bytes(s)), i32 = s => new Int32Array(bytes(s));
+
+const S = D.size;                      // size of the symbols [m]
+const times = f64(D.t), N = times.length;
+const places = f32(D.r), turns = f32(D.q);               // (frame, body, 3) [m], (frame, body, 4) quaternions x y z w
+const eccentricities = f32(D.e), forces = f32(D.f), loads = f32(D.g);
+const nBody = D.bodies.length;
+
+let at = 0;                            // position that is shown: a whole number, or between two of them
+const below = () => Math.min(Math.floor(at), N - 1);
+const nearest = () => Math.min(Math.round(at), N - 1);
+const timeAt = u => {
+  const k = Math.min(Math.floor(u), N - 1), w = u - k;
+  return k + 1 < N ? times[k] * (1 - w) + times[k + 1] * w : times[k];
+};
+
+// A vector of a list (frame, item, 3), linear between two positions
+function vectorAt(list, count, item) {
+  const k = below(), w = at - k, i = 3 * (k * count + item), j = k + 1 < N ? i + 3 * count : i;
+  return [0, 1, 2].map(c => list[i + c] * (1 - w) + list[j + c] * w);
+}
+
+// Pose of a body: position linear, quaternion linear and normalised
+function poseAt(b) {
+  const k = below(), w = at - k, i = 4 * (k * nBody + b), j = k + 1 < N ? i + 4 * nBody : i;
+  let near = 0;
+  for (let c = 0; c < 4; c++) near += turns[i + c] * turns[j + c];
+  const q = [0, 1, 2, 3].map(c => turns[i + c] * (1 - w) + turns[j + c] * (near < 0 ? -w : w));
+  const l = Math.hypot(...q);
+  return {r: vectorAt(places, nBody, b), q: q.map(v => v / l)};
+}
+
+// A number with a prefix that makes it short
+function unit(x, u) {
+  const a = Math.abs(x);
+  const [n, f] = a >= 1e6 ? ['M', 1e-6] : a >= 1e4 ? ['k', 1e-3] : a >= 1 || a === 0 ? ['', 1] : a >= 1e-3 ? ['m', 1e3]
+    : a >= 1e-6 ? ['\u00b5', 1e6] : ['n', 1e9];
+  return +(x * f).toPrecision(4) + ' ' + n + u;
+}

@@ -1,0 +1,143 @@
+// Plots beside the picture: histories of the figures of the deck, force and path of a joint with clearance, motion of a point.
+const side = $('side'), first = times[0], last = Math.max(times[N - 1], first + Number.MIN_VALUE);
+const strokes = ['#1f6fb4', '#d1495b', '#2e8b57', '#c98a00', '#7b4fa3', '#17a2b8'];
+const text = (x, y, s, anchor, colour) =>
+  `<text x="${x}" y="${y}" font-size="12" text-anchor="${anchor || 'start'}" fill="${colour || '#333'}">${s}</text>`;
+const safe = s => s.replace(/[<>&"]/g, c => `&#${c.charCodeAt(0)};`);
+const short = x => +x.toPrecision(4);
+const points = list => list.map(p => p[0].toFixed(2) + ',' + p[1].toFixed(2)).join(' ');
+const X = t => 62 + 346 * (t - first) / (last - first);
+
+function element(height) {
+  const svg = document.createElementNS('http://www.w3.org/2000/svg', 'svg');
+  svg.setAttribute('viewBox', `0 0 420 ${height}`);
+  const box = document.createElement('div');
+  box.append(svg);
+  side.append(box);
+  return svg;
+}
+
+// A plot over time: {title, unit, curves: [{n, x, y}]}. Returns what moves its cursor, and its numbers if all is to be shown: the cursor
+// is an element of its own, so that the curves are not drawn again as it moves.
+function timePlot(svg, plot) {
+  let lo = Infinity, hi = -Infinity;
+  plot.curves.forEach(c => c.y.forEach((v, k) => {
+    if (v === v && c.x[k] >= first && c.x[k] <= last) { lo = Math.min(lo, v); hi = Math.max(hi, v); }
+  }));
+  if (!(lo <= hi)) { lo = 0; hi = 1; }
+  const pad = hi > lo ? 0.06 * (hi - lo) : Math.abs(hi) || 1, rows = Math.ceil(plot.curves.length / 2), top = 22 + 16 * rows, bottom = top + 120;
+  const Y = v => bottom - 120 * (v - lo + pad) / (hi - lo + 2 * pad);
+  svg.setAttribute('viewBox', `0 0 420 ${bottom + 24}`);
+  const label = v => Math.abs(v) < 1e-6 * (hi - lo) ? '0' : short(v);
+  const lines = plot.curves.map((c, i) => {
+    const pieces = [[]];
+    c.y.forEach((v, k) => {
+      if (v !== v) pieces.push([]);
+      else if (c.x[k] >= first && c.x[k] <= last) pieces[pieces.length - 1].push([X(c.x[k]), Y(v)]);
+    });
+    return pieces.map(p => `<polyline points="${points(p)}" fill="none" stroke="${strokes[i % strokes.length]}" stroke-width="1.3"/>`).join('');
+  });
+  svg.innerHTML = text(6, 15, safe(plot.title + (plot.unit ? ' [' + plot.unit + ']' : ''))) +
+    (lo < 0 && hi > 0 ? `<path d="M62 ${Y(0)}H408" stroke="#ddd"/>` : '') + lines.join('') +
+    `<path d="M62 ${top}V${bottom}H408" stroke="#404040" fill="none"/>` + text(58, Y(hi) + 4, label(hi), 'end') + text(58, Y(lo) + 4, label(lo), 'end') +
+    text(62, bottom + 16, unit(first, 's')) + text(408, bottom + 16, unit(last, 's'), 'end') +
+    plot.curves.map((c, i) => `<text class="value" x="${10 + 205 * (i % 2)}" y="${31 + 16 * Math.floor(i / 2)}" font-size="12" fill="${strokes[i % strokes.length]}"></text>`).join('');
+  const cursor = document.createElement('i'), values = svg.querySelectorAll('.value');
+  cursor.style.top = 100 * top / (bottom + 24) + '%';
+  cursor.style.height = 100 * 120 / (bottom + 24) + '%';
+  svg.parentNode.append(cursor);
+  svg.onpointerdown = svg.onpointermove = e => {
+    if (e.type === 'pointermove' && !(e.buttons & 1)) return;
+    const box = svg.getBoundingClientRect(), t = first + (last - first) * ((e.clientX - box.left) / box.width * 420 - 62) / 346;
+    seek(t);
+  };
+  return all => {
+    const now = timeAt(at);
+    cursor.style.transform = `translateX(${X(now) / 4.2}%)`;
+    if (all) plot.curves.forEach((c, i) => { values[i].textContent = c.n + ' ' + label(valueAt(c, now)); });
+  };
+}
+
+// A curve's value at a time, linear between its points
+function valueAt(c, t) {
+  let a = 0, b = c.x.length - 1;
+  while (b - a > 1) { const m = (a + b) >> 1; if (c.x[m] <= t) a = m; else b = m; }
+  const w = c.x[b] > c.x[a] ? Math.min(1, Math.max(0, (t - c.x[a]) / (c.x[b] - c.x[a]))) : 0;
+  return c.y[a] * (1 - w) + c.y[b] * w;
+}
+
+// Two directions across the view: x to the right, y upward
+const across = () => camera && D.spatial ? [V3().setFromMatrixColumn(camera.matrixWorld, 0), V3().setFromMatrixColumn(camera.matrixWorld, 1)]
+  .map(v => v.toArray()) : [[1, 0, 0], [0, 1, 0]];
+const dot = (a, b) => a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
+const turned = (b, s) => { const q = poseAt(b).q; return vec(s).applyQuaternion(new THREE.Quaternion(...q)).toArray(); };
+
+// The guide that a joint with clearance is; none if it is another
+const isGuide = j => D.marks.find(m => m.k === 2 && m.l === j + 1 && m.d > 0);
+
+// A joint with clearance in the view of the picture, its clearance filling the plot
+function orbit(svg, j) {
+  const joint = D.joints[j], t = f64(D.track.t), e = f32(D.track.e[j]);
+  const m = isGuide(j);
+  let big = joint.c;
+  for (let k = 0; k < e.length; k += 3) big = Math.max(big, Math.hypot(e[k], e[k + 1], e[k + 2]));
+  const g = 120 / big, R = 165, r = R - joint.c * g, title = text(6, 16, safe(joint.n)) + text(414, 16, 'clearance ' + safe(joint.cw), 'end');
+  const circle = (x, y, q, fill) => `<circle cx="${x}" cy="${y}" r="${q}" fill="${fill}" stroke="#404040"/>`;
+  return all => {
+    if (!all) return;
+    const [u, v] = across(), now = vectorAt(eccentricities, D.joints.length, j), path = [];
+    if (m) { svg.innerHTML = slider(m, joint, now, u, v); return; }
+    for (let k = 0; k < t.length && t[k] <= timeAt(at); k++) {
+      const s = [e[3 * k], e[3 * k + 1], e[3 * k + 2]];
+      path.push([210 + g * dot(u, s), 200 - g * dot(v, s)]);
+    }
+    const x = 210 + g * dot(u, now), y = 200 - g * dot(v, now);
+    svg.innerHTML = circle(210, 200, R, '#fff4d6') + circle(x, y, r, journal) +
+      `<polyline points="${points(path.slice(-400))}" fill="none" stroke="${red}"/>` + circle(x, y, 4, red) + title +
+      text(210, 392, 'path of the journal (drawn smaller than the hole)', 'middle');
+  };
+}
+
+// A slider in its guide, clearance and tilt magnified by the same factor
+function slider(m, joint, e, u, v) {
+  const flat2 = w => [dot(u, w), -dot(v, w)], a = flat2(turned(m.b[0], m.a)), b = flat2(turned(m.b[1], m.aj));
+  const l = Math.hypot(...a), w = Math.hypot(...b), n = [a[1] / l, -a[0] / l];
+  if (l < 0.3 || w < 0.3) return text(6, 16, safe(joint.n) + ': seen along its axis');
+  const g = 55 / Math.max(...m.g), tilt = (n[0] * b[0] + n[1] * b[1]) / w * m.d * g * Math.sign(a[0] * b[0] + a[1] * b[1]);
+  const f = flat2(e), o = g * (n[0] * f[0] + n[1] * f[1]), y1 = 132 - o + tilt, y2 = 132 - o - tilt;
+  const wallAt = (y, h) => `<rect x="0" y="${Math.min(y, y + h)}" width="420" height="30" fill="#ddd"/><path class="wall" d="M0 ${y}H420" stroke="#404040"/>`;
+  return wallAt(132 - g * m.g[0], -30) + wallAt(272 + g * m.g[1], 30) + text(6, 16, safe(joint.n)) +
+    `<polygon points="${points([[75, y1], [345, y2], [345, y2 + 140], [75, y1 + 140]])}" fill="${journal}" stroke="#404040"/>` +
+    text(414, 16, 'gaps ' + unit(m.g[0], 'm') + ', ' + unit(m.g[1], 'm'), 'end') + text(210, 396, 'clearance and tilt magnified', 'middle');
+}
+
+// The coordinates of a point at all positions
+function pointPlot(point) {
+  const kept = at, xyz = [[], [], []];
+  for (at = 0; at < N; at++) turned(point.b, point.s).forEach((v, c) => xyz[c].push(v + vectorAt(places, nBody, point.b)[c]));
+  at = kept;
+  const most = Math.max(...xyz.map(l => Math.max(...l.map(Math.abs)))), f = most < 1 ? 1e3 : 1;
+  return {title: 'position of ' + point.n, unit: f > 1 ? 'mm' : 'm',
+    curves: ['x', 'y', 'z'].slice(0, D.spatial ? 3 : 2).map((n, c) => ({n, x: times, y: xyz[c].map(v => v * f)}))};
+}
+
+let cursors = [];
+function buildPlots() {
+  side.innerHTML = '';
+  cursors = [];
+  const j = +$('joint').value, point = tracePoint();
+  if (D.joints.length) {
+    if (D.joints[j].c > 0 || isGuide(j)) {
+      const svg = element(402);
+      svg.setAttribute('class', 'orbit');
+      cursors.push(orbit(svg, j));
+    }
+    const y = Array.from(f32(D.track.f[j])), most = y.reduce((a, b) => Math.max(a, b), 0), f = most >= 1e4 ? 1e-3 : 1;
+    cursors.push(timePlot(element(160), {title: 'force in ' + D.joints[j].n, unit: f < 1 ? 'kN' : 'N',
+      curves: [{n: 'force', x: f64(D.track.t), y: y.map(v => v * f)}]}));
+  }
+  if (point) cursors.push(timePlot(element(160), pointPlot(point)));
+  D.plots.forEach(p => cursors.push(timePlot(element(160), p)));
+  if (!cursors.length && D.points.length) cursors.push(timePlot(element(160), pointPlot(D.points[D.points.length - 1])));
+  side.hidden = !cursors.length;
+}
