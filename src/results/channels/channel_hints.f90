@@ -95,6 +95,7 @@ contains
 
       allocate (quantities(0))
       do group = 1, size(catalogue%groups)
+         if (catalogue%groups(group)%vector > 0) cycle
          associate (room => catalogue%groups(group)%room, quantity => catalogue%groups(group)%channel%name)
             do item = 1, size(catalogue%rooms(room)%names)
                if (.not. is_same(name, item_name(catalogue, room, item)) .and. name /= "*") cycle
