@@ -170,7 +170,10 @@ def test_turns_of_shafts_crosses_and_gears_are_drawn(gudgeon):
     text = changed(SPACE_ROTOR.replace("rim    rotor   0.2   0.03  0\n", ""), "output", figures="animation(n=4,names=off)")
     run = figures_of(gudgeon, text, end="0.4 s")
     lines = (run.directory / "figures/animation.n.4.names.off.dat").read_text()
-    assert lines.count("\n\n\n") >= 4
+    assert len([block for block in lines.split("\n\n\n") if block.strip()]) == 4*10
+    text = changed(SPACE_ROTOR, "output", figures="animation(n=4)")
+    lines = (figures_of(gudgeon, text, end="0.4 s").directory / "figures/animation.n.4.dat").read_text()
+    assert len([block for block in lines.split("\n\n\n") if block.strip()]) == 4*10 and lines.count('"rim"') == 4
     gears = changed((ROOT / "inputs/planetary_gear.deck").read_text(), "output", figures="mechanism(t=1ms,names=off)")
     plain = (figures_of(gudgeon, gears, end="2 ms").directory / "figures/mechanism.t.1ms.names.off.dat").read_text()
     assert plain.count("\n\n") > 60

@@ -175,6 +175,7 @@ contains
                                                 " """//name%text//"""")
          end associate
       end do
+      if (size(names%list) > 0) call canvas%styles(style_name)%line("")
 
    contains
 
