@@ -160,8 +160,8 @@ contains
          self%value = [self%value, self%value]
       end if
       self%time(self%n_sample) = t
-      if (self%room == 0) return
-      group = catalogue%find_group(self%room, self%channel)
+      if (self%item_group == 0) return
+      group = catalogue%find_group(self%item_group, self%channel)
       self%value(self%n_sample) = catalogue%values(catalogue%place(group, 1, size(catalogue%groups(group)%has)))
    end subroutine keeper_sample
 

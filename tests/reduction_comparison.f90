@@ -156,11 +156,11 @@ contains
       call check_equal(error, size(of_small%groups), size(of_full%groups), "groups")
       if (allocated(error)) return
       do k = 1, size(of_full%groups)
-         associate (room => of_full%groups(k)%room, name => of_full%groups(k)%channel%name)
+         associate (room => of_full%groups(k)%item_group, name => of_full%groups(k)%channel%name)
             other = of_small%find_group(room, name)
             call check_true(error, other > 0, name//" is reported by both")
             if (allocated(error)) return
-            call compare(values_of(of_small, other), values_of(of_full, k), of_full%rooms(room)%name//" "//name)
+            call compare(values_of(of_small, other), values_of(of_full, k), of_full%item_groups(room)%name//" "//name)
          end associate
       end do
       associate (of_small => rate_small(small%linkage%n_position + small%linkage%n_rate + 1:), &

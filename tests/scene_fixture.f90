@@ -108,8 +108,8 @@ contains
       do k = 1, size(catalogue%groups)
          associate (group => catalogue%groups(k))
             if (group%channel%name /= channel) cycle
-            do i = 1, size(catalogue%rooms(group%room)%names)
-               if (catalogue%rooms(group%room)%names(i)%s /= item) cycle
+            do i = 1, size(catalogue%item_groups(group%item_group)%names)
+               if (catalogue%item_groups(group%item_group)%names(i)%s /= item) cycle
                x(1:group%channel%components) = catalogue%value(k, i)
             end do
          end associate

@@ -15,7 +15,7 @@ module clearance_bench
    use friction_law, only: friction_law_t, memory_bristle, memory_none, memory_slip
    use generic_item, only: column_number, fill_item, set_number
    use item, only: item_t
-   use kind_info, only: kind_info_t, leaves_turn, leaves_way
+   use kind_info, only: kind_info_t, free_rotation, free_translation
    use kinds, only: wp
    use law_fixture, only: tame
    use motion, only: loads_t, motion_t, new_loads, new_motion
@@ -184,8 +184,8 @@ contains
       bench%set%before%contacts = n_before
       materials%young = 207.0e9_wp
       materials%poisson = 0.3_wp
-      bench%set%items%leaves = [leaves_turn, leaves_way, leaves_turn]
-      bench%set%items%way = reshape([1.0_wp, 0.0_wp, 0.6_wp, 0.8_wp, 0.0_wp, 1.0_wp], [2, n_item])
+      bench%set%items%free = [free_rotation, free_translation, free_rotation]
+      bench%set%items%slide_axis = reshape([1.0_wp, 0.0_wp, 0.6_wp, 0.8_wp, 0.0_wp, 1.0_wp], [2, n_item])
       call bench%set%take_surfaces(items, materials, [(1.0_wp, k=1, n_body)], [(.false., k=1, n_body)])
       call bench%set%prepare(items)
       do k = 1, n_item

@@ -74,7 +74,7 @@ contains
       do k = 1, size(all_of%groups)
          associate (group => all_of%groups(k))
             allowed = 0.0_wp
-            if (group%room == group_clearances .or. group%room == group_contacts) allowed = 4.0e-15_wp
+            if (group%item_group == group_clearances .or. group%item_group == group_contacts) allowed = 4.0e-15_wp
             do item = 1, size(group%has)
                if (.not. group%has(item)) cycle
                call ask_alone(system, k, item, one_of)

@@ -213,7 +213,7 @@ contains
       if (bench%set%stick_slip%memory == memory_none) return
       do c = 1, bench%set%n_contact
          call bench%set%lie(c, bench%motion, tangent)
-         tangent%way = tangent%t(:, 1) + 0.3_wp*tangent%t(:, 2)
+         tangent%slip_direction = tangent%t(:, 1) + 0.3_wp*tangent%t(:, 2)
          call bench%set%lie(c, bench%motion, tangent)
          later = tangent
          do k = 1, 4

@@ -376,7 +376,7 @@ contains
 
          type(loaded_t) :: loaded
 
-         keeper%room = group_bodies
+         keeper%item_group = group_bodies
          keeper%channel = "acceleration"
          call load_file(dry_deck, loaded, error, "friction=0.03")
          if (allocated(error)) return

@@ -100,7 +100,7 @@ contains
       type(keeper_t) :: keeper
       type(summary_t) :: summary
 
-      keeper%room = group_bodies
+      keeper%item_group = group_bodies
       keeper%channel = "angle"
       call run_text(wheel//settings//"end = 3 s"//nl//"[output]"//nl//"every = 7 ms"//nl, keeper, summary, error)
       if (allocated(error)) return

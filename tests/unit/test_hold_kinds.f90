@@ -128,7 +128,7 @@ contains
          n_change = 0
          worst = 0.0_wp
          ! as if the place of the slider had been chosen to stand for all
-         select type (way => system%way)
+         select type (way => system%stabiliser)
          type is (stabilisation_partitioning_t)
             way%order = [1, 2, 3, 4, 5, 6, 8, 9, 7]
             before = way%order
@@ -138,7 +138,7 @@ contains
          do while (method%t < 0.5_wp .and. .not. allocated(error))
             call method%advance(system, 0.5_wp, status)
             call check_true(error, status >= 0, "a step is made")
-            select type (way => system%way)
+            select type (way => system%stabiliser)
             type is (stabilisation_partitioning_t)
                call check_equal(error, way%rank, 8, "dependent coordinates")
                if (any(before /= way%order)) n_change = n_change + 1
@@ -204,7 +204,7 @@ contains
 
          do while (run%method%t < t .and. .not. allocated(error))
             call run%method%advance(run%system, 1.0_wp, status)
-            call check_true(error, status >= 0, "a step is made with "//run%system%way%words())
+            call check_true(error, status >= 0, "a step is made with "//run%system%stabiliser%words())
          end do
       end subroutine go_to
 

@@ -45,7 +45,7 @@ contains
       call check_equal(error, size(settings), 2, "two words")
       call check_equal(error, settings(1)%word(), "verner", "the first word")
       call check_equal(error, settings(2)%method, "rk4", "method of the second")
-      call check_equal(error, settings(2)%way, "projection", "way of the second")
+      call check_equal(error, settings(2)%stabiliser, "projection", "way of the second")
       call check_equal(error, settings(2)%solver, "schur", "solver of the second")
       call settings_of(split_blank("verner.* verner.projection"), settings)
       call check_equal(error, size(settings), 7, "all ways, one of them named twice")
@@ -54,7 +54,7 @@ contains
       call settings_of(split_blank("*.none.*"), settings)
       call check_equal(error, size(settings), 5*(n_integrator_kinds() - 1), "all methods but auto, and all solvers")
       call settings_of(split_blank("verner.auto verner.baumgarte.auto"), settings)
-      call check_equal(error, settings(1)%way, "auto", "the way chosen for the scene, whatever the deck has")
+      call check_equal(error, settings(1)%stabiliser, "auto", "the way chosen for the scene, whatever the deck has")
       call check_equal(error, settings(2)%solver, "auto", "the solver chosen for the scene")
    end subroutine test_words
 

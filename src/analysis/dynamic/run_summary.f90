@@ -41,7 +41,7 @@ contains
       allocate (summary%warnings(0))
       summary%method%integrator = whole%parts(busiest(whole))%method%words(has_run=.true.)
       summary%method%solver = whole%system%linkage%solution%solver%name()
-      summary%method%stabilisation = whole%system%way%words()
+      summary%method%stabilisation = whole%system%stabiliser%words()
       summary%method%tolerance = merge(0.0_wp, method%controls%tolerance, method%controls%fixed_step > 0.0_wp)
       summary%quality%has_ledger = whole%system%ledger%is_kept
       summary%time_end = stop%t

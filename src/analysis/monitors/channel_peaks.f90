@@ -87,8 +87,8 @@ contains
          associate (group => catalogue%groups(g), first => catalogue%groups(g)%before + 1)
             associate (last => group%before + group%channel%components*size(group%has), name => group%channel%name)
                group_of(first:last) = g
-               if (group%room == group_contacts) is_searched(first:last) = name /= "normal_force" .and. name /= "penetration"
-               if (group%room == group_energy) is_searched(first:last) = name /= "residual"
+               if (group%item_group == group_contacts) is_searched(first:last) = name /= "normal_force" .and. name /= "penetration"
+               if (group%item_group == group_energy) is_searched(first:last) = name /= "residual"
             end associate
          end associate
       end do

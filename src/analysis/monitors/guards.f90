@@ -3,7 +3,7 @@
 !> of a contact: a penetration beyond the clearance, the range of its law or a part of the surfaces' size; an impact too
 !> fast for a quasi-static law; a force at which the pressure is beyond the strength of the material;
 !> of a film: how thin it becomes (`film_monitor`);
-!> of a body: its speed, its way from the start in sizes of the scene; of the ledger: energy made of nothing.
+!> of a body: its speed, its distance from the start in sizes of the scene; of the ledger: energy made of nothing.
 !>
 !> Sources: of the limits of laws see `surfaces` and `normal_law`, of the pressure `contact_pressure`. Limits: peaks are those of
 !> the contacts' memory, so that they are as right as its; speeds and ways are those at the ends of steps.
@@ -56,10 +56,10 @@ module guards
       real(wp) :: energy = 0.0_wp                !! maximum residual over the largest energy, 0: no limit [1]
       integer :: n_wrong = 0                     !! steps in a row with a greater one
       real(wp) :: speed = huge(1.0_wp)           !! maximum speed of a body [m/s]
-      real(wp) :: way = huge(1.0_wp)             !! way from the start that is worth a word [m]
+      real(wp) :: max_displacement = huge(1.0_wp)  !! distance from the start, beyond it a warning [m]
       real(wp) :: size = 0.0_wp                  !! of the scene [m]
       real(wp), allocatable :: start(:, :)       !! (2, bodies) centres at the start [m]
-      type(breach_t), allocatable :: travel(:)   !! (bodies) ways beyond
+      type(breach_t), allocatable :: travel(:)   !! (bodies) greater distances from the start
       type(film_monitor_t) :: films                !! how thin films become
       character(:), allocatable :: reason        !! why the run must end; unallocated: it need not
    contains
@@ -137,7 +137,7 @@ contains
          if (settings%number("speed") > 0.0_wp) guards%speed = settings%number("speed")
          guards%size = extent_of_scene(scene)
          travel = settings%number("travel")
-         if (travel*guards%size > 0.0_wp) guards%way = travel*guards%size
+         if (travel*guards%size > 0.0_wp) guards%max_displacement = travel*guards%size
          allocate (guards%limit(n_contact_guard, system%clearance_joints%n_contact), source=huge(1.0_wp))
          do k = 1, system%clearance_joints%n_set
             call set_limits(system%clearance_joints%sets(k)%set, guards)
@@ -189,7 +189,7 @@ contains
       part%penetration = self%penetration
       part%energy = self%energy
       part%speed = self%speed
-      part%way = self%way
+      part%max_displacement = self%max_displacement
       part%size = self%size
    end subroutine guards_share
 
@@ -223,7 +223,7 @@ contains
       type(mechanism_t), intent(in) :: system    !! the system, its motion that at the end of the step
       real(wp), intent(in) :: t                      !! time there [s]
 
-      real(wp) :: way
+      real(wp) :: distance
       integer :: k
 
       if (.not. self%is_set) return
@@ -238,14 +238,14 @@ contains
          end associate
       end do
       associate (motion => system%linkage%motion)
-         if (are_near(system%linkage%bodies%n, motion%r, motion%v, self%start, self%way**2, self%speed**2)) return
+         if (are_near(system%linkage%bodies%n, motion%r, motion%v, self%start, self%max_displacement**2, self%speed**2)) return
          do k = 1, system%linkage%bodies%n
             if (motion%v(1, k)**2 + motion%v(2, k)**2 > self%speed**2) then
                call end_run(self, "body '"//system%linkage%bodies%names(k)%s//"' has a speed of "//real_text(hypot(motion%v(1, k), &
                             motion%v(2, k)), 3)//" m/s, above the guard 'speed': "//real_text(self%speed, 3)//" m/s")
             end if
-            way = (motion%r(1, k) - self%start(1, k))**2 + (motion%r(2, k) - self%start(2, k))**2
-            if (way > self%way**2) call raise(self%travel(k), sqrt(way), t)
+            distance = (motion%r(1, k) - self%start(1, k))**2 + (motion%r(2, k) - self%start(2, k))**2
+            if (distance > self%max_displacement**2) call raise(self%travel(k), sqrt(distance), t)
          end do
       end associate
    end subroutine guards_look
@@ -285,12 +285,12 @@ contains
    end function guarded
 
    !> Whether all bodies are near their starts, and none is too fast.
-   pure logical function are_near(n, r, v, start, way_2, speed_2)
+   pure logical function are_near(n, r, v, start, distance_2, speed_2)
       integer, intent(in) :: n               !! number of bodies
       real(wp), intent(in) :: r(3, 0:n)      !! (3, 0:bodies) centres of mass [m]
       real(wp), intent(in) :: v(3, 0:n)      !! (3, 0:bodies) their velocities [m/s]
       real(wp), intent(in) :: start(2, n)    !! (2, bodies) centres at the start [m]
-      real(wp), intent(in) :: way_2          !! square of the maximum way [m^2]
+      real(wp), intent(in) :: distance_2          !! square of the maximum distance [m^2]
       real(wp), intent(in) :: speed_2        !! square of the maximum speed [m^2/s^2]
 
       integer :: k
@@ -298,7 +298,7 @@ contains
       are_near = .false.
       do k = 1, n
          if (v(1, k)**2 + v(2, k)**2 > speed_2) return
-         if ((r(1, k) - start(1, k))**2 + (r(2, k) - start(2, k))**2 > way_2) return
+         if ((r(1, k) - start(1, k))**2 + (r(2, k) - start(2, k))**2 > distance_2) return
       end do
       are_near = .true.
    end function are_near

@@ -45,7 +45,7 @@ contains
       associate (stick_slip => system%clearance_joints%sets(slot)%set%stick_slip)
          if (abs(stick_slip%slip(k)) /= 1) return
          way(1) = real(stick_slip%slip(k), wp)
-         if (stick_slip%n_tangent > 1) way = stick_slip%tangent(k)%way
+         if (stick_slip%n_tangent > 1) way = stick_slip%tangent(k)%slip_direction
       end associate
    end function sliding_way
 

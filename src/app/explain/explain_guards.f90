@@ -41,10 +41,9 @@ contains
          end if
          if (guards%speed < huge(1.0_wp)) call say("stops if a body exceeds "//real_text(guards%speed, 3)// &
                                                    " m/s (speed)", 2)
-         if (guards%way < huge(1.0_wp)) call say("warns if a body moves more than "//real_text(guards%way, 3)//" m from its "// &
-            "initial "// &
-            "position, "// &
-                                                 real_text(guards%way/guards%size, 3)//" times the size of the model (travel)", 2)
+         if (guards%max_displacement < huge(1.0_wp)) &
+            call say("warns if a body moves more than "//real_text(guards%max_displacement, 3)//" m from its initial position, "// &
+                     real_text(guards%max_displacement/guards%size, 3)//" times the size of the model (travel)", 2)
       end associate
       do k = 1, limits%stop%n
          call say("stops as requested when "//limits%stop%list(k)%words, 2)

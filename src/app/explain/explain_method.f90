@@ -49,8 +49,8 @@ contains
          words = solver%name()
          if (settings%solver%name == "") words = words//" (auto: "//reason_of_solver(solver)//")"
          call say("solver "//words, 2)
-         words = loaded%system%way%words()
-         if (settings%stabilisation%name == "") words = words//" (auto: "//reason_of_stabilisation(loaded%system%way)//")"
+         words = loaded%system%stabiliser%words()
+         if (settings%stabilisation%name == "") words = words//" (auto: "//reason_of_stabilisation(loaded%system%stabiliser)//")"
          call say("stabilisation "//words, 2)
       end associate
       call explain_times(loaded)

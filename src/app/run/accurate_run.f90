@@ -59,14 +59,15 @@ contains
       else if (allocated(options%legacy%way)) then
          call set_error(error, exit_usage, "options --accuracy and --legacy exclude each other: --legacy takes fixed steps")
       else
-         associate (method => loaded%scene%settings%integration%method, way => loaded%scene%settings%integration%stabilisation%name)
+         associate (method => loaded%scene%settings%integration%method, &
+                    stabiliser => loaded%scene%settings%integration%stabilisation%name)
             maker = method
             hint = "choose another method, as with --method verner"
             if (.not. takes_steps(method, "")) then
-               maker = way
+               maker = stabiliser
                hint = "choose another stabilisation method, as stabilise = projection"
             end if
-            if (.not. takes_steps(method, way)) return
+            if (.not. takes_steps(method, stabiliser)) return
          end associate
          call set_error(error, exit_usage, "option --accuracy chooses a tolerance, but '"//maker//"' takes fixed steps"// &
                         new_line("a")//"  = "//hint)
@@ -142,7 +143,7 @@ contains
       do k = 1, size(all)
          associate (group => catalogue%groups(all(k)%group))
             is_asked(k) = index(left_out, " "//group%channel%name//" ") == 0
-            if (size(words) == 0) is_asked(k) = sort_of(group%room, group%channel%name) > 0
+            if (size(words) == 0) is_asked(k) = sort_of(group%item_group, group%channel%name) > 0
          end associate
       end do
       scalars = pack(all, is_asked)
@@ -157,7 +158,7 @@ contains
       n = 0
       do k = 1, size(catalogue%groups)
          associate (group => catalogue%groups(k))
-            if (sort_of(group%room, group%channel%name) > 0) n = n + numbers_of(group)*size(group%has)
+            if (sort_of(group%item_group, group%channel%name) > 0) n = n + numbers_of(group)*size(group%has)
          end associate
       end do
    end function count_kept

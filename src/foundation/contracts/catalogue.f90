@@ -1,13 +1,13 @@
 !> What a scene can report: every channel of every item, with its current values.
 !>
 !> A group of the catalogue is a list of items of one sort (bodies, joints, ...); a group is one
-!> quantity of all the items of a room, one dataset of the output file. The equations fill `values`;
+!> quantity of all the items of a group, one dataset of the output file. The equations fill `values`;
 !> results/writers read the rest once and know no kind by name.
 module catalogue
    use, intrinsic :: ieee_exceptions, only: ieee_get_status, ieee_set_halting_mode, ieee_set_status, ieee_status_type, ieee_usual
    use catalogue_groups, only: group_t, resize_groups
    use groups_of_catalogue, only: add_to_group, has_channel, n_groups, resize_storage, group_clearances, group_contacts, &
-        group_paths, room_t
+        group_paths, item_group_t
    use expression, only: expression_t, most_seen
    use kind_info, only: channel_t, kind_info_t
    use kinds, only: not_a_number, wp
@@ -26,7 +26,7 @@ module catalogue
    !> Everything a scene can report.
    type :: catalogue_t
       integer :: n_coordinates = 2                !! of a point: 2 in the plane, 3 in space
-      type(room_t) :: rooms(n_groups)              !! (n_rooms) items
+      type(item_group_t) :: item_groups(n_groups)              !! (n_item_groups) items
       integer :: n_group = 0                      !! quantities so far
       type(group_t), allocatable :: groups(:)     !! (groups) quantities; while some are added with places for more
       real(wp), allocatable :: values(:)          !! (any) current values of all, SI; NaN: the item has no such channel [any]
@@ -51,34 +51,34 @@ module catalogue
 
 contains
 
-   !> Number of the group of a room with a given channel name, 0 if there is none.
-   pure integer function catalogue_find_group(self, room, name) result(found)
+   !> Number of the group of a group with a given channel name, 0 if there is none.
+   pure integer function catalogue_find_group(self, item_group, name) result(found)
       class(catalogue_t), intent(in) :: self  !! the catalogue
-      integer, intent(in) :: room             !! workspace to look in
+      integer, intent(in) :: item_group             !! group to look in
       character(*), intent(in) :: name        !! channel name
 
       integer :: k
 
       found = 0
       do k = 1, self%n_group
-         if (self%groups(k)%room /= room) cycle
+         if (self%groups(k)%item_group /= item_group) cycle
          if (self%groups(k)%channel%name /= name) cycle
          found = k
          return
       end do
    end function catalogue_find_group
 
-   !> Add a quantity to a room. A vector has as many components as a point has coordinates. One that is there, of another kind of
+   !> Add a quantity to a group. A vector has as many components as a point has coordinates. One that is there, of another kind of
    !> item, has the components and frames of both.
-   subroutine catalogue_add_group(self, room, channel)
+   subroutine catalogue_add_group(self, item_group, channel)
       class(catalogue_t), intent(inout) :: self  !! the catalogue
-      integer, intent(in) :: room                !! its room
+      integer, intent(in) :: item_group                !! its group
       type(channel_t), intent(in) :: channel     !! the quantity
 
       integer :: components, found
 
       components = merge(self%n_coordinates, channel%components, channel%components == 2)
-      found = self%find_group(room, channel%name)
+      found = self%find_group(item_group, channel%name)
       if (found > 0) then
          associate (there => self%groups(found)%channel)
             there%components = max(there%components, components)
@@ -90,36 +90,36 @@ contains
       if (self%n_group == size(self%groups)) call resize_groups(self%groups, self%n_group, 2*self%n_group)
       self%n_group = self%n_group + 1
       associate (group => self%groups(self%n_group))
-         group%room = room
+         group%item_group = item_group
          group%channel = channel
          group%channel%components = components
       end associate
    end subroutine catalogue_add_group
 
-   !> Add all the channels that a kind announces to a room.
-   subroutine catalogue_add_kind(self, room, info)
+   !> Add all the channels that a kind announces to a group.
+   subroutine catalogue_add_kind(self, item_group, info)
       class(catalogue_t), intent(inout) :: self  !! the catalogue
-      integer, intent(in) :: room                !! workspace of the kind's items
+      integer, intent(in) :: item_group                !! group of the kind's items
       type(kind_info_t), intent(in) :: info      !! the kind
 
       integer :: k
 
       if (.not. allocated(info%channels)) return
       do k = 1, size(info%channels)
-         call self%add_group(room, info%channels(k))
+         call self%add_group(item_group, info%channels(k))
       end do
    end subroutine catalogue_add_kind
 
-   !> Add an item to a room.
-   subroutine catalogue_add_item(self, room, name, label, radius, channels)
+   !> Add an item to a group.
+   subroutine catalogue_add_item(self, item_group, name, label, radius, channels)
       class(catalogue_t), intent(inout) :: self        !! the catalogue
-      integer, intent(in) :: room                      !! its room
+      integer, intent(in) :: item_group                      !! its group
       character(*), intent(in) :: name                 !! its name
       character(*), intent(in), optional :: label      !! of a contact: label within the joint
       real(wp), intent(in), optional :: radius         !! of a clearance joint: radial clearance [m]
       character(*), intent(in), optional :: channels   !! present: it has only these, see `names_of_channels`
 
-      call add_to_group(self%rooms(room), name, label, radius, channels)
+      call add_to_group(self%item_groups(item_group), name, label, radius, channels)
    end subroutine catalogue_add_item
 
    !> The channels of a kind, each between blanks.
@@ -136,11 +136,11 @@ contains
       end do
    end function names_of_channels
 
-   !> Whether an item has the quantity of a group of its room.
+   !> Whether an item has the quantity of a group of its group.
    pure logical function catalogue_item_has(self, group, item) result(has)
       class(catalogue_t), intent(in) :: self  !! the catalogue
       integer, intent(in) :: group            !! number of the group
-      integer, intent(in) :: item             !! number of the item in the group's room
+      integer, intent(in) :: item             !! number of the item in the group's group
 
       has = self%groups(group)%has(item)
    end function catalogue_item_has
@@ -150,7 +150,7 @@ contains
       class(catalogue_t), intent(in) :: self  !! the catalogue
       integer, intent(in) :: group            !! number of the group
       integer, intent(in) :: component        !! the component
-      integer, intent(in) :: item             !! number of the item in the group's room
+      integer, intent(in) :: item             !! number of the item in the group's group
 
       place = self%groups(group)%before + self%groups(group)%channel%components*(item - 1) + component
    end function catalogue_place
@@ -159,7 +159,7 @@ contains
    pure function catalogue_value(self, group, item) result(x)
       class(catalogue_t), intent(in) :: self                   !! the catalogue
       integer, intent(in) :: group                             !! number of the group
-      integer, intent(in) :: item                              !! number of the item in the group's room
+      integer, intent(in) :: item                              !! number of the item in the group's group
       real(wp) :: x(self%groups(group)%channel%components)     !! (components) its value [any]
 
       associate (before => self%place(group, 0, item))
@@ -168,9 +168,9 @@ contains
    end function catalogue_value
 
    !> What a set reports: its channels, and where their values go.
-   subroutine catalogue_list(self, room, info, offer)
+   subroutine catalogue_list(self, item_group, info, offer)
       class(catalogue_t), intent(in) :: self     !! the catalogue
-      integer, intent(in) :: room  !! workspace of the set's items; of clearance joints: their contacts have one of their own
+      integer, intent(in) :: item_group  !! group of the set's items; of clearance joints: their contacts have one of their own
       type(kind_info_t), intent(in) :: info      !! its channels
       type(readings_t), intent(inout) :: offer   !! what it reports
 
@@ -178,8 +178,8 @@ contains
 
       call offer%start(count_channels(info))
       do k = 1, count_channels(info)
-         group = self%find_group(room, info%channels(k)%name)
-         if (group == 0 .and. room == group_clearances) group = self%find_group(group_contacts, info%channels(k)%name)
+         group = self%find_group(item_group, info%channels(k)%name)
+         if (group == 0 .and. item_group == group_clearances) group = self%find_group(group_contacts, info%channels(k)%name)
          if (group > 0) call offer%add(info%channels(k)%code, group, 0, 0, info%channels(k)%components)
       end do
    end subroutine catalogue_list
@@ -189,7 +189,7 @@ contains
       class(catalogue_t), intent(in) :: self      !! the catalogue
       type(readings_t), intent(in) :: offer       !! what the set reports
       type(readings_t), intent(inout) :: readings !! what is read
-      integer, intent(in), optional :: columns(:) !! (items of the set) their places in the room; absent: not item by item
+      integer, intent(in), optional :: columns(:) !! (items of the set) their places in the group; absent: not item by item
 
       integer :: i, k, n
 
@@ -212,7 +212,7 @@ contains
 
       !> Add the channel at hand of one item, or of all.
       pure subroutine add(column, item, list)
-         integer, intent(in) :: column           !! place in the room of the item, or of the first
+         integer, intent(in) :: column           !! place in the group of the item, or of the first
          integer, intent(in) :: item             !! item of the set, 0: all
          type(readings_t), intent(inout) :: list !! what is read
 
@@ -283,8 +283,8 @@ contains
       integer :: item, k, n
 
       do k = 1, n_groups
-         self%rooms(k)%name = trim(group_paths(k))
-         call resize_storage(self%rooms(k), self%rooms(k)%n)
+         self%item_groups(k)%name = trim(group_paths(k))
+         call resize_storage(self%item_groups(k), self%item_groups(k)%n)
       end do
       call resize_groups(self%groups, self%n_group, self%n_group)
       if (.not. allocated(self%formulas)) allocate (self%formulas(0))
@@ -292,12 +292,12 @@ contains
       do k = 1, size(self%groups)
          associate (group => self%groups(k))
             if (allocated(group%has)) deallocate (group%has, group%is_wanted)
-            allocate (group%is_wanted(size(self%rooms(group%room)%names)), source=.true.)
+            allocate (group%is_wanted(size(self%item_groups(group%item_group)%names)), source=.true.)
             word = " "//group%channel%name//" "
             if (group%vector > 0) then
                group%has = self%groups(group%vector)%has
             else
-               group%has = [(has_channel(self%rooms(group%room), word, item), item=1, size(group%is_wanted))]
+               group%has = [(has_channel(self%item_groups(group%item_group), word, item), item=1, size(group%is_wanted))]
             end if
             group%before = n
             n = n + group%channel%components*size(group%has)

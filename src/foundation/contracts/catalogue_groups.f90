@@ -1,4 +1,4 @@
-!> Groups of the catalogue: one quantity of all the items of a room, and a list of them that grows.
+!> Groups of the catalogue: one quantity of all the items of a group, and a list of them that grows.
 module catalogue_groups
    use groups_of_catalogue, only: group_contacts, group_joints, group_requests
    use kind_info, only: channel_t
@@ -6,9 +6,9 @@ module catalogue_groups
    private
    public :: goes_round, group_t, resize_groups
 
-   !> One quantity of all the items of a room.
+   !> One quantity of all the items of a group.
    type :: group_t
-      integer :: room = 0                     !! workspace, one of the above
+      integer :: item_group = 0                     !! group of items, one of the above
       type(channel_t) :: channel              !! name, SI unit, frame, components and long name
       logical, allocatable :: has(:)          !! (items) which of them have the channel
       logical, allocatable :: is_wanted(:)    !! (items) whose value someone reads; others may not be found
@@ -26,10 +26,10 @@ contains
 
       goes_round = group%channel%unit == "rad"
       if (.not. goes_round) return
-      select case (group%room)
+      select case (group%item_group)
       case (group_contacts); goes_round = group%channel%name == "contact_angle"
       case (group_joints); goes_round = index(of_joints, " "//group%channel%name//" ") > 0
-      case default; goes_round = group%room == group_requests
+      case default; goes_round = group%item_group == group_requests
       end select
    end function goes_round
 
@@ -54,7 +54,7 @@ contains
       type(group_t), intent(inout) :: from  !! the quantity; afterwards without texts and values
       type(group_t), intent(inout) :: to    !! the same
 
-      to%room = from%room
+      to%item_group = from%item_group
       to%channel%components = from%channel%components
       to%channel%code = from%channel%code
       call move_alloc(from%channel%name, to%channel%name)

@@ -4,7 +4,7 @@ module groups_of_catalogue
    use text, only: text_t
    implicit none (type, external)
    private
-   public :: add_to_group, has_channel, resize_storage, group_paths, room_t
+   public :: add_to_group, has_channel, resize_storage, group_paths, item_group_t
    public :: n_groups, group_bodies, group_clearances, group_contacts, group_drivers, group_energy, group_forces, group_joints
    public :: group_motions, group_points, group_reactions, group_requests
 
@@ -21,46 +21,46 @@ module groups_of_catalogue
    integer, parameter :: group_requests = 11   !! expressions over channels: one item, a group of its own for each
    integer, parameter :: n_groups = 11         !! number of groups
 
-   !> (n_rooms) groups of the output file, in the order of the groups
+   !> (n_item_groups) groups of the output file, in the order of the groups
    character(*), parameter :: group_paths(n_groups) = [character(19) :: "bodies", "joints", "drivers", "clearances", &
                                                      "clearances/contacts", "forces", "energy", "points", "motions", &
                                                      "reactions", "requests"]
 
    !> The items of one sort.
-   type :: room_t
+   type :: item_group_t
       integer :: n = 0                         !! number of items
       character(:), allocatable :: name        !! path in the output file: bodies, joints, clearances/contacts ...
       type(text_t), allocatable :: names(:)    !! (items) name of each item; of a contact: its joint's
       type(text_t), allocatable :: labels(:)   !! (items) of contacts: label within the joint; else blank
       real(wp), allocatable :: radius(:)       !! (items) of clearances: radial clearance; else 0 [m]
-      type(text_t), allocatable :: channels(:) !! (items) " name name " of the channels it has; empty: all of the room's
-   end type room_t
+      type(text_t), allocatable :: channels(:) !! (items) " name name " of the channels it has; empty: all of the group's
+   end type item_group_t
 
 contains
 
-   !> Add an item to a room.
-   subroutine add_to_group(room, name, label, radius, channels)
-      type(room_t), intent(inout) :: room              !! the room
+   !> Add an item to a group.
+   subroutine add_to_group(item_group, name, label, radius, channels)
+      type(item_group_t), intent(inout) :: item_group              !! the group
       character(*), intent(in) :: name                 !! its name
       character(*), intent(in), optional :: label      !! of a contact: label within the joint
       real(wp), intent(in), optional :: radius         !! of a clearance joint: radial clearance [m]
       character(*), intent(in), optional :: channels   !! present: it has only these, see `names_of_channels`
 
-      if (.not. allocated(room%names)) call resize_storage(room, 8)
-      if (room%n == size(room%names)) call resize_storage(room, 2*room%n)
-      room%n = room%n + 1
-      room%names(room%n)%s = name
-      room%labels(room%n)%s = ""
-      if (present(label)) room%labels(room%n)%s = label
-      room%radius(room%n) = 0.0_wp
-      if (present(radius)) room%radius(room%n) = radius
-      room%channels(room%n)%s = ""
-      if (present(channels)) room%channels(room%n)%s = channels
+      if (.not. allocated(item_group%names)) call resize_storage(item_group, 8)
+      if (item_group%n == size(item_group%names)) call resize_storage(item_group, 2*item_group%n)
+      item_group%n = item_group%n + 1
+      item_group%names(item_group%n)%s = name
+      item_group%labels(item_group%n)%s = ""
+      if (present(label)) item_group%labels(item_group%n)%s = label
+      item_group%radius(item_group%n) = 0.0_wp
+      if (present(radius)) item_group%radius(item_group%n) = radius
+      item_group%channels(item_group%n)%s = ""
+      if (present(channels)) item_group%channels(item_group%n)%s = channels
    end subroutine add_to_group
 
-   !> Give a room another number of places, and keep its items.
-   subroutine resize_storage(room, places)
-      type(room_t), intent(inout) :: room  !! the room
+   !> Give a group another number of places, and keep its items.
+   subroutine resize_storage(item_group, places)
+      type(item_group_t), intent(inout) :: item_group  !! the group
       integer, intent(in) :: places        !! as many as it has items, or more
 
       type(text_t), allocatable :: channels(:), names(:), labels(:)
@@ -69,26 +69,26 @@ contains
 
       allocate (names(places), labels(places), channels(places))
       allocate (radius(places), source=0.0_wp)
-      do k = 1, room%n
-         call move_alloc(room%names(k)%s, names(k)%s)
-         call move_alloc(room%labels(k)%s, labels(k)%s)
-         call move_alloc(room%channels(k)%s, channels(k)%s)
-         radius(k) = room%radius(k)
+      do k = 1, item_group%n
+         call move_alloc(item_group%names(k)%s, names(k)%s)
+         call move_alloc(item_group%labels(k)%s, labels(k)%s)
+         call move_alloc(item_group%channels(k)%s, channels(k)%s)
+         radius(k) = item_group%radius(k)
       end do
-      call move_alloc(names, room%names)
-      call move_alloc(labels, room%labels)
-      call move_alloc(channels, room%channels)
-      call move_alloc(radius, room%radius)
+      call move_alloc(names, item_group%names)
+      call move_alloc(labels, item_group%labels)
+      call move_alloc(channels, item_group%channels)
+      call move_alloc(radius, item_group%radius)
    end subroutine resize_storage
 
-   !> Whether an item of a room has a channel: it names its own, or has all of the room's.
-   pure logical function has_channel(room, channel, item) result(has)
-      type(room_t), intent(in) :: room        !! the room
+   !> Whether an item of a group has a channel: it names its own, or has all of the group's.
+   pure logical function has_channel(item_group, channel, item) result(has)
+      type(item_group_t), intent(in) :: item_group        !! the group
       character(*), intent(in) :: channel     !! name of the channel between blanks
       integer, intent(in) :: item             !! number of the item
 
-      has = len(room%channels(item)%s) == 0
-      if (.not. has) has = index(room%channels(item)%s, channel) > 0
+      has = len(item_group%channels(item)%s) == 0
+      if (.not. has) has = index(item_group%channels(item)%s, channel) > 0
    end function has_channel
 
 end module groups_of_catalogue

@@ -29,7 +29,7 @@ contains
          channel%name = channel%name//"."//word
          channel%frame = "none"
          channel%components = 1
-         room = catalogue%groups(k)%room  ! the list of groups may move
+         room = catalogue%groups(k)%item_group  ! the list of groups may move
          call catalogue%add_group(room, channel)
          catalogue%groups(catalogue%n_group)%vector = k
       end do

@@ -25,7 +25,7 @@ module requests
 
    !> A channel by its names, so that it can be found in any catalogue.
    type :: source_t
-      integer :: room = 0                        !! workspace of the catalogue
+      integer :: item_group = 0                        !! group of items of the catalogue
       character(:), allocatable :: item          !! name of the item; of a contact, its joint's
       character(:), allocatable :: label         !! of a contact
       character(:), allocatable :: channel       !! the quantity

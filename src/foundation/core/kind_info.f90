@@ -23,7 +23,7 @@ module kind_info
    public :: dim_pressure, dim_speed, dim_stiffness, dim_temperature, dim_time, dim_viscosity
    public :: longest_column, no_bound
    public :: in_any_space, in_plane, in_space, is_of_space
-   public :: leaves_angles, leaves_more, leaves_nothing, leaves_turn, leaves_way
+   public :: free_spherical, free_other, free_none, free_rotation, free_translation
 
    integer, parameter :: cell_number = 1      !! one dimensional number
    integer, parameter :: cell_vector = 2      !! `size` numbers with one unit (settings only)
@@ -42,11 +42,11 @@ module kind_info
    integer, parameter :: in_plane = 1      !! a kind of planar scenes only
    integer, parameter :: in_space = 2      !! a kind of spatial scenes only
 
-   integer, parameter :: leaves_more = 0     !! a joint leaves more, or what nobody asks for
-   integer, parameter :: leaves_nothing = 1  !! bodies i and j move as one
-   integer, parameter :: leaves_turn = 2     !! j turns about the point of i
-   integer, parameter :: leaves_angles = 4   !! the points of i and j coincide, j turns about them in several ways
-   integer, parameter :: leaves_way = 3      !! j slides along an axis of i, and does not turn against it
+   integer, parameter :: free_other = 0     !! a joint leaves more, or what nobody asks for
+   integer, parameter :: free_none = 1  !! bodies i and j move as one
+   integer, parameter :: free_rotation = 2     !! j turns about the point of i
+   integer, parameter :: free_spherical = 4   !! the points of i and j coincide, j turns about them in several ways
+   integer, parameter :: free_translation = 3      !! j slides along an axis of i, and does not turn against it
 
    real(wp), parameter :: no_bound = huge(1.0_wp)  !! marks a bound that is not there [any]
 
@@ -99,7 +99,7 @@ module kind_info
       integer :: space = in_any_space               !! scenes that know it, one of the above; two kinds of one name differ in it
       logical :: is_table = .true.                  !! a table of items; else settings `key = value`
       integer :: n_row = 0                          !! constraint rows that an item adds
-      integer :: leaves = leaves_more               !! of a joint: what of the freedom of j against i, one of the above
+      integer :: free = free_other                 !! of a joint: what of the freedom of j against i, one of the above
       logical :: drives_turn = .false.              !! its row prescribes the turn of the joint that it names
       logical :: counts_turns = .false.             !! its items count turns from step to step
       logical :: is_start_only = .false.            !! the rows hold while the start is made consistent, not after

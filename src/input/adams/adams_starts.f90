@@ -28,24 +28,24 @@ contains
       type(statement_t), intent(in) :: statement         !! the joint in the dataset
       type(diagnostics_t), intent(inout) :: mistakes     !! collects what is wrong
 
-      real(wp), allocatable :: turn(:), way(:)
+      real(wp), allocatable :: turn(:), slide(:)
       real(wp) :: now, velocity(3)
       integer :: part
       character(:), allocatable :: name
 
-      call initial_conditions(statement, turn, way, mistakes)
+      call initial_conditions(statement, turn, slide, mistakes)
       if (size(turn) > 0) then
          now = angle_at_start(model, joint%marker)
          if (abs(sin(0.5_wp*(turn(1) - now))) > same) call leave_out(model, statement, "it requests the initial angle  "// &
             real_text(turn(1), 6)//" rad; the markers give "//real_text(now, 6)//" rad")
       end if
-      if (size(way) > 0) then
+      if (size(slide) > 0) then
          now = displacement_at_start(model, joint%marker)
-         if (abs(way(1)*model%units%length - now) > same*(abs(now) + model%units%length)) call leave_out(model, statement, &
-            "it requests the initial displacement "//real_text(way(1), 6)//"; the markers give "// &
+         if (abs(slide(1)*model%units%length - now) > same*(abs(now) + model%units%length)) call leave_out(model, statement, &
+            "it requests the initial displacement "//real_text(slide(1), 6)//"; the markers give "// &
             real_text(now/model%units%length, 6)//"")
       end if
-      if (size(way) > 1) then
+      if (size(slide) > 1) then
          call slide_of(model, statement, joint%marker, part, velocity, mistakes)
          if (part == 0) call leave_out(model, statement, "the speed of its displacement: give a body a velocity instead")
       end if
@@ -60,16 +60,16 @@ contains
    end subroutine add_start
 
    !> Displacement and speed of the turn and of the slide of a joint; IC is that of the freedom that it has.
-   subroutine initial_conditions(statement, turn, way, mistakes)
+   subroutine initial_conditions(statement, turn, slide, mistakes)
       type(statement_t), intent(in) :: statement         !! the joint
       real(wp), allocatable, intent(out) :: turn(:)      !! (0 to 2) angle and its rate, units of the dataset [any]
-      real(wp), allocatable, intent(out) :: way(:)       !! (0 to 2) displacement and its rate, units of the dataset [any]
+      real(wp), allocatable, intent(out) :: slide(:)       !! (0 to 2) displacement and its rate, units of the dataset [any]
       type(diagnostics_t), intent(inout) :: mistakes     !! collects what is wrong
 
       call argument_numbers(statement, "ICROT", turn, mistakes, 3)
-      call argument_numbers(statement, "ICTRAN", way, mistakes, 3)
+      call argument_numbers(statement, "ICTRAN", slide, mistakes, 3)
       if (has_word(statement, "TRANSLATIONAL", 2)) then
-         if (size(way) == 0) call argument_numbers(statement, "IC", way, mistakes)
+         if (size(slide) == 0) call argument_numbers(statement, "IC", slide, mistakes)
       else if (size(turn) == 0) then
          call argument_numbers(statement, "IC", turn, mistakes)
       end if
@@ -114,15 +114,15 @@ contains
       real(wp), intent(out) :: velocity(3)               !! (3) world, units of the dataset [any]
       type(diagnostics_t), intent(inout) :: mistakes     !! collects what is wrong
 
-      real(wp), allocatable :: turn(:), way(:)
+      real(wp), allocatable :: turn(:), slide(:)
       real(wp) :: a(3, 3)
       integer :: k, parts(2)
 
       part = 0
       velocity = 0.0_wp
       if (.not. (has_word(statement, "TRANSLATIONAL", 2) .or. has_word(statement, "CYLINDRICAL", 2))) return
-      call initial_conditions(statement, turn, way, mistakes)
-      if (size(way) < 2) return
+      call initial_conditions(statement, turn, slide, mistakes)
+      if (size(slide) < 2) return
       if (size(turn) > 1) then
          if (abs(turn(2)) > 0.0_wp) return   ! the centre of mass would move across the axis too
       end if
@@ -132,7 +132,7 @@ contains
       if (has_own_velocity(model%statements(model%parts(parts(k))%statement))) return
       part = parts(k)
       a = model%axes(marker(2))
-      velocity = merge(1.0_wp, -1.0_wp, k == 1)*way(2)*a(:, 3)
+      velocity = merge(1.0_wp, -1.0_wp, k == 1)*slide(2)*a(:, 3)
    end subroutine slide_of
 
    !> Whether a part says how fast it starts.

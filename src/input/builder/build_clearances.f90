@@ -181,13 +181,13 @@ contains
       call slot%set%new(items, ties%point(1), ties%point(2), scene%points, law, friction)
       call slot%set%take_surfaces(items, scene%materials, scene%bodies%mass, is_driven)
       if (face_law > 0) allocate (slot%set%laws%face, source=scene%laws(face_law)%law)
-      slot%set%items%leaves = [(0, i=1, size(items))]
-      allocate (slot%set%items%way(2, size(items)), source=0.0_wp)
+      slot%set%items%free = [(0, i=1, size(items))]
+      allocate (slot%set%items%slide_axis(2, size(items)), source=0.0_wp)
       allocate (joints(size(items)))
       do i = 1, size(items)
          if (.not. ties(i)%by_joint) cycle
-         call make_joint(scene, ties(i)%joint(1), system%linkage%motion, joints(i)%set, slot%set%items%leaves(i))
-         slot%set%items%way(:, i) = joints(i)%set%way_of(1)
+         call make_joint(scene, ties(i)%joint(1), system%linkage%motion, joints(i)%set, slot%set%items%free(i))
+         slot%set%items%slide_axis(:, i) = joints(i)%set%slide_axis_of(1)
       end do
       slot%set%before%items = system%clearance_joints%n
       slot%set%before%contacts = system%clearance_joints%n_contact
@@ -252,12 +252,12 @@ contains
    end subroutine choose_law
 
    !> A joint that a row names, by itself.
-   subroutine make_joint(scene, number, motion, set, leaves)
+   subroutine make_joint(scene, number, motion, set, free)
       type(scene_t), intent(in) :: scene                    !! the scene
       integer, intent(in) :: number                         !! the joint, among all joints
       type(motion_t), intent(in) :: motion                  !! bodies where the deck puts them
       class(joint_set_t), allocatable, intent(out) :: set   !! a set of one item, with its start
-      integer, intent(out) :: leaves                        !! what of the freedom of its bodies its kind says
+      integer, intent(out) :: free                        !! what of the freedom of its bodies its kind says
 
       real(wp) :: angle(0:scene%bodies%n)
       integer :: kind, row
@@ -265,7 +265,7 @@ contains
       call find_joint(scene, number, kind, row)
       call new_joint_set(kind, set)
       associate (table => scene%joints(kind))
-         leaves = table%info%leaves
+         free = table%info%free
          call tie_set(scene, table%info, table%items(row:row), set)
          angle(0) = 0.0_wp
          angle(1:) = scene%bodies%angle

@@ -10,7 +10,7 @@ module build_prescribed
    use integration_method, only: abilities_t
    use joint_registry, only: n_joint_kinds
    use joint_set, only: joint_set_t
-   use kind_info, only: leaves_way
+   use kind_info, only: free_translation
    use kinds, only: wp
    use linkage, only: linkage_t
    use planar_one_dof, only: planar_one_dof_t
@@ -172,7 +172,7 @@ contains
          allocate (planar_one_dof_t :: one_dof)
       end if
       one_dof%n = size(guides)
-      one_dof%n_turning = count([(scene%joints(guides(k)%kind)%info%leaves /= leaves_way, k=1, one_dof%n)])
+      one_dof%n_turning = count([(scene%joints(guides(k)%kind)%info%free /= free_translation, k=1, one_dof%n)])
       allocate (one_dof%held(one_dof%n))
       do k = 1, one_dof%n
          call find_fixing(scene, choices, linkage, guides(k)%kind, guides(k)%item, slot(k), item(k))

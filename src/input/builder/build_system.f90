@@ -69,7 +69,7 @@ contains
          system%n_position = linkage%n_position
          if (linkage%coordinates%turns_in_body) system%traits%n_turning = linkage%rows%n_unknown
          call set_stabilisation(scene, system)
-         call set_solver(scene, system%way%solver(), linkage)
+         call set_solver(scene, system%stabiliser%solver(), linkage)
       end associate
       call system%set_step(huge(1.0_wp))  ! gains and penalties that do not wait for a step
       call add_loads(scene, system%linkage%coordinates%n_v, system%clearance_joints%n, system%linkage%motion, system%loading)
@@ -179,21 +179,21 @@ contains
    !> The stabilisation method that is asked for, or the one that suits the system.
    subroutine set_stabilisation(scene, system)
       type(scene_t), intent(in) :: scene              !! the scene
-      type(mechanism_t), intent(inout) :: system  !! the way is set
+      type(mechanism_t), intent(inout) :: system  !! the stabilisation method is set
 
-      class(stabilisation_t), allocatable :: way
+      class(stabilisation_t), allocatable :: stabiliser
       type(abilities_t) :: can
 
       can = scene%settings%integration%can()
       associate (asked => scene%settings%integration%stabilisation)
          if (asked%name /= "") then
-            call find_stabilisation(asked%name, way)
+            call find_stabilisation(asked%name, stabiliser)
          else
-            call choose_stabilisation(system%linkage%rows%n_solve > 0 .and. .not. can%solves_dae, all_smooth(scene), way)
+            call choose_stabilisation(system%linkage%rows%n_solve > 0 .and. .not. can%solves_dae, all_smooth(scene), stabiliser)
          end if
-         call way%configure(asked%options, scene%settings%integration%controls%tolerance)
+         call stabiliser%configure(asked%options, scene%settings%integration%controls%tolerance)
       end associate
-      call system%take_way(way)
+      call system%take_stabiliser(stabiliser)
    end subroutine set_stabilisation
 
    !> Whether no driver jumps.

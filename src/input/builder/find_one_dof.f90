@@ -7,7 +7,7 @@ module find_one_dof
    use clearance_registry, only: n_clearance_kinds
    use find_prescribed, only: joint_bodies, has_friction
    use joint_registry, only: n_joint_kinds
-   use kind_info, only: leaves_turn, leaves_way
+   use kind_info, only: free_rotation, free_translation
    use scene, only: scene_t
    use ties, only: tie_of, tie_t
    implicit none (type, external)
@@ -30,7 +30,7 @@ contains
       integer, intent(in) :: levels                         !! how joints with clearance are taken
       type(guide_t), allocatable, intent(out) :: guides(:)  !! (bodies with one degree of freedom) how they are held
 
-      integer, parameter :: leaves(2) = [leaves_turn, leaves_way]
+      integer, parameter :: leaves(2) = [free_rotation, free_translation]
       integer :: body(2), i, k, n, n_joint(0:scene%bodies%n), pass
 
       call count_joints(scene, levels, n_joint)
@@ -38,7 +38,7 @@ contains
       n = 0
       do pass = 1, 2
          do k = 1, n_joint_kinds()
-            if (scene%joints(k)%info%leaves /= leaves(pass)) cycle
+            if (scene%joints(k)%info%free /= leaves(pass)) cycle
             do i = 1, size(scene%joints(k)%items)
                body = joint_bodies(scene, k, i)
                if (is_known(body(1)) .eqv. is_known(body(2))) cycle

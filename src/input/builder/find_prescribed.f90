@@ -7,7 +7,7 @@ module find_prescribed
    use clearance_registry, only: n_clearance_kinds
    use item, only: find_place, item_t
    use joint_registry, only: n_joint_kinds
-   use kind_info, only: leaves_nothing, leaves_turn
+   use kind_info, only: free_none, free_rotation
    use kinds, only: wp
    use scene, only: scene_t
    use ties, only: find_joint, tie_of, tie_t
@@ -86,7 +86,7 @@ contains
             if (.not. has_smooth_cells(scene%joints(k)%items(i))) cycle
             tie = tie_of(scene, scene%joints(k)%info, scene%joints(k)%items(i))
             call find_joint(scene, tie%joint(1), kind, row)
-            if (scene%joints(kind)%info%leaves /= leaves_turn .or. has_friction(scene, scene%joints(kind)%items(row))) cycle
+            if (scene%joints(kind)%info%free /= free_rotation .or. has_friction(scene, scene%joints(kind)%items(row))) cycle
             call add_if_new(scene, link_t(kind=kind, item=row, driver=k, driving=i), is_known, links)
          end do
       end do
@@ -136,7 +136,7 @@ contains
       integer :: i, k
 
       do k = 1, n_joint_kinds()
-         if (scene%joints(k)%info%leaves /= leaves_nothing) cycle
+         if (scene%joints(k)%info%free /= free_none) cycle
          do i = 1, size(scene%joints(k)%items)
             call add_if_new(scene, link_t(kind=k, item=i), is_known, links)
          end do

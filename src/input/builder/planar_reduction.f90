@@ -65,7 +65,7 @@ contains
       if (slides) then
          guide%offset = angle(held%body) - angle(held%base)
          guide%turned = [cos(guide%offset), sin(guide%offset)]
-         guide%arm = set%way_of(k)
+         guide%arm = set%slide_axis_of(k)
          if (held%side == 1) guide%arm = turn(guide%turned, guide%arm)
          guide%s_base = guide%s_base - turn(guide%turned, s_body)
          guide%ease = 1.0_wp/guide%mass

@@ -68,15 +68,15 @@ contains
       guide%mass = mass
       guide%q_0 = sign*seen%q_0
       if (slides) then
-         guide%way = seen%in_base(:, 3)
+         guide%slide_axis = seen%in_base(:, 3)
          guide%s_base = seen%s_base - matmul(seen%in_base, matmul(seen%s_body, seen%in_body))
          guide%ease = 1.0_wp/mass(1)
       else
          guide%q_1 = sign*seen%q_1
          guide%turn = seen%in_body(:, 3)
-         guide%way = -seen%s_body
+         guide%slide_axis = -seen%s_body
          guide%s_base = seen%s_base
-         guide%ease = 1.0_wp/(dot_product(guide%turn, mass(4:)*guide%turn) + mass(1)*sum(cross(guide%turn, guide%way)**2))
+         guide%ease = 1.0_wp/(dot_product(guide%turn, mass(4:)*guide%turn) + mass(1)*sum(cross(guide%turn, guide%slide_axis)**2))
       end if
    end function spatial_guide
 

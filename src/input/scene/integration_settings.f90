@@ -142,14 +142,14 @@ contains
       character(*), intent(in) :: method           !! name of the integrator
       character(*), intent(in) :: hold             !! name of the stabilisation method, or blank
 
-      class(stabilisation_t), allocatable :: way
+      class(stabilisation_t), allocatable :: stabiliser
       type(abilities_t) :: can
 
       can = abilities_of(method)
       takes_steps = can%steps == steps_fixed
       if (can%steps /= steps_any .or. hold == "" .or. hold == chosen) return
-      call find_stabilisation(hold, way)
-      takes_steps = way%needs_fixed_step()
+      call find_stabilisation(hold, stabiliser)
+      takes_steps = stabiliser%needs_fixed_step()
    end function takes_steps
 
    !> Write what was changed into a copy of the section, for the echo of the deck and the list of its defaults.

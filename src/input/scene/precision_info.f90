@@ -25,7 +25,7 @@ module precision_info
    !> How an integration is set. What is blank is as the deck has it.
    type :: setting_t
       character(:), allocatable :: method  !! integrator
-      character(:), allocatable :: way     !! of holding the constraints, or blank
+      character(:), allocatable :: stabiliser     !! stabilisation method, or blank
       character(:), allocatable :: solver  !! of the augmented equations, or blank
    contains
       procedure :: apply
@@ -110,7 +110,7 @@ contains
       type(integration_t), intent(inout) :: settings     !! changed
 
       settings%method = self%method
-      call settings%stabilisation%take(self%way)
+      call settings%stabilisation%take(self%stabiliser)
       call settings%solver%take(self%solver)
       settings%controls%fixed_step = 0.0_wp
       if (self%has_fixed_steps()) then
@@ -125,7 +125,7 @@ contains
    logical function has_fixed_steps(self)
       class(setting_t), intent(in) :: self    !! the setting
 
-      has_fixed_steps = takes_steps(self%method, self%way)
+      has_fixed_steps = takes_steps(self%method, self%stabiliser)
    end function has_fixed_steps
 
    !> The word that names a setting.
@@ -134,19 +134,19 @@ contains
       character(:), allocatable :: name       !! as `verner.projection`
 
       name = self%method
-      if (self%way /= "") name = name//"."//self%way
+      if (self%stabiliser /= "") name = name//"."//self%stabiliser
       if (self%solver /= "") name = name//"."//self%solver
    end function word
 
    !> The setting of runs that report something of a motion before others: the first method that confirms others.
-   type(setting_t) function reference_setting(way) result(setting)
-      character(*), intent(in) :: way      !! stabilisation method; blank: as the deck has it
+   type(setting_t) function reference_setting(stabiliser) result(setting)
+      character(*), intent(in) :: stabiliser      !! stabilisation method; blank: as the deck has it
 
       type(text_t), allocatable :: names(:)
 
       names = reference_methods(with_stiff=.false.)
       setting%method = names(1)%s  ! one by one: of the constructor gfortran 12 makes the length zero
-      setting%way = way
+      setting%stabiliser = stabiliser
       setting%solver = ""
    end function reference_setting
 
@@ -211,7 +211,7 @@ contains
       type(text_t), intent(in) :: words(:)                         !! (n) words
       type(setting_t), allocatable, intent(out) :: settings(:)     !! (m) settings
 
-      type(text_t), allocatable :: methods(:), parts(:), solvers(:), ways(:)
+      type(text_t), allocatable :: methods(:), parts(:), solvers(:), stabilisers(:)
       type(setting_t) :: one
       integer :: i, j, k, m
 
@@ -219,13 +219,13 @@ contains
       do k = 1, size(words)
          parts = parts_of(words(k)%s)
          methods = words_at(1)
-         ways = words_at(2)
+         stabilisers = words_at(2)
          solvers = words_at(3)
          do i = 1, size(methods)
-            do j = 1, size(ways)
+            do j = 1, size(stabilisers)
                do m = 1, size(solvers)
                   one%method = methods(i)%s
-                  one%way = ways(j)%s
+                  one%stabiliser = stabilisers(j)%s
                   one%solver = solvers(m)%s
                   if (.not. is_there(one)) settings = [settings, one]
                end do
@@ -258,7 +258,7 @@ contains
 
          is_there = .false.
          do n = 1, size(settings)
-            is_there = is_there .or. (settings(n)%method == other%method .and. settings(n)%way == other%way .and. &
+            is_there = is_there .or. (settings(n)%method == other%method .and. settings(n)%stabiliser == other%stabiliser .and. &
                                       settings(n)%solver == other%solver)
          end do
       end function is_there

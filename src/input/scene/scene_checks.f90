@@ -12,7 +12,7 @@ module scene_checks
    use item, only: item_t
    use joint_level, only: level_clearance, level_ideal, level_of
    use joint_registry, only: n_joint_kinds
-   use kind_info, only: dim_angle, dim_length, dim_t, kind_info_t, leaves_turn, leaves_way, same_dimension
+   use kind_info, only: dim_angle, dim_length, dim_t, kind_info_t, free_rotation, free_translation, same_dimension
    use kinds, only: wp
    use name_table, only: name_table_t
    use normal_law, only: n_law_parameter
@@ -249,16 +249,16 @@ contains
          tie = tie_of(scene, info, item)
          if (.not. tie%by_joint) return
          call find_joint(scene, tie%joint(1), kind, row)
-         if (.not. any(scene%joints(kind)%info%leaves == [leaves_turn, leaves_way])) return
+         if (.not. any(scene%joints(kind)%info%free == [free_rotation, free_translation])) return
          wanted = dim_length
-         if (scene%joints(kind)%info%leaves == leaves_turn) wanted = dim_angle
+         if (scene%joints(kind)%info%free == free_rotation) wanted = dim_angle
          do c = 1, size(info%columns)
             if (.not. (info%columns(c)%is_any .and. item%values(c)%given)) cycle
             if (same_dimension(item%values(c)%dimensions(1), wanted)) cycle
             column = c
             message = "'"//item%name//"' acts on '"//scene%joints(kind)%items(row)%name//"', a "//scene%joints(kind)%info%name
             help = "column "//info%columns(c)%name//" is a length there"
-            if (scene%joints(kind)%info%leaves == leaves_turn) help = "column "//info%columns(c)%name//" is an angle there"
+            if (scene%joints(kind)%info%free == free_rotation) help = "column "//info%columns(c)%name//" is an angle there"
             return
          end do
       end subroutine check_limits

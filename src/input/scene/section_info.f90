@@ -82,15 +82,15 @@ contains
       character(*), intent(in) :: word   !! as in `stabilise = word`
       type(kind_info_t) :: info          !! its options as columns; there may be none
 
-      class(stabilisation_t), allocatable :: way
+      class(stabilisation_t), allocatable :: stabiliser
       integer :: k
 
       if (key == "contact_onset") call add_onset_options(word, info)
       if (key == "stabilise") then
          do k = 1, n_stabilisation_kinds()
-            call new_stabilisation(k, way)
-            if (way%name() /= word) cycle
-            info = way%info()
+            call new_stabilisation(k, stabiliser)
+            if (stabiliser%name() /= word) cycle
+            info = stabiliser%info()
             exit
          end do
       end if
@@ -137,7 +137,7 @@ contains
    subroutine add_ways(info)
       type(kind_info_t), intent(inout) :: info  !! settings of an analysis
 
-      class(stabilisation_t), allocatable :: way
+      class(stabilisation_t), allocatable :: stabiliser
       type(kind_info_t) :: one
       type(text_t) :: says(n_stabilisation_kinds()), words(n_stabilisation_kinds())
       character(:), allocatable :: options
@@ -145,8 +145,8 @@ contains
 
       options = ""
       do k = 1, n_stabilisation_kinds()
-         call new_stabilisation(k, way)
-         one = way%info()
+         call new_stabilisation(k, stabiliser)
+         one = stabiliser%info()
          words(k)%s = one%name
          says(k)%s = one%name//" ("//one%help//")"
          if (.not. allocated(one%columns)) cycle

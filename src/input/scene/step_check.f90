@@ -24,7 +24,7 @@ contains
       character(:), allocatable :: onset
 
       can = settings%can()
-      associate (method => settings%method, way => settings%stabilisation%name, step => settings%controls%fixed_step, &
+      associate (method => settings%method, stabiliser => settings%stabilisation%name, step => settings%controls%fixed_step, &
                  places => settings%places)
          if (can%steps == steps_fixed .and. step <= 0.0_wp) then
             call diagnostics%add(places%method, "method '"//method//"' needs a fixed step", &
@@ -38,10 +38,11 @@ contains
             call diagnostics%add(places%onset, "'contact_onset = "//onset//"' needs a one-step method", &
                                  "steps of '"//method//"' is a multistep method", "use verner or rk4, or contact_onset = located")
          end if
-         if (step > 0.0_wp .or. way == "") return
-         call find_stabilisation(way, hold)
+         if (step > 0.0_wp .or. stabiliser == "") return
+         call find_stabilisation(stabiliser, hold)
          if (.not. hold%needs_fixed_step()) return
-         call diagnostics%add(places%stabilisation, "'"//way//"' needs a fixed step", "its gains would force ever smaller steps", &
+         call diagnostics%add(places%stabilisation, "'"//stabiliser//"' needs a fixed step", &
+                              "its gains would force ever smaller steps", &
                               "add 'step' to [analysis.dynamic], or use baumgarte, baumgarte_adaptive or projection")
       end associate
    end subroutine check_steps

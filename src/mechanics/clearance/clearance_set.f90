@@ -45,8 +45,8 @@ module clearance_set
       integer, allocatable :: body(:, :)          !! (2, n) bodies of bearing and journal, 0: ground
       real(wp), allocatable :: s_i(:, :)          !! (3, n) centre of the bearing, frame of its body [m]
       real(wp), allocatable :: s_j(:, :)          !! (3, n) centre of the journal, frame of its body [m]
-      integer, allocatable :: leaves(:)           !! (n) of items tied by a joint: what that leaves, see `kind_info`
-      real(wp), allocatable :: way(:, :)          !! (2, n) and the axis of one that leaves a way, frame of i [1]
+      integer, allocatable :: free(:)           !! (n) of items tied by a joint: what that leaves, see `kind_info`
+      real(wp), allocatable :: slide_axis(:, :)   !! (2, n) and the axis of one that slides, frame of i [1]
       type(surfaces_t), allocatable :: pairs(:)   !! (n) the surfaces
    end type clearance_items_t
 
@@ -370,7 +370,7 @@ contains
          if (.not. self%contact(k)%is_touching) cycle
          call self%lay(k, motion)
          associate (tangent => self%stick_slip%tangent(k))
-            tangent%way = tangent%t(:, 1)
+            tangent%slip_direction = tangent%t(:, 1)
             if (self%stick_slip%slip(k) /= 1 .or. tangent%v(1) < max(self%stick_slip%still(k), self%stick_slip%slow(k))) cycle
             call self%slip_toward(k, tangent%v)
             self%stick_slip%band(k) = 0.0_wp

@@ -16,7 +16,7 @@ module clearance_stop
    use flat_contacts, only: flat_contacts_t
    use item, only: item_t, place_of
    use kind_info, only: add_any_number, add_channel, add_number, add_reference, dim_angle, dim_length, &
-      in_plane, kind_info_t, leaves_turn, &
+      in_plane, kind_info_t, free_rotation, &
       same_dimension
    use kinds, only: pi, wp
    use point_contacts, only: add_contact_channels, of_force
@@ -98,12 +98,12 @@ contains
             if (.not. items(k)%is_given(limits(c))) cycle
             limit = items(k)%number(limits(c))
             side = merge(1.0_wp, -1.0_wp, c == upper)
-            if (self%items%leaves(k) == leaves_turn) then
+            if (self%items%free(k) == free_rotation) then
                self%plane%point_j(1, m) = self%plane%point_j(1, m) + items(k)%number("lever")
                self%plane%normal_i(:, m) = side*[-sin(limit), cos(limit)]
                self%plane%height(m) = 0.0_wp
             else
-               self%plane%normal_i(:, m) = side*self%items%way(:, k)
+               self%plane%normal_i(:, m) = side*self%items%slide_axis(:, k)
                self%plane%height(m) = side*limit
             end if
          end do

@@ -308,7 +308,7 @@ contains
       way = matmul(self%stick_slip%tangent(k)%t, direction)
       if (.not. any(abs(way) > 0.0_wp)) return
       way = way/maxval(abs(way))  ! squares of small numbers are zero
-      self%stick_slip%tangent(k)%way = way/norm2(way)
+      self%stick_slip%tangent(k)%slip_direction = way/norm2(way)
    end subroutine slip_toward
 
    !> When it was decided, and the speed the wrong way at which its slip is to end next.

@@ -34,7 +34,7 @@ module contact_stick_slip
    !> How a contact lies, at one motion.
    type :: tangent_t
       real(wp) :: t(3, 2) = 0.0_wp     !! (3, 2) unit tangents, in the plane one; world frame [1]
-      real(wp) :: way(3) = 0.0_wp      !! (3) in space: last direction of sliding at the end of a step; zero: none yet [1]
+      real(wp) :: slip_direction(3) = 0.0_wp  !! (3) in space: last direction of sliding at the end of a step; zero: none yet [1]
       real(wp) :: spin(3) = 0.0_wp     !! (3) in space: angular velocity of the tangent plane [rad/s]
       real(wp) :: arm_i(3) = 0.0_wp    !! (3) where the force on i acts, from its centre of mass, world frame [m]
       real(wp) :: arm_j(3) = 0.0_wp    !! (3) where the force on j acts, from its centre of mass, world frame [m]
@@ -125,7 +125,7 @@ contains
       self%slow(k) = other%slow(k_other)
       self%shared_from(k) = other%shared_from(k_other)
       self%origin(:, k) = other%origin(:, k_other)
-      self%tangent(k)%way = other%tangent(k_other)%way
+      self%tangent(k)%slip_direction = other%tangent(k_other)%slip_direction
    end subroutine adopt
 
    !> Friction force of a touching contact on body j along its tangents; none of one that sticks, which is found with the
@@ -186,7 +186,7 @@ contains
       do k = 1, size(self%slip)
          call archive%put(self%slip(k))
          call archive%put([self%band(k), self%since(k), self%shared_from(k), self%origin(:, k)])
-         if (self%n_tangent > 1) call archive%put([self%still(k), self%slow(k), self%tangent(k)%way])
+         if (self%n_tangent > 1) call archive%put([self%still(k), self%slow(k), self%tangent(k)%slip_direction])
       end do
    end subroutine stick_slip_save
 
@@ -210,7 +210,7 @@ contains
          call archive%get(self%still(k))
          call archive%get(self%slow(k))
          do i = 1, 3
-            call archive%get(self%tangent(k)%way(i))
+            call archive%get(self%tangent(k)%slip_direction(i))
          end do
       end do
    end subroutine stick_slip_load

@@ -68,7 +68,7 @@ contains
       tangent%arm_i = contact%arm_i
       tangent%arm_j = contact%arm_j
       v = motion%v(:, j) + across(motion%omega(:, j), contact%arm_j) - motion%v(:, i) - across(motion%omega(:, i), contact%arm_i)
-      call find_tangents(tangent%way, contact%tangent, m, m_rate, tangent%t, t_rate)
+      call find_tangents(tangent%slip_direction, contact%tangent, m, m_rate, tangent%t, t_rate)
       do a = 1, 2
          tangent%v(a) = dot_product(tangent%t(:, a), v)
          tangent%drift(a) = dot_product(t_rate(:, a), v) + dot_product(tangent%t(:, a), across(motion%omega(:, j), arm_rate) &

@@ -30,7 +30,7 @@ module stabilisation_augmented_lagrangian
 
 contains
 
-   !> Description of the way.
+   !> Description of the method.
    function lagrangian_info() result(info)
       type(kind_info_t) :: info  !! name, help, options
 
@@ -52,7 +52,7 @@ contains
 
    !> What is done, as text.
    function lagrangian_words(self) result(words)
-      class(stabilisation_augmented_lagrangian_t), intent(in) :: self  !! the way
+      class(stabilisation_augmented_lagrangian_t), intent(in) :: self  !! the stabilisation method
       character(:), allocatable :: words                      !! as in a deck
 
       words = self%name()//" penalty="//to_text(self%penalty)//" omega="//to_text(self%omega)//"s^-1 mu="//to_text(self%mu)
@@ -60,7 +60,7 @@ contains
 
    !> Take the numbers of a deck.
    subroutine lagrangian_configure(self, options, tolerance)
-      class(stabilisation_augmented_lagrangian_t), intent(inout) :: self  !! the way
+      class(stabilisation_augmented_lagrangian_t), intent(inout) :: self  !! the stabilisation method
       type(option_t), intent(in) :: options(:)                   !! (any) penalty, omega, mu
       real(wp), intent(in) :: tolerance                          !! of the integrator [1]
 
@@ -71,7 +71,7 @@ contains
 
    !> Gains, and the penalty of the solver.
    subroutine lagrangian_begin_step(self, linkage, h)
-      class(stabilisation_augmented_lagrangian_t), intent(inout) :: self  !! the way
+      class(stabilisation_augmented_lagrangian_t), intent(inout) :: self  !! the stabilisation method
       type(linkage_t), intent(inout) :: linkage                  !! the bodies and their rows
       real(wp), intent(in) :: h                                  !! length of the step [s]
 

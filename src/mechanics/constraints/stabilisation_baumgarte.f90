@@ -27,7 +27,7 @@ module stabilisation_baumgarte
 
 contains
 
-   !> Description of the way.
+   !> Description of the method.
    function baumgarte_info() result(info)
       type(kind_info_t) :: info  !! name, help, options
 
@@ -40,7 +40,7 @@ contains
 
    !> What is done, as text.
    function baumgarte_words(self) result(words)
-      class(stabilisation_baumgarte_t), intent(in) :: self  !! the way
+      class(stabilisation_baumgarte_t), intent(in) :: self  !! the stabilisation method
       character(:), allocatable :: words           !! as in a deck
 
       words = self%name()//" alpha="//to_text(self%alpha)//"s^-1 beta="//to_text(self%beta)//"s^-1"
@@ -48,7 +48,7 @@ contains
 
    !> Take the gains of a deck.
    subroutine baumgarte_configure(self, options, tolerance)
-      class(stabilisation_baumgarte_t), intent(inout) :: self  !! the way
+      class(stabilisation_baumgarte_t), intent(inout) :: self  !! the stabilisation method
       type(option_t), intent(in) :: options(:)        !! (any) alpha, beta
       real(wp), intent(in) :: tolerance               !! of the integrator [1]
 
@@ -58,7 +58,7 @@ contains
 
    !> The gains do not change.
    subroutine baumgarte_begin_step(self, linkage, h)
-      class(stabilisation_baumgarte_t), intent(inout) :: self  !! the way
+      class(stabilisation_baumgarte_t), intent(inout) :: self  !! the stabilisation method
       type(linkage_t), intent(inout) :: linkage       !! the bodies and their rows
       real(wp), intent(in) :: h                       !! length of the step [s]
 

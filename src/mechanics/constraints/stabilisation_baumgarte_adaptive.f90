@@ -44,7 +44,7 @@ module stabilisation_baumgarte_adaptive
 
 contains
 
-   !> Description of the way.
+   !> Description of the method.
    function adaptive_info() result(info)
       type(kind_info_t) :: info  !! name, help, options
 
@@ -56,7 +56,7 @@ contains
 
    !> What is done, as text.
    function adaptive_words(self) result(words)
-      class(stabilisation_baumgarte_adaptive_t), intent(in) :: self  !! the way
+      class(stabilisation_baumgarte_adaptive_t), intent(in) :: self  !! the stabilisation method
       character(:), allocatable :: words                    !! as in a deck
 
       words = self%name()//" target="//to_text(self%target)
@@ -64,7 +64,7 @@ contains
 
    !> Take the target of a deck.
    subroutine adaptive_configure(self, options, tolerance)
-      class(stabilisation_baumgarte_adaptive_t), intent(inout) :: self  !! the way
+      class(stabilisation_baumgarte_adaptive_t), intent(inout) :: self  !! the stabilisation method
       type(option_t), intent(in) :: options(:)                 !! (any) target
       real(wp), intent(in) :: tolerance                        !! of the integrator [1]
 
@@ -74,7 +74,7 @@ contains
 
    !> The gain of a step.
    subroutine adaptive_begin_step(self, linkage, h)
-      class(stabilisation_baumgarte_adaptive_t), intent(inout) :: self  !! the way
+      class(stabilisation_baumgarte_adaptive_t), intent(inout) :: self  !! the stabilisation method
       type(linkage_t), intent(inout) :: linkage                !! the bodies and their rows, last evaluated at the start of the step
       real(wp), intent(in) :: h                                !! length of the step, 0: not known yet [s]
 
@@ -98,17 +98,17 @@ contains
       call linkage%solution%set_gains(self%alpha, self%alpha)
    end subroutine adaptive_begin_step
 
-   !> Write what the way remembers.
+   !> Write what the method remembers.
    subroutine adaptive_save(self, archive)
-      class(stabilisation_baumgarte_adaptive_t), intent(in) :: self  !! the way
+      class(stabilisation_baumgarte_adaptive_t), intent(in) :: self  !! the stabilisation method
       type(archive_t), intent(inout) :: archive                      !! the checkpoint
 
       call archive%put(self%alpha)
    end subroutine adaptive_save
 
-   !> Read what the way remembers.
+   !> Read what the method remembers.
    subroutine adaptive_load(self, archive)
-      class(stabilisation_baumgarte_adaptive_t), intent(inout) :: self  !! the way
+      class(stabilisation_baumgarte_adaptive_t), intent(inout) :: self  !! the stabilisation method
       type(archive_t), intent(inout) :: archive                         !! the checkpoint
 
       call archive%get(self%alpha)

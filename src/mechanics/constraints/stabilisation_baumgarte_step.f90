@@ -28,7 +28,7 @@ module stabilisation_baumgarte_step
 
 contains
 
-   !> Description of the way.
+   !> Description of the method.
    function step_info() result(info)
       type(kind_info_t) :: info  !! name, help, options
 
@@ -46,7 +46,7 @@ contains
 
    !> What is done, as text.
    function step_words(self) result(words)
-      class(stabilisation_baumgarte_step_t), intent(in) :: self  !! the way
+      class(stabilisation_baumgarte_step_t), intent(in) :: self  !! the stabilisation method
       character(:), allocatable :: words                !! as in a deck
 
       words = self%name()//" alpha="//to_text(self%alpha)//" beta="//to_text(self%beta)
@@ -54,7 +54,7 @@ contains
 
    !> Take the factors of a deck.
    subroutine step_configure(self, options, tolerance)
-      class(stabilisation_baumgarte_step_t), intent(inout) :: self  !! the way
+      class(stabilisation_baumgarte_step_t), intent(inout) :: self  !! the stabilisation method
       type(option_t), intent(in) :: options(:)             !! (any) alpha, beta
       real(wp), intent(in) :: tolerance                    !! of the integrator [1]
 
@@ -65,7 +65,7 @@ contains
 
    !> Gains of a step.
    subroutine step_begin_step(self, linkage, h)
-      class(stabilisation_baumgarte_step_t), intent(inout) :: self  !! the way
+      class(stabilisation_baumgarte_step_t), intent(inout) :: self  !! the stabilisation method
       type(linkage_t), intent(inout) :: linkage            !! the bodies and their rows
       real(wp), intent(in) :: h                            !! length of the step [s]
 

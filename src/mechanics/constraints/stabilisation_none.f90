@@ -17,7 +17,7 @@ module stabilisation_none
 
 contains
 
-   !> Description of the way.
+   !> Description of the method.
    function none_info() result(info)
       type(kind_info_t) :: info  !! name and help
 
@@ -28,7 +28,7 @@ contains
 
    !> What is done, as text.
    function none_words(self) result(words)
-      class(stabilisation_none_t), intent(in) :: self   !! the way
+      class(stabilisation_none_t), intent(in) :: self   !! the stabilisation method
       character(:), allocatable :: words       !! as in a deck
 
       words = self%name()

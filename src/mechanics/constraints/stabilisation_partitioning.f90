@@ -51,7 +51,7 @@ module stabilisation_partitioning
 
 contains
 
-   !> Description of the way.
+   !> Description of the method.
    function partitioning_info() result(info)
       type(kind_info_t) :: info  !! name and help
 
@@ -62,7 +62,7 @@ contains
 
    !> What is done, as text.
    function partitioning_words(self) result(words)
-      class(stabilisation_partitioning_t), intent(in) :: self  !! the way
+      class(stabilisation_partitioning_t), intent(in) :: self  !! the stabilisation method
       character(:), allocatable :: words              !! as in a deck
 
       words = self%name()
@@ -70,7 +70,7 @@ contains
 
    !> No options; evaluations and the ends of steps are corrected.
    subroutine partitioning_configure(self, options, tolerance)
-      class(stabilisation_partitioning_t), intent(inout) :: self  !! the way
+      class(stabilisation_partitioning_t), intent(inout) :: self  !! the stabilisation method
       type(option_t), intent(in) :: options(:)           !! (any) none
       real(wp), intent(in) :: tolerance                  !! of the integrator [1]
 
@@ -80,7 +80,7 @@ contains
 
    !> Correct the end of a step; sort anew if the dependent coordinates have become bad ones.
    subroutine partitioning_correct_step(self, linkage, t, y, status)
-      class(stabilisation_partitioning_t), intent(inout) :: self  !! the way
+      class(stabilisation_partitioning_t), intent(inout) :: self  !! the stabilisation method
       type(linkage_t), intent(inout) :: linkage          !! the bodies and their rows
       real(wp), intent(in) :: t                          !! time [s]
       real(wp), intent(inout), contiguous :: y(:)        !! (n) state, corrected [any]
@@ -93,7 +93,7 @@ contains
 
    !> Dependent coordinates and rates from the independent ones. The motion of the system is that afterwards.
    subroutine partitioning_correct(self, linkage, t, y, status)
-      class(stabilisation_partitioning_t), intent(inout) :: self  !! the way
+      class(stabilisation_partitioning_t), intent(inout) :: self  !! the stabilisation method
       type(linkage_t), intent(inout) :: linkage          !! the bodies and their rows
       real(wp), intent(in) :: t                          !! time [s]
       real(wp), intent(inout), contiguous :: y(:)        !! (2 positions or more) coordinates and rates, corrected [any]
@@ -132,7 +132,7 @@ contains
 
    !> Workspace.
    subroutine make_storage(self, m, n)
-      class(stabilisation_partitioning_t), intent(inout) :: self  !! the way
+      class(stabilisation_partitioning_t), intent(inout) :: self  !! the stabilisation method
       integer, intent(in) :: m                           !! solved rows
       integer, intent(in) :: n                           !! coordinates
 
@@ -141,7 +141,7 @@ contains
 
    !> Change of the dependent coordinates, or of their rates, that the right-hand side asks for.
    subroutine change_dependent(self, linkage, to_rates, y, status)
-      class(stabilisation_partitioning_t), intent(inout) :: self  !! the way, right-hand side set
+      class(stabilisation_partitioning_t), intent(inout) :: self  !! the stabilisation method, right-hand side set
       type(linkage_t), intent(inout) :: linkage          !! the bodies and their rows, evaluated
       logical, intent(in) :: to_rates                    !! whether rates are changed, not coordinates
       real(wp), intent(inout), contiguous :: y(:)        !! (2 positions or more) coordinates and rates [any]
@@ -168,7 +168,7 @@ contains
 
    !> The Jacobian, rows and coordinates scaled, in the order of the coordinates.
    subroutine scaled_jacobian(self, linkage)
-      class(stabilisation_partitioning_t), intent(inout) :: self  !! the way
+      class(stabilisation_partitioning_t), intent(inout) :: self  !! the stabilisation method
       type(linkage_t), intent(in) :: linkage             !! the bodies and their rows, evaluated
 
       integer :: body, c, column, k, place(0:linkage%bodies%n), position(size(self%order)), row
@@ -192,7 +192,7 @@ contains
 
    !> Choose the dependent coordinates at the present position.
    subroutine sort_coordinates(self, linkage)
-      class(stabilisation_partitioning_t), intent(inout) :: self  !! the way
+      class(stabilisation_partitioning_t), intent(inout) :: self  !! the stabilisation method
       type(linkage_t), intent(in) :: linkage             !! the bodies and their rows, evaluated
 
       integer, allocatable :: pivots(:)
@@ -211,7 +211,7 @@ contains
 
    !> Sort anew if the minimum pivot of the dependent columns has become too small.
    subroutine check_quality(self, linkage)
-      class(stabilisation_partitioning_t), intent(inout) :: self  !! the way
+      class(stabilisation_partitioning_t), intent(inout) :: self  !! the stabilisation method
       type(linkage_t), intent(in) :: linkage             !! the bodies and their rows, evaluated
 
       real(wp) :: maximum, minimum
@@ -229,9 +229,9 @@ contains
       is_fixed = .false.
    end function partitioning_is_memory_fixed
 
-   !> Write what the way remembers.
+   !> Write what the method remembers.
    subroutine partitioning_save(self, archive)
-      class(stabilisation_partitioning_t), intent(in) :: self  !! the way
+      class(stabilisation_partitioning_t), intent(in) :: self  !! the stabilisation method
       type(archive_t), intent(inout) :: archive                !! the checkpoint
 
       integer :: n
@@ -244,9 +244,9 @@ contains
       if (n > 0) call archive%put(real(self%order, wp))
    end subroutine partitioning_save
 
-   !> Read what the way remembers.
+   !> Read what the method remembers.
    subroutine partitioning_load(self, archive)
-      class(stabilisation_partitioning_t), intent(inout) :: self  !! the way
+      class(stabilisation_partitioning_t), intent(inout) :: self  !! the stabilisation method
       type(archive_t), intent(inout) :: archive                   !! the checkpoint
 
       real(wp), allocatable :: order(:)

@@ -32,7 +32,7 @@ module stabilisation_projection
 
 contains
 
-   !> Description of the way.
+   !> Description of the method.
    function projection_info() result(info)
       type(kind_info_t) :: info  !! name and help
 
@@ -43,7 +43,7 @@ contains
 
    !> What is done, as text.
    function projection_words(self) result(words)
-      class(stabilisation_projection_t), intent(in) :: self  !! the way
+      class(stabilisation_projection_t), intent(in) :: self  !! the stabilisation method
       character(:), allocatable :: words            !! as in a deck
 
       words = self%name()
@@ -51,7 +51,7 @@ contains
 
    !> No options; the ends of steps are corrected.
    subroutine projection_configure(self, options, tolerance)
-      class(stabilisation_projection_t), intent(inout) :: self  !! the way
+      class(stabilisation_projection_t), intent(inout) :: self  !! the stabilisation method
       type(option_t), intent(in) :: options(:)         !! (any) none
       real(wp), intent(in) :: tolerance                !! of the integrator [1]
 
@@ -60,7 +60,7 @@ contains
 
    !> Positions, then rates. The motion of the bodies is that of the corrected state afterwards.
    subroutine projection_correct_step(self, linkage, t, y, status)
-      class(stabilisation_projection_t), intent(inout) :: self  !! the way
+      class(stabilisation_projection_t), intent(inout) :: self  !! the stabilisation method
       type(linkage_t), intent(inout) :: linkage        !! the bodies and their rows
       real(wp), intent(in) :: t                        !! time [s]
       real(wp), intent(inout), contiguous :: y(:)      !! (n) state, corrected [any]

@@ -21,56 +21,56 @@ contains
    end function n_stabilisation_kinds
 
    !> Way number k, 1 to `n_stabilisation_kinds`, not configured.
-   subroutine new_stabilisation(k, way)
-      integer, intent(in) :: k                             !! number of the way
-      class(stabilisation_t), allocatable, intent(out) :: way       !! the way
+   subroutine new_stabilisation(k, stabiliser)
+      integer, intent(in) :: k                             !! number of the stabilisation method
+      class(stabilisation_t), allocatable, intent(out) :: stabiliser       !! the stabilisation method
 
       select case (k)
-      case (1); allocate (stabilisation_none_t :: way)
-      case (2); allocate (stabilisation_baumgarte_t :: way)
-      case (3); allocate (stabilisation_baumgarte_step_t :: way)
-      case (4); allocate (stabilisation_baumgarte_adaptive_t :: way)
-      case (5); allocate (stabilisation_partitioning_t :: way)
-      case (6); allocate (stabilisation_augmented_lagrangian_t :: way)
-      case (7); allocate (stabilisation_projection_t :: way)
+      case (1); allocate (stabilisation_none_t :: stabiliser)
+      case (2); allocate (stabilisation_baumgarte_t :: stabiliser)
+      case (3); allocate (stabilisation_baumgarte_step_t :: stabiliser)
+      case (4); allocate (stabilisation_baumgarte_adaptive_t :: stabiliser)
+      case (5); allocate (stabilisation_partitioning_t :: stabiliser)
+      case (6); allocate (stabilisation_augmented_lagrangian_t :: stabiliser)
+      case (7); allocate (stabilisation_projection_t :: stabiliser)
       end select
    end subroutine new_stabilisation
 
    !> Stabilisation by its name in a deck, which must be one of them.
-   subroutine find_stabilisation(name, way)
-      character(*), intent(in) :: name                              !! the way's name
-      class(stabilisation_t), allocatable, intent(out) :: way       !! the way, not configured
+   subroutine find_stabilisation(name, stabiliser)
+      character(*), intent(in) :: name                              !! the stabilisation method's name
+      class(stabilisation_t), allocatable, intent(out) :: stabiliser       !! the stabilisation method, not configured
 
       integer :: k
 
       do k = 1, n_stabilisation_kinds()
-         call new_stabilisation(k, way)
-         if (way%name() == name) exit
+         call new_stabilisation(k, stabiliser)
+         if (stabiliser%name() == name) exit
       end do
    end subroutine find_stabilisation
 
    !> The stabilisation that suits a system: projection, which leaves neither violations nor the traces of gains in the motion;
    !> Baumgarte's where a driver jumps, because a jump cannot be projected; none where there is nothing to enforce.
-   subroutine choose_stabilisation(is_needed, is_smooth, way)
+   subroutine choose_stabilisation(is_needed, is_smooth, stabiliser)
       logical, intent(in) :: is_needed                              !! there are constraints that the integrator does not enforce
       logical, intent(in) :: is_smooth                              !! no driver jumps
-      class(stabilisation_t), allocatable, intent(out) :: way       !! the way, not configured
+      class(stabilisation_t), allocatable, intent(out) :: stabiliser       !! the stabilisation method, not configured
 
       if (.not. is_needed) then
-         allocate (stabilisation_none_t :: way)
+         allocate (stabilisation_none_t :: stabiliser)
       else if (is_smooth) then
-         allocate (stabilisation_projection_t :: way)
+         allocate (stabilisation_projection_t :: stabiliser)
       else
-         allocate (stabilisation_baumgarte_t :: way)
+         allocate (stabilisation_baumgarte_t :: stabiliser)
       end if
    end subroutine choose_stabilisation
 
-   !> Why a way was chosen.
-   function reason_of_stabilisation(way) result(words)
-      class(stabilisation_t), intent(in) :: way    !! the way that `choose_stabilisation` has chosen
+   !> Why a method was chosen.
+   function reason_of_stabilisation(stabiliser) result(words)
+      class(stabilisation_t), intent(in) :: stabiliser    !! the stabilisation method that `choose_stabilisation` has chosen
       character(:), allocatable :: words           !! the reason
 
-      select type (way)
+      select type (stabiliser)
       type is (stabilisation_none_t)
          words = "not needed: no constraints, or the integrator enforces them"
       type is (stabilisation_baumgarte_t)
@@ -80,13 +80,13 @@ contains
       end select
    end function reason_of_stabilisation
 
-   !> Name of the way that leaves no violation.
+   !> Name of the method that leaves no violation.
    function exact_stabilisation() result(name)
       character(:), allocatable :: name   !! as in a deck
 
-      type(stabilisation_projection_t) :: way
+      type(stabilisation_projection_t) :: stabiliser
 
-      name = way%name()
+      name = stabiliser%name()
    end function exact_stabilisation
 
 end module stabilisation_registry

@@ -12,7 +12,7 @@ module joint_revolute
    use joint_friction, only: add_friction_columns
    use joint_set, only: add_joint_channels, joint_set_t
    use rows, only: rows_t
-   use kind_info, only: add_reference, in_plane, kind_info_t, leaves_turn
+   use kind_info, only: add_reference, in_plane, kind_info_t, free_rotation
    use kinds, only: wp
    use motion, only: motion_t
    implicit none (type, external)
@@ -41,7 +41,7 @@ contains
       info%help = "ideal pin: two points coincide"
       info%source = "Flores et al. (2008), eq. (2.5)"
       info%n_row = 2
-      info%leaves = leaves_turn
+      info%free = free_rotation
       call add_reference(info, "i", "points", "point of the first body")
       call add_reference(info, "j", "points", "point of the second body")
       call add_joint_channels(info)

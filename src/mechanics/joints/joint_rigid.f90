@@ -11,7 +11,7 @@ module joint_rigid
    use item, only: item_t
    use joint_set, only: add_joint_channels, joint_set_t
    use rows, only: rows_t
-   use kind_info, only: add_reference, in_plane, kind_info_t, leaves_nothing
+   use kind_info, only: add_reference, in_plane, kind_info_t, free_none
    use kinds, only: wp
    use motion, only: motion_t
    implicit none (type, external)
@@ -38,7 +38,7 @@ contains
       info%help = "weld: two points coincide and the relative angle is constant"
       info%source = "Flores et al. (2008), eqs. (2.5), (2.6)"
       info%n_row = 3
-      info%leaves = leaves_nothing
+      info%free = free_none
       call add_reference(info, "i", "points", "point of the first body")
       call add_reference(info, "j", "points", "point of the second body")
       call add_joint_channels(info)

@@ -59,7 +59,7 @@ module joint_set
       procedure :: follow => joint_follow
       procedure :: declare_rows => joint_declare_rows
       procedure :: reaction_point => joint_reaction_point
-      procedure :: way_of => joint_way_of
+      procedure :: slide_axis_of => joint_slide_axis_of
       procedure, nopass :: friction_lengths => joint_friction_lengths
       procedure :: slide => joint_slide
       procedure :: press => joint_press
@@ -275,13 +275,13 @@ contains
    end subroutine joint_press
 
    !> Axis along which body j slides in body i, of a kind that leaves a way: none, unless the kind says otherwise.
-   pure function joint_way_of(self, k) result(axis)
+   pure function joint_slide_axis_of(self, k) result(axis)
       class(joint_set_t), intent(in) :: self  !! the set
       integer, intent(in) :: k                !! item
       real(wp) :: axis(2)                     !! (2) unit vector, frame of body i [1]
 
       axis = 0.0_wp*self%s_i(1:2, k)
-   end function joint_way_of
+   end function joint_slide_axis_of
 
    !> Coordinate and rate of a driver: of j relative to i, counter-clockwise positive.
    subroutine joint_coordinate(self, k, motion, value, rate)

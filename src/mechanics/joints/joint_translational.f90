@@ -17,7 +17,7 @@ module joint_translational
    use joint_friction, only: add_friction_columns
    use joint_set, only: add_joint_channels, joint_set_t
    use rows, only: rows_t
-   use kind_info, only: add_number, add_reference, add_word, dim_angle, in_plane, kind_info_t, leaves_way
+   use kind_info, only: add_number, add_reference, add_word, dim_angle, in_plane, kind_info_t, free_translation
    use kinds, only: wp
    use motion, only: motion_t, point_position
    implicit none (type, external)
@@ -40,7 +40,7 @@ module joint_translational
       procedure :: fill_rows
       procedure :: evaluate => translational_evaluate
       procedure :: reaction_point => translational_reaction_point
-      procedure :: way_of => translational_way_of
+      procedure :: slide_axis_of => translational_slide_axis_of
       procedure, nopass :: friction_lengths => translational_friction_lengths
       procedure :: slide => translational_slide
       procedure :: press => translational_press
@@ -57,7 +57,7 @@ contains
       info%help = "ideal guide: a point of j stays on a line of i, and the relative angle is constant"
       info%source = "Flores et al. (2008), eqs. (2.6), (2.8)"
       info%n_row = 2
-      info%leaves = leaves_way
+      info%free = free_translation
       call add_reference(info, "i", "points", "point of the guide")
       call add_reference(info, "j", "points", "point of the slider")
       call add_axis_columns(info, "guide")
@@ -116,13 +116,13 @@ contains
    end function translational_reaction_point
 
    !> The axis.
-   pure function translational_way_of(self, k) result(axis)
+   pure function translational_slide_axis_of(self, k) result(axis)
       class(joint_translational_t), intent(in) :: self  !! the set
       integer, intent(in) :: k                          !! item
       real(wp) :: axis(2)                               !! (2) unit vector, frame of body i [1]
 
       axis = self%guide%axis(:, k)
-   end function translational_way_of
+   end function translational_slide_axis_of
 
    !> Column of the slider's length.
    function translational_friction_lengths() result(name)

@@ -17,7 +17,7 @@ module spatial_constant_velocity
    use coordinates, only: coordinates_t
    use item, only: item_t
    use joint_set, only: of_own
-   use kind_info, only: add_channel, kind_info_t, leaves_angles
+   use kind_info, only: add_channel, kind_info_t, free_spherical
    use kinds, only: wp
    use motion, only: motion_t
    use rotations, only: euler_parameters_of, turned_onto
@@ -51,7 +51,7 @@ contains
       info%help = "constant-velocity joint: two points coincide and two shafts rotate by the same angle"
       info%source = "Nikravesh (1988), section 7.2"
       info%n_row = 4
-      info%leaves = leaves_angles
+      info%free = free_spherical
       call add_joint_columns(info)
       call add_axis_columns(info, "axis of the shaft")
       call add_spatial_channels(info)

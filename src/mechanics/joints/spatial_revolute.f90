@@ -14,7 +14,7 @@
 module spatial_revolute
    use item, only: item_t
    use joint_friction, only: add_friction_columns
-   use kind_info, only: add_number, dim_length, kind_info_t, leaves_turn
+   use kind_info, only: add_number, dim_length, kind_info_t, free_rotation
    use kinds, only: wp
    use motion, only: motion_t
    use spatial_joint, only: across, add_axis_columns, add_joint_columns, add_spatial_channels, add_turn_channels, at_point, &
@@ -44,7 +44,7 @@ contains
       info%help = "pin: two points coincide and two axes are parallel"
       info%source = "Flores et al. (2008), eqs. (6.14), (6.15)"
       info%n_row = 5
-      info%leaves = leaves_turn
+      info%free = free_rotation
       call add_joint_columns(info)
       call add_axis_columns(info, "axis of the pin")
       call add_spatial_channels(info)

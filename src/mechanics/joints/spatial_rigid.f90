@@ -5,7 +5,7 @@
 !> Signs, frames: `spatial_joint`. Source: Nikravesh (1988), section 7.2, from its elements. Limits: none.
 module spatial_rigid
    use item, only: item_t
-   use kind_info, only: kind_info_t, leaves_nothing
+   use kind_info, only: kind_info_t, free_none
    use kinds, only: wp
    use spatial_joint, only: across, add_axis_columns, add_joint_columns, add_spatial_channels, at_point, spatial_joint_t
    implicit none (type, external)
@@ -29,7 +29,7 @@ contains
       info%help = "two bodies move as one rigid body"
       info%source = "Nikravesh (1988), section 7.2"
       info%n_row = 6
-      info%leaves = leaves_nothing
+      info%free = free_none
       call add_joint_columns(info)
       call add_axis_columns(info, "any axis of the joint")
       call add_spatial_channels(info)

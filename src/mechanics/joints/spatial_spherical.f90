@@ -5,7 +5,7 @@
 !> Signs: the force on body i is -lambda. Source: Flores et al. (2008), eq. (6.14). Limits: none.
 module spatial_spherical
    use item, only: item_t
-   use kind_info, only: kind_info_t, leaves_angles
+   use kind_info, only: kind_info_t, free_spherical
    use kinds, only: wp
    use spatial_joint, only: add_joint_columns, add_spatial_channels, at_point, spatial_joint_t
    implicit none (type, external)
@@ -29,7 +29,7 @@ contains
       info%help = "ball in a socket: two points coincide"
       info%source = "Flores et al. (2008), eq. (6.14)"
       info%n_row = 3
-      info%leaves = leaves_angles
+      info%free = free_spherical
       call add_joint_columns(info)
       call add_spatial_channels(info)
    end function spherical_info

@@ -15,7 +15,7 @@
 module spatial_translational
    use item, only: item_t
    use joint_friction, only: add_friction_columns
-   use kind_info, only: add_number, dim_length, kind_info_t, leaves_way
+   use kind_info, only: add_number, dim_length, kind_info_t, free_translation
    use kinds, only: wp
    use motion, only: motion_t
    use spatial_joint, only: across, add_axis_columns, add_joint_columns, add_slide_channels, add_spatial_channels, beside, &
@@ -45,7 +45,7 @@ contains
       info%help = "a slider in a guide: slides along an axis without rotation"
       info%source = "Nikravesh (1988), section 7.2.4"
       info%n_row = 5
-      info%leaves = leaves_way
+      info%free = free_translation
       call add_joint_columns(info)
       call add_axis_columns(info, "axis of the guide")
       call add_spatial_channels(info)

@@ -11,7 +11,7 @@ module spatial_universal
    use coordinates, only: coordinates_t
    use item, only: item_t
    use joint_set, only: of_own
-   use kind_info, only: add_channel, add_direction, kind_info_t, leaves_angles
+   use kind_info, only: add_channel, add_direction, kind_info_t, free_spherical
    use kinds, only: wp
    use motion, only: motion_t
    use rows, only: rows_t
@@ -46,7 +46,7 @@ contains
       info%help = "universal joint: two points coincide and two axes stay perpendicular"
       info%source = "Nikravesh (1988), section 7.2.3"
       info%n_row = 4
-      info%leaves = leaves_angles
+      info%free = free_spherical
       call add_joint_columns(info)
       call add_direction(info, "axis_i", "arm of the cross, in the frame of the body of i")
       call add_direction(info, "axis_j", "arm of the cross, in the frame of the body of j")

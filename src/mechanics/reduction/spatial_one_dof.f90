@@ -33,7 +33,7 @@ module spatial_one_dof
       real(wp) :: q_0(4) = 0.0_wp      !! (4) Euler parameters against the base at x = 0; sliding: always [1]
       real(wp) :: q_1(4) = 0.0_wp      !! (4) those at half a turn [1]
       real(wp) :: turn(3) = 0.0_wp     !! (3) u in the frame of the body; sliding: zero [1]
-      real(wp) :: way(3) = 0.0_wp      !! (3) d in the frame of the body; sliding: u in that of the base [m or 1]
+      real(wp) :: slide_axis(3) = 0.0_wp  !! (3) d in the frame of the body; sliding: u in that of the base [m or 1]
       real(wp) :: s_base(3) = 0.0_wp   !! (3) P, sliding: centre of mass at x = 0; frame of the base [m]
       real(wp) :: mass(6) = 0.0_wp     !! (6) mass three times, principal moments of inertia [kg and kg.m^2]
       real(wp) :: ease = 0.0_wp        !! one over what the freedom moves [1/(kg.m^2) or 1/kg]
@@ -104,7 +104,7 @@ contains
          call place_turn(cosine, sine, item(k)%q_0, item(k)%q_1, a, p(:, a), p(:, b), rot(:, :, b))
          call carried_point(a, item(k)%s_base, n_body, r, rot, v, omega, acceleration, alpha, at, at_dot, at_dot_dot)
          u = turned(rot(:, :, b), item(k)%turn)
-         d = turned(rot(:, :, b), item(k)%way)
+         d = turned(rot(:, :, b), item(k)%slide_axis)
          item(k)%along = across(u, d)
          spin(:, b) = x_dot(k)*item(k)%turn
          omega(:, b) = x_dot(k)*u
@@ -149,9 +149,10 @@ contains
          a = held(k)%base
          b = held(k)%body
          call place_turn(1.0_wp, 0.0_wp, item(k)%q_0, item(k)%q_1, a, p(:, a), p(:, b), rot(:, :, b))
-         call carried_point(a, item(k)%s_base + x(k)*item(k)%way, n_body, r, rot, v, omega, acceleration, alpha, at, at_dot, &
+         call carried_point(a, item(k)%s_base + x(k)*item(k)%slide_axis, n_body, r, rot, v, omega, &
+                            acceleration, alpha, at, at_dot, &
                             at_dot_dot)
-         item(k)%along = turned(rot(:, :, a), item(k)%way)
+         item(k)%along = turned(rot(:, :, a), item(k)%slide_axis)
          r(:, b) = at
          v(:, b) = at_dot + x_dot(k)*item(k)%along
          omega(:, b) = omega(:, a)
@@ -291,7 +292,7 @@ contains
                x_dot(k) = dot_product(item%turn, motion%spatial%spin(:, b) - turned_back(rot(:, :, b), motion%omega(:, a)))
                cycle
             end if
-            u = turned(rot(:, :, a), item%way)
+            u = turned(rot(:, :, a), item%slide_axis)
             from_base = motion%r(:, b) - motion%r(:, a)
             x(k) = dot_product(u, from_base - turned(rot(:, :, a), item%s_base))
             x_dot(k) = dot_product(u, motion%v(:, b) - motion%v(:, a) - across(motion%omega(:, a), from_base))

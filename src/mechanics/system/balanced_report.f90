@@ -104,14 +104,14 @@ contains
    contains
 
       !> Take the joint if it is the one that holds a body.
-      subroutine look(held, leaves_turn)
+      subroutine look(held, free_rotation)
          type(held_t), intent(in) :: held        !! how the body is held
-         logical, intent(in) :: leaves_turn      !! its joint leaves a turn
+         logical, intent(in) :: free_rotation      !! its joint leaves a turn
 
          associate (set => linkage%joints(slot)%set)
             if (held%row(1) /= set%first_row + (item - 1)*set%n_row_item + 1) return
          end associate
-         call take(held, joint_quantity(code, leaves_turn), 1.0_wp)
+         call take(held, joint_quantity(code, free_rotation), 1.0_wp)
       end subroutine look
 
       !> Take a quantity of the joint of a body, or of the driver.
@@ -130,13 +130,13 @@ contains
    end subroutine find_held
 
    !> What a channel of a joint that holds a body is here, 0: nothing.
-   pure integer function joint_quantity(code, leaves_turn) result(quantity)
+   pure integer function joint_quantity(code, free_rotation) result(quantity)
       integer, intent(in) :: code               !! the channel
-      logical, intent(in) :: leaves_turn        !! the joint leaves a turn
+      logical, intent(in) :: free_rotation        !! the joint leaves a turn
 
       quantity = 0
       if (code == of_force) quantity = force_of_joint
-      if (code == of_moment) quantity = merge(no_moment, moment_of_joint, leaves_turn)
+      if (code == of_moment) quantity = merge(no_moment, moment_of_joint, free_rotation)
    end function joint_quantity
 
    !> The same of its driver.

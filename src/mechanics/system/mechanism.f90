@@ -35,7 +35,7 @@ module mechanism
       procedure, private :: evaluate_terms, evaluate_any, ledger_rates
       procedure :: events => mechanism_events, last_events => mechanism_last_events, settle => mechanism_settle
       procedure :: set_step => mechanism_set_step
-      procedure :: hold => mechanism_stabilise, project_state => mechanism_project, take_way => mechanism_take_way
+      procedure :: hold => mechanism_stabilise, project_state => mechanism_project, take_stabiliser => mechanism_take_stabiliser
       procedure :: stick => mechanism_stick, decide_slips => mechanism_decide_slips
       procedure :: rub => mechanism_add_friction, friction_by_multipliers => mechanism_friction_by_multipliers
       procedure :: friction_events => mechanism_friction_events, turns => mechanism_turns
@@ -237,16 +237,16 @@ module mechanism
 contains
 
    !> Take a stabilisation method. The coordinates are counted.
-   subroutine mechanism_take_way(self, way)
+   subroutine mechanism_take_stabiliser(self, stabiliser)
       class(mechanism_t), intent(inout) :: self         !! the system
-      class(stabilisation_t), allocatable, intent(inout) :: way  !! the way, configured; gone afterwards
+      class(stabilisation_t), allocatable, intent(inout) :: stabiliser  !! the stabilisation method, configured; gone afterwards
 
-      call move_alloc(way, self%way)
-      self%holds = self%way%at_steps
-      self%traits%follows_step = self%way%follows_step
+      call move_alloc(stabiliser, self%stabiliser)
+      self%holds = self%stabiliser%at_steps
+      self%traits%follows_step = self%stabiliser%follows_step
       self%traits%has_films = self%clearance_joints%has_films
-      allocate (self%held(merge(self%linkage%n_position + self%linkage%n_rate, 0, self%way%at_stages)), source=0.0_wp)
-   end subroutine mechanism_take_way
+      allocate (self%held(merge(self%linkage%n_position + self%linkage%n_rate, 0, self%stabiliser%at_stages)), source=0.0_wp)
+   end subroutine mechanism_take_stabiliser
 
    !> The length of the step that starts, for gains that follow it.
    subroutine mechanism_set_step(self, h)
@@ -254,7 +254,7 @@ contains
       real(wp), intent(in) :: h                  !! length of the step [s]
 
       if (h < huge(1.0_wp)) self%friction%stick_slips%h = h
-      call self%way%begin_step(self%linkage, h)
+      call self%stabiliser%begin_step(self%linkage, h)
    end subroutine mechanism_set_step
 
    !> Whether the form of index 2 omits rows.

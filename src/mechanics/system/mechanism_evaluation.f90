@@ -11,7 +11,7 @@ contains
    !> Rates of the coordinates and their derivatives, and those of bristles, in any scene.
    module procedure evaluate_any
       if (self%friction%stick_slips%n_bristle > 0) call self%take_bristles(y)
-      if (self%way%at_stages) then
+      if (self%stabiliser%at_stages) then
          call move_corrected(self, t, y, status)
          if (status /= 0) return
       else

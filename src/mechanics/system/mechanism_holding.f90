@@ -10,7 +10,7 @@ contains
    !> Move the bodies to a state as the stabilisation method corrects it.
    module procedure move_corrected
       self%held(:) = y(:size(self%held))
-      call self%way%correct_stage(self%linkage, t, self%held, status)
+      call self%stabiliser%correct_stage(self%linkage, t, self%held, status)
       if (status == 0) call self%linkage%set_motion(t, self%held)
    end procedure move_corrected
 
@@ -19,7 +19,7 @@ contains
       real(wp) :: before
 
       before = energy_before(self, t, y)
-      call self%way%correct_step(self%linkage, t, y, status)
+      call self%stabiliser%correct_step(self%linkage, t, y, status)
       if (status == 0) call book(self, before, y)
    end procedure mechanism_stabilise
 

@@ -27,8 +27,9 @@ contains
                            self%ledger%largest])
          call archive%put(solution%solver%n_factorisations)
          call archive%put([segment%low, segment%high, segment%end])
-         call archive%begin("stabilise = "//self%way%name(), self%way%memory_version(), self%way%is_memory_fixed())
-         call self%way%save(archive)
+         call archive%begin("stabilise = "//self%stabiliser%name(), self%stabiliser%memory_version(), &
+                            self%stabiliser%is_memory_fixed())
+         call self%stabiliser%save(archive)
          call archive%begin("solver = "//solution%solver%name(), solver_version)
          call solution%solver%save(archive)
       end associate
@@ -83,7 +84,7 @@ contains
       call archive%get(self%linkage%segment%low)
       call archive%get(self%linkage%segment%high)
       call archive%get(self%linkage%segment%end)
-      call self%way%load(archive)
+      call self%stabiliser%load(archive)
       call self%linkage%solution%solver%load(archive)
       do k = 1, size(self%linkage%joints)
          call self%linkage%joints(k)%set%load(archive)

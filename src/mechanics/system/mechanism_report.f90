@@ -46,7 +46,7 @@ contains
       associate (linkage => system%linkage, plan => catalogue%readings)
          if (plan%balance%is_set) then
             call report_balanced(system, ydot, plan, size(catalogue%values), catalogue%values)
-         else if (system%way%at_stages) then  ! the evaluation was that of a corrected state
+         else if (system%stabiliser%at_stages) then  ! the evaluation was that of a corrected state
             call linkage%set_state(t, y, ydot)
          else
             call linkage%set_acceleration(ydot)

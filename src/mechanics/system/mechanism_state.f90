@@ -26,7 +26,7 @@ module mechanism_state
       type(loading_t) :: loading                  !! gravity and force elements
       type(clearance_joints_t) :: clearance_joints                      !! clearance joints
       type(friction_t) :: friction                !! friction that is solved for
-      class(stabilisation_t), allocatable :: way           !! stabilisation method
+      class(stabilisation_t), allocatable :: stabiliser    !! stabilisation method
       type(ledger_t) :: ledger                    !! what is reported of energies
       type(requests_t) :: requests                !! what is asked of the motion beside channels of its items
       integer :: n_impulse = 0                    !! contacts whose impulses are integrated: all, or none

@@ -51,13 +51,13 @@ contains
    contains
 
       !> The channels of a sort of requests.
-      subroutine add(room, info, offer)
-         integer, intent(in) :: room                !! their room
+      subroutine add(item_group, info, offer)
+         integer, intent(in) :: item_group                !! their group
          type(kind_info_t), intent(in) :: info      !! their channels
          type(readings_t), intent(inout) :: offer   !! what they report
 
-         call catalogue%add_kind(room, info)
-         call catalogue%list(room, info, offer)
+         call catalogue%add_kind(item_group, info)
+         call catalogue%list(item_group, info, offer)
       end subroutine add
 
    end subroutine add_requests
@@ -94,12 +94,12 @@ contains
       integer :: k
 
       place = 0
-      do k = 1, catalogue%rooms(source%room)%n
-         if (catalogue%rooms(source%room)%names(k)%s /= source%item) cycle
-         if (source%room == group_contacts) then
-            if (catalogue%rooms(source%room)%labels(k)%s /= source%label) cycle
+      do k = 1, catalogue%item_groups(source%item_group)%n
+         if (catalogue%item_groups(source%item_group)%names(k)%s /= source%item) cycle
+         if (source%item_group == group_contacts) then
+            if (catalogue%item_groups(source%item_group)%labels(k)%s /= source%label) cycle
          end if
-         place = [catalogue%find_group(source%room, source%channel), source%component, k]
+         place = [catalogue%find_group(source%item_group, source%channel), source%component, k]
          return
       end do
    end subroutine find_source
@@ -110,10 +110,10 @@ contains
 
       integer :: k
 
-      associate (plan => catalogue%readings, offer => catalogue%offer, rooms => catalogue%rooms)
-         call catalogue%bind(offer%points, plan%points, [(k, k=1, rooms(group_points)%n)])
-         call catalogue%bind(offer%motions, plan%motions, [(k, k=1, rooms(group_motions)%n)])
-         call catalogue%bind(offer%reactions, plan%reactions, [(k, k=1, rooms(group_reactions)%n)])
+      associate (plan => catalogue%readings, offer => catalogue%offer, item_groups => catalogue%item_groups)
+         call catalogue%bind(offer%points, plan%points, [(k, k=1, item_groups(group_points)%n)])
+         call catalogue%bind(offer%motions, plan%motions, [(k, k=1, item_groups(group_motions)%n)])
+         call catalogue%bind(offer%reactions, plan%reactions, [(k, k=1, item_groups(group_reactions)%n)])
       end associate
    end subroutine bind_requests
 

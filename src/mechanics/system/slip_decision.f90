@@ -177,7 +177,7 @@ contains
             do k = 1, set%n_contact
                if (.not. set%contact(k)%is_touching .or. abs(set%stick_slip%slip(k)) /= 1) cycle
                associate (tangent => set%stick_slip%tangent(k), still => rest_speed(self, slot, k))
-                  along = dot_product(matmul(tangent%t, tangent%v), tangent%way)
+                  along = dot_product(matmul(tangent%t, tangent%v), tangent%slip_direction)
                   if (along > still) cycle
                   minimum = end_speed(self, slot, k) - merge(less_of_speed, more_of_speed, along > 0.0_wp)*along
                   call set%note_decision(k, set%stick_slip%since(k), max(set%stick_slip%band(k), minimum), still, &

@@ -35,7 +35,7 @@ contains
       allocate (meant(0))
       items = names_of_items(catalogue)
       item = parts(1)%s
-      if (item == "energy" .and. size(catalogue%rooms(group_energy)%names) == 0) then
+      if (item == "energy" .and. size(catalogue%item_groups(group_energy)%names) == 0) then
          hint = "energies need 'ledger = on' in [analysis.dynamic]"
          return
       end if
@@ -74,12 +74,12 @@ contains
       type(text_t), allocatable :: items(:)       !! (n) names
 
       type(text_list_t) :: found
-      integer :: item, room
+      integer :: item, item_group
 
-      do room = 1, n_groups
-         if (room == group_contacts) cycle
-         do item = 1, size(catalogue%rooms(room)%names)
-            call found%add(item_name(catalogue, room, item))
+      do item_group = 1, n_groups
+         if (item_group == group_contacts) cycle
+         do item = 1, size(catalogue%item_groups(item_group)%names)
+            call found%add(item_name(catalogue, item_group, item))
          end do
       end do
       items = found%get()
@@ -96,9 +96,9 @@ contains
       allocate (quantities(0))
       do group = 1, size(catalogue%groups)
          if (catalogue%groups(group)%vector > 0) cycle
-         associate (room => catalogue%groups(group)%room, quantity => catalogue%groups(group)%channel%name)
-            do item = 1, size(catalogue%rooms(room)%names)
-               if (.not. is_same(name, item_name(catalogue, room, item)) .and. name /= "*") cycle
+         associate (item_group => catalogue%groups(group)%item_group, quantity => catalogue%groups(group)%channel%name)
+            do item = 1, size(catalogue%item_groups(item_group)%names)
+               if (.not. is_same(name, item_name(catalogue, item_group, item)) .and. name /= "*") cycle
                if (.not. catalogue%item_has(group, item)) cycle
                if (.not. is_listed(quantity, quantities)) call append_text(quantities, quantity)
                exit

@@ -36,28 +36,28 @@ contains
    end function component_letter
 
    !> Name of an item as users write it; of a contact, its joint's.
-   pure function item_name(catalogue, room, item) result(name)
+   pure function item_name(catalogue, item_group, item) result(name)
       type(catalogue_t), intent(in) :: catalogue  !! what can be recorded
-      integer, intent(in) :: room                 !! workspace of the item
+      integer, intent(in) :: item_group                 !! group of the item
       integer, intent(in) :: item                 !! its number there
       character(:), allocatable :: name           !! what stands before the first dot
 
-      name = catalogue%rooms(room)%names(item)%s
-      if (room == group_energy .and. len_trim(name) == 0) name = "energy"
+      name = catalogue%item_groups(item_group)%names(item)%s
+      if (item_group == group_energy .and. len_trim(name) == 0) name = "energy"
    end function item_name
 
    !> Label of a contact if its joint has several, else blank.
-   pure function label_in_name(catalogue, room, item) result(label)
+   pure function label_in_name(catalogue, item_group, item) result(label)
       type(catalogue_t), intent(in) :: catalogue  !! what can be recorded
-      integer, intent(in) :: room                 !! workspace of the item
+      integer, intent(in) :: item_group                 !! group of the item
       integer, intent(in) :: item                 !! its number there
       character(:), allocatable :: label          !! what stands between the joint and the quantity
 
       integer :: k
 
       label = ""
-      if (room /= group_contacts) return
-      associate (contacts => catalogue%rooms(room))
+      if (item_group /= group_contacts) return
+      associate (contacts => catalogue%item_groups(item_group))
          do k = max(1, item - 1), min(size(contacts%names), item + 1)  ! those of a joint stand together
             if (k /= item .and. contacts%names(k)%s == contacts%names(item)%s) label = contacts%labels(item)%s
          end do
@@ -72,11 +72,11 @@ contains
       character(:), allocatable :: name           !! as `slider.velocity`
 
       character(:), allocatable :: label
-      integer :: room
+      integer :: item_group
 
-      room = catalogue%groups(group)%room
-      name = item_name(catalogue, room, item)
-      label = label_in_name(catalogue, room, item)
+      item_group = catalogue%groups(group)%item_group
+      name = item_name(catalogue, item_group, item)
+      label = label_in_name(catalogue, item_group, item)
       if (len(label) > 0) name = name//"."//label
       name = name//"."//catalogue%groups(group)%channel%name
    end function base_name

@@ -129,7 +129,7 @@ contains
       do pass = 1, 2
          n = 0
          do group = 1, size(catalogue%groups)
-            call finder%find(catalogue, catalogue%groups(group)%room, parts(1)%s, first, last)
+            call finder%find(catalogue, catalogue%groups(group)%item_group, parts(1)%s, first, last)
             do item = first, last
                if (.not. catalogue%item_has(group, item)) cycle
                do component = 1, catalogue%groups(group)%channel%components
@@ -148,39 +148,39 @@ contains
       class(item_finder_t), intent(inout) :: self  !! the finder
       type(catalogue_t), intent(in) :: catalogue   !! what can be recorded
 
-      integer :: item, previous, room
+      integer :: item, previous, item_group
 
-      do room = 1, n_groups
-         call self%names(room)%start(size(catalogue%rooms(room)%names))
-         do item = 1, size(catalogue%rooms(room)%names)
-            call self%names(room)%enter(item_name(catalogue, room, item), item, previous)
+      do item_group = 1, n_groups
+         call self%names(item_group)%start(size(catalogue%item_groups(item_group)%names))
+         do item = 1, size(catalogue%item_groups(item_group)%names)
+            call self%names(item_group)%enter(item_name(catalogue, item_group, item), item, previous)
          end do
       end do
    end subroutine start_finder
 
-   !> The items of a room that a part of a word names: all, one, several contacts of a joint (they stand together), or none.
-   subroutine find_items(self, catalogue, room, part, first, last)
+   !> The items of a group that a part of a word names: all, one, several contacts of a joint (they stand together), or none.
+   subroutine find_items(self, catalogue, item_group, part, first, last)
       class(item_finder_t), intent(in) :: self    !! the finder
       type(catalogue_t), intent(in) :: catalogue  !! what can be recorded
-      integer, intent(in) :: room                 !! the room
+      integer, intent(in) :: item_group                 !! the group
       character(*), intent(in) :: part            !! first part of a word
       integer, intent(out) :: first               !! the first of them
       integer, intent(out) :: last                !! the last, less than the first if there are none
 
-      associate (n => size(catalogue%rooms(room)%names))
+      associate (n => size(catalogue%item_groups(item_group)%names))
          first = 1
          last = n
-         if (room == group_points .and. part == "*") last = 0
+         if (item_group == group_points .and. part == "*") last = 0
          if (part == "*") return
          last = 0
-         if (n > 0) first = self%names(room)%find(part)
+         if (n > 0) first = self%names(item_group)%find(part)
          if (first == 0 .or. n == 0) then
             first = 1
             return
          end if
          last = first
          do while (last < n)
-            if (catalogue%rooms(room)%names(last + 1)%s /= catalogue%rooms(room)%names(first)%s) exit
+            if (catalogue%item_groups(item_group)%names(last + 1)%s /= catalogue%item_groups(item_group)%names(first)%s) exit
             last = last + 1
          end do
       end associate
@@ -193,13 +193,13 @@ contains
       type(scalar_t), intent(in) :: scalar        !! the number
 
       character(:), allocatable :: label, letter, quantity
-      integer :: room, vector
+      integer :: item_group, vector
 
-      room = catalogue%groups(scalar%group)%room
+      item_group = catalogue%groups(scalar%group)%item_group
       quantity = catalogue%groups(scalar%group)%channel%name
       letter = component_letter(catalogue%groups(scalar%group)%channel%components, scalar%component)
       label = ""
-      if (room == group_contacts) label = catalogue%rooms(room)%labels(scalar%item)%s
+      if (item_group == group_contacts) label = catalogue%item_groups(item_group)%labels(scalar%item)%s
       fits = .false.
       vector = catalogue%groups(scalar%group)%vector
       if (vector > 0) then  ! only where it is named
@@ -277,7 +277,7 @@ contains
       if (allocated(self%groups)) deallocate (self%groups)
       allocate (self%groups(size(catalogue%groups)))
       do group = 1, size(self%groups)
-         n_items = size(catalogue%rooms(catalogue%groups(group)%room)%names)
+         n_items = size(catalogue%item_groups(catalogue%groups(group)%item_group)%names)
          allocate (self%groups(group)%mask(catalogue%groups(group)%channel%components, n_items), source=.false.)
       end do
    end subroutine clear_selection
@@ -318,17 +318,17 @@ contains
    end function selection_has_group
 
    !> Whether a selection holds some channel of an item.
-   pure logical function selection_has_item(self, catalogue, room, item)
+   pure logical function selection_has_item(self, catalogue, item_group, item)
       class(selection_t), intent(in) :: self      !! the selection
       type(catalogue_t), intent(in) :: catalogue  !! what could be chosen
-      integer, intent(in) :: room                 !! workspace of the item
+      integer, intent(in) :: item_group                 !! group of the item
       integer, intent(in) :: item                 !! its number there
 
       integer :: group
 
       selection_has_item = .false.
       do group = 1, size(self%groups)
-         if (catalogue%groups(group)%room /= room) cycle
+         if (catalogue%groups(group)%item_group /= item_group) cycle
          if (any(self%groups(group)%mask(:, item))) selection_has_item = .true.
       end do
    end function selection_has_item

@@ -203,16 +203,16 @@ contains
 
       source%label = ""
       if (starts_with(word, prefix)) then
-         source%room = group_requests
+         source%item_group = group_requests
          source%item = "request"
          source%channel = word(len(prefix) + 1:)
          return
       end if
       call find_scalars(word, words%catalogue, words%items, scalars, message, help)
       associate (scalar => scalars(1), catalogue => words%catalogue)
-         source%room = catalogue%groups(scalar%group)%room
-         source%item = catalogue%rooms(source%room)%names(scalar%item)%s
-         if (source%room == group_contacts) source%label = catalogue%rooms(source%room)%labels(scalar%item)%s
+         source%item_group = catalogue%groups(scalar%group)%item_group
+         source%item = catalogue%item_groups(source%item_group)%names(scalar%item)%s
+         if (source%item_group == group_contacts) source%label = catalogue%item_groups(source%item_group)%labels(scalar%item)%s
          source%channel = catalogue%groups(scalar%group)%channel%name
          source%component = scalar%component
       end associate

@@ -39,9 +39,9 @@ contains
 
       call source%reader%bind(catalogue)
       source%eccentricity = catalogue%find_group(group_clearances, "eccentricity")
-      source%n_joint = size(catalogue%rooms(group_clearances)%names)
+      source%n_joint = size(catalogue%item_groups(group_clearances)%names)
       source%force = catalogue%find_group(group_forces, "force")
-      source%n_force = size(catalogue%rooms(group_forces)%names)
+      source%n_force = size(catalogue%item_groups(group_forces)%names)
    end subroutine bind_source
 
    !> Whether a group of the catalogue is read.

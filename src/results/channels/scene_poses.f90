@@ -37,8 +37,8 @@ contains
       class(pose_reader_t), intent(out) :: self   !! the groups
       type(catalogue_t), intent(in) :: catalogue  !! what can be recorded
 
-      self%n_body = size(catalogue%rooms(group_bodies)%names)
-      self%n_contact = size(catalogue%rooms(group_contacts)%names)
+      self%n_body = size(catalogue%item_groups(group_bodies)%names)
+      self%n_contact = size(catalogue%item_groups(group_contacts)%names)
       self%position = catalogue%find_group(group_bodies, "position")
       self%turn = catalogue%find_group(group_bodies, "angle")
       if (self%turn == 0) self%turn = catalogue%find_group(group_bodies, "orientation")

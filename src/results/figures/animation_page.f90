@@ -151,7 +151,7 @@ contains
       real(wp) :: clearance
       integer :: j, k
 
-      associate (room => catalogue%rooms(group_clearances))
+      associate (room => catalogue%item_groups(group_clearances))
          call page%add("loose:[")
          do k = 1, size(room%names)
             clearance = 0.0_wp

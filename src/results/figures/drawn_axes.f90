@@ -5,7 +5,7 @@
 module drawn_axes
    use body_outline, only: same_place
    use item, only: find_place, item_t
-   use kind_info, only: leaves_nothing, leaves_turn, leaves_way
+   use kind_info, only: free_none, free_rotation, free_translation
    use kinds, only: wp
    use rotations, only: axes_across, rotation_about, rotation_of_parameters
    use scene, only: scene_t, table_t
@@ -96,7 +96,7 @@ contains
                axis = axis_of(tables(k)%items(i))
                tie = tie_of(scene, tables(k)%info, tables(k)%items(i))
                if (.not. norm2(axis) > 0.0_wp .or. tie%n < 2 .or. tie%by_joint .or. tie%body(2) == 0) cycle
-               if (tables(k)%info%leaves /= leaves_way .and. find_place(tables(k)%items(i), "slider") == 0) cycle
+               if (tables(k)%info%free /= free_translation .and. find_place(tables(k)%items(i), "slider") == 0) cycle
                call find_frame(scene, tables(k)%items(i), tie, axis, frames(:, :, tie%body(2)))
             end do
          end do
@@ -116,8 +116,8 @@ contains
       if (.not. scene%settings%is_spatial) return
       do pass = 1, 2
          do k = 1, size(scene%joints)
-            associate (leaves => scene%joints(k)%info%leaves)
-               if (merge(leaves /= leaves_turn, any(leaves == [leaves_way, leaves_nothing]), pass == 1)) cycle
+            associate (leaves => scene%joints(k)%info%free)
+               if (merge(leaves /= free_rotation, any(leaves == [free_translation, free_none]), pass == 1)) cycle
             end associate
             do i = 1, size(scene%joints(k)%items)
                if (find_place(scene%joints(k)%items(i), "axis_i") == 0) cycle

@@ -10,7 +10,7 @@ module drawn_marks
    use drawn_axes, only: axis_of, direction_in_plane, start_frame
    use item, only: find_place, item_t, place_of
    use joint_level, only: level_ideal, level_of
-   use kind_info, only: kind_info_t, leaves_angles, leaves_more, leaves_turn, leaves_way
+   use kind_info, only: kind_info_t, free_spherical, free_other, free_rotation, free_translation
    use kinds, only: wp
    use rotations, only: axes_across
    use scene, only: scene_t, table_t
@@ -48,7 +48,7 @@ contains
                end do
                mark%axis = axis_of(item)
                mark%kind = kind_of_mark(scene, info, item, tie, are_forces, same_place*drawing%size)
-               if (mark%kind == mark_pin .and. info%leaves == leaves_angles .and. find_place(item, "axis_j") > 0) then
+               if (mark%kind == mark_pin .and. info%free == free_spherical .and. find_place(item, "axis_j") > 0) then
                   mark%axis_j = second_arm(scene, item, tie, mark%axis)
                end if
                if (mark%kind == mark_bearing) then
@@ -150,9 +150,9 @@ contains
       logical :: are_apart, is_ideal, is_round
 
       is_ideal = any(level_of(item) == [0, level_ideal])
-      is_round = info%leaves == leaves_more .and. (find_place(item, "radius") > 0 .or. find_place(item, "radius_i") > 0)
+      is_round = info%free == free_other .and. (find_place(item, "radius") > 0 .or. find_place(item, "radius_i") > 0)
       are_apart = .false.
-      if (all(tie%point > 0) .and. .not. any(info%leaves == [leaves_angles, leaves_turn])) then
+      if (all(tie%point > 0) .and. .not. any(info%free == [free_spherical, free_rotation])) then
          are_apart = norm2(start_position(scene, tie%point(1)) - start_position(scene, tie%point(2))) > near
       end if
       if (is_force) then
@@ -167,7 +167,7 @@ contains
          kind = mark_guide
       else if (is_round) then
          kind = 0
-      else if (info%leaves == leaves_way .or. (are_apart .and. norm2(axis_of(item)) > 0.0_wp)) then
+      else if (info%free == free_translation .or. (are_apart .and. norm2(axis_of(item)) > 0.0_wp)) then
          kind = mark_slide
       else
          kind = merge(mark_link, mark_pin, are_apart)

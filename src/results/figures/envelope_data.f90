@@ -132,7 +132,7 @@ contains
 
       type(row_reader_t) :: reader
       real(wp) :: before(2), extreme, length(size(table, 2)), least_move, point(2)
-      integer :: k, n, r, way
+      integer :: k, n, r, direction
 
       n = size(table, 2)
       table(1, :) = [(window(1) + (window(2) - window(1))*(k - 0.5_wp)/n, k=1, n)]
@@ -141,7 +141,7 @@ contains
       table(4, :) = 0.0_wp
       length = 0.0_wp
       n_turn = 0
-      way = 0
+      direction = 0
       before = not_a_number()
       extreme = 0.0_wp
       least_move = min_move*(curve%y_range(2) - curve%y_range(1))
@@ -179,16 +179,16 @@ contains
       subroutine turn(y)
          real(wp), intent(in) :: y  !! the ordinate, SI [any]
 
-         if (way == 0) then
+         if (direction == 0) then
             if (abs(y - extreme) > least_move) then
-               way = nint(sign(1.0_wp, y - extreme))
+               direction = nint(sign(1.0_wp, y - extreme))
                extreme = y
             end if
-         else if ((y - extreme)*way > 0.0_wp) then
+         else if ((y - extreme)*direction > 0.0_wp) then
             extreme = y
          else if (abs(y - extreme) > least_move) then
             n_turn = n_turn + 1
-            way = -way
+            direction = -direction
             extreme = y
          end if
       end subroutine turn

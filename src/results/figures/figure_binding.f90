@@ -116,12 +116,12 @@ contains
 
       group = catalogue%find_group(group_clearances, "eccentricity")
       figure%joint = 0
-      associate (joint => figure%arguments(1)%s, names => catalogue%rooms(group_clearances)%names)
+      associate (joint => figure%arguments(1)%s, names => catalogue%item_groups(group_clearances)%names)
          do k = 1, size(names)
             if (names(k)%s == joint) figure%joint = k
          end do
          if (figure%joint > 0) then
-            associate (clearance => catalogue%rooms(group_clearances)%radius(figure%joint))
+            associate (clearance => catalogue%item_groups(group_clearances)%radius(figure%joint))
                is_round = ieee_is_finite(clearance)
                if (is_round) is_round = clearance > 0.0_wp
             end associate
@@ -157,9 +157,9 @@ contains
 
       allocate (with_film(0))
       group = catalogue%find_group(group_clearances, film_channel)
-      do k = 1, size(catalogue%rooms(group_clearances)%names)
+      do k = 1, size(catalogue%item_groups(group_clearances)%names)
          if (group == 0) exit
-         if (catalogue%item_has(group, k)) call append_text(with_film, catalogue%rooms(group_clearances)%names(k)%s)
+         if (catalogue%item_has(group, k)) call append_text(with_film, catalogue%item_groups(group_clearances)%names(k)%s)
       end do
       if (any([(with_film(k)%s == joint, k=1, size(with_film))])) return
       nearest = nearest_word(joint, with_film)
@@ -179,7 +179,7 @@ contains
       character(:), allocatable :: word
       integer :: k
 
-      associate (names => catalogue%rooms(group_contacts)%names)
+      associate (names => catalogue%item_groups(group_contacts)%names)
          if (index(" "//histogram_words//" ", " "//quantity//" ") > 0 .and. &
              any([(names(k)%s == joint, k=1, size(names))])) return
       end associate

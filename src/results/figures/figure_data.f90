@@ -111,7 +111,7 @@ contains
          type(scalar_t), intent(in) :: one      !! one of its numbers
          character(:), allocatable :: file      !! within the run's directory
 
-         file = file_of_item(item_name(catalogue, catalogue%groups(one%group)%room, one%item), suffix)
+         file = file_of_item(item_name(catalogue, catalogue%groups(one%group)%item_group, one%item), suffix)
       end function file_of
 
       !> What is round-off in a number.

@@ -90,7 +90,7 @@ contains
       type(catalogue_t), intent(in) :: catalogue  !! what can be recorded
       character(:), allocatable :: name           !! of the item
 
-      name = item_name(catalogue, catalogue%groups(scalar%group)%room, scalar%item)
+      name = item_name(catalogue, catalogue%groups(scalar%group)%item_group, scalar%item)
    end function file_of
 
 end module figure_needs

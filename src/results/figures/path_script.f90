@@ -133,8 +133,8 @@ contains
       integer :: h, v
 
       call choose_plane(curves, h, v)
-      joint = catalogue%rooms(group_clearances)%names(figure%joint)%s
-      radius = catalogue%rooms(group_clearances)%radius(figure%joint)
+      joint = catalogue%item_groups(group_clearances)%names(figure%joint)%s
+      radius = catalogue%item_groups(group_clearances)%radius(figure%joint)
       extreme = max(largest_y(curves(h:h)), largest_y(curves(v:v)), radius)
       axes%x = choose_unit("m", extreme)
       axes%y = axes%x

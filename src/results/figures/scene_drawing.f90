@@ -10,7 +10,7 @@ module scene_drawing
    use drawn_axes, only: axis_of, find_frame, find_shafts, find_ways, turning_axis
    use drawn_marks, only: add_marks
    use item, only: find_place
-   use kind_info, only: leaves_more
+   use kind_info, only: free_other
    use kinds, only: wp
    use rotations, only: axes_across
    use scene, only: scene_t, table_shapes, table_t
@@ -104,7 +104,7 @@ contains
             tie = tie_of(scene, tables(k)%info, tables(k)%items(i))
             do c = 1, size(columns)
                place = find_place(tables(k)%items(i), trim(columns(c)))
-               if (place == 0 .or. tie%n < 2 .or. tie%by_joint .or. tables(k)%info%leaves /= leaves_more) cycle
+               if (place == 0 .or. tie%n < 2 .or. tie%by_joint .or. tables(k)%info%free /= free_other) cycle
                associate (body => tie%body(ends(c)), point => tie%point(ends(c)), &
                           radius => abs(tables(k)%items(i)%values(place)%number))
                   if (point == 0 .or. body == 0 .or. had_part(body)) cycle

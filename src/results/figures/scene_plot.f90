@@ -104,7 +104,7 @@ contains
       plot%extents%minimum(2) = plot%extents%maximum(2) - rows*plot%cell(2)
       allocate (plot%names%list(0))
       with_names = figure%motion%names == names_on
-      associate (bodies => catalogue%rooms(group_bodies)%names)
+      associate (bodies => catalogue%item_groups(group_bodies)%names)
          if (figure%motion%names == names_if_few) with_names = count_names(drawing, bodies) <= most_names
          if (with_names) call start_names(drawing, bodies, plot%symbols%size, &
                                           letter_size(plot, figure%kind == figure_animation), plot%names)

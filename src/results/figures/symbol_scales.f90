@@ -33,7 +33,7 @@ contains
       symbols%clearance_joints = 0
       allocate (symbols%walls(2, drawing%n_mark), source=min_wall*symbols%size)
       do k = 1, drawing%n_mark
-         associate (mark => drawing%marks(k), names => catalogue%rooms(group_clearances)%names)
+         associate (mark => drawing%marks(k), names => catalogue%item_groups(group_clearances)%names)
             do i = 1, size(names)
                if (names(i)%s == mark%name) symbols%clearance_joints(k) = i
             end do
@@ -127,8 +127,8 @@ contains
       type(catalogue_t), intent(in) :: catalogue    !! what was recorded
       character(*), intent(in) :: name              !! of the element
 
-      do number = size(catalogue%rooms(group_forces)%names), 1, -1
-         if (catalogue%rooms(group_forces)%names(number)%s == name) return
+      do number = size(catalogue%item_groups(group_forces)%names), 1, -1
+         if (catalogue%item_groups(group_forces)%names(number)%s == name) return
       end do
    end function number_of
 

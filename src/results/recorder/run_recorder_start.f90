@@ -121,7 +121,7 @@ contains
       integer :: k
 
       wants = self%selection%has_group(group)
-      if (wants) wants = self%selection%has_item(self%items, self%items%groups(group)%room, item)
+      if (wants) wants = self%selection%has_item(self%items, self%items%groups(group)%item_group, item)
       wants = wants .or. self%reader%reads(group) .or. self%keeper%reads(group)
       wants = wants .or. is_ranked(self%selection, self%items, group, item)
       if (allocated(self%statistics%channels)) wants = wants .or. reads(self%statistics%channels)

@@ -31,7 +31,7 @@ contains
       type(text_list_t) :: found
       integer :: k
 
-      associate (contacts => catalogue%rooms(group_contacts))
+      associate (contacts => catalogue%item_groups(group_contacts))
          do k = 1, size(contacts%names)
             if (k > 1) then  ! contacts of a joint stand together
                if (contacts%names(k)%s == contacts%names(k - 1)%s) cycle

@@ -310,7 +310,7 @@ contains
       character(:), allocatable :: words          !! as `method = verner, tolerance = 1e-6`
 
       words = "method = "//tol_sweep%setting%method
-      if (tol_sweep%setting%way /= "") words = words//", stabilise = "//tol_sweep%setting%way
+      if (tol_sweep%setting%stabiliser /= "") words = words//", stabilise = "//tol_sweep%setting%stabiliser
       if (tol_sweep%setting%solver /= "") words = words//", solver = "//tol_sweep%setting%solver
       if (tol_sweep%is_fixed) then
          words = words//", step = "//real_text(tol_run%asked, 4)//" s"

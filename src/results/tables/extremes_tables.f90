@@ -83,7 +83,7 @@ contains
       do k = 1, size(rank)
          associate (group => catalogue%groups(extremes%channels(k)%group))
             rank(k) = 3
-            if (any(group%room == [group_clearances, group_contacts])) rank(k) = 2
+            if (any(group%item_group == [group_clearances, group_contacts])) rank(k) = 2
             if (any(group%channel%unit == ["N  ", "N.m"])) rank(k) = 1
          end associate
       end do

@@ -109,7 +109,7 @@ contains
       do k = 1, size(best)
          associate (one => extremes%channels(k))
             if (.not. is_force(catalogue, one%group) .or. extremes%is_nothing(k) .or. .not. extremes%has_values(k)) cycle
-            call items%enter(item_name(catalogue, catalogue%groups(one%group)%room, one%item), n + 1, at)
+            call items%enter(item_name(catalogue, catalogue%groups(one%group)%item_group, one%item), n + 1, at)
          end associate
          if (at == 0) then
             n = n + 1
@@ -135,7 +135,7 @@ contains
       integer, parameter :: rooms(*) = [group_joints, group_drivers, group_clearances, group_contacts, group_forces]
 
       associate (this => catalogue%groups(group))
-         is_force = any(this%room == rooms) .and. this%channel%unit == "N" .and. this%channel%components == 1
+         is_force = any(this%item_group == rooms) .and. this%channel%unit == "N" .and. this%channel%components == 1
       end associate
    end function is_force
 

@@ -46,14 +46,14 @@ contains
       integer, intent(inout) :: status             !! negative: failed
 
       integer(hid_t) :: stored
-      integer :: closed, item, k, room
+      integer :: closed, item, k, item_group
 
       if (status < 0) return
       self%width = shortest_word
-      do room = 1, n_groups
-         do item = 1, size(catalogue%rooms(room)%names)
-            self%width(2) = max(self%width(2), len(catalogue%rooms(room)%names(item)%s))
-            self%width(3) = max(self%width(3), len(catalogue%rooms(room)%labels(item)%s))
+      do item_group = 1, n_groups
+         do item = 1, size(catalogue%item_groups(item_group)%names)
+            self%width(2) = max(self%width(2), len(catalogue%item_groups(item_group)%names(item)%s))
+            self%width(3) = max(self%width(3), len(catalogue%item_groups(item_group)%labels(item)%s))
          end do
       end do
       self%record = n_event_numbers*bytes_of_number + sum(self%width)

@@ -1,7 +1,7 @@
 !> The layout of run.h5, format 2.1: root attributes, deck, names, one growing dataset per quantity.
 !>
-!> A room appears if some item of it has a chosen channel, with all such items; a quantity appears
-!> if it is chosen for some item, and its dataset then holds all items of the room that appear.
+!> A group appears if some item of it has a chosen channel, with all such items; a quantity appears
+!> if it is chosen for some item, and its dataset then holds all items of the group that appear.
 module hdf5_layout
    use catalogue, only: catalogue_t
    use groups_of_catalogue, only: n_groups, group_clearances, group_contacts, group_energy, group_requests
@@ -111,7 +111,7 @@ contains
       widest = 1
       do group = 1, size(catalogue%groups)
          associate (this => catalogue%groups(group))
-            widest = max(widest, 8_i8*this%channel%components*size(catalogue%rooms(this%room)%names))
+            widest = max(widest, 8_i8*this%channel%components*size(catalogue%item_groups(this%item_group)%names))
          end associate
       end do
       rows_of_block = int(max(int(fewest_rows, i8), min(int(most_rows, i8), max(rows_of_few, n_instant), bytes_of_block/widest)))
@@ -154,7 +154,7 @@ contains
 
       type(scales_t) :: scales
       integer, allocatable :: items(:)
-      integer :: group, k, n, room
+      integer :: group, k, n, item_group
 
       call add_scale(scales, file, "time", status)
       call take_scales(scales, file, kinds%id, "row_kind", ["time"], status)
@@ -164,13 +164,13 @@ contains
       end do
       allocate (datasets(n))
       n = 0
-      do room = 1, n_groups
-         items = pack([(k, k=1, size(catalogue%rooms(room)%names))], &
-                      [(selection%has_item(catalogue, room, k), k=1, size(catalogue%rooms(room)%names))])
+      do item_group = 1, n_groups
+         items = pack([(k, k=1, size(catalogue%item_groups(item_group)%names))], &
+                      [(selection%has_item(catalogue, item_group, k), k=1, size(catalogue%item_groups(item_group)%names))])
          if (size(items) == 0) cycle
-         call make_storage(file, catalogue, room, items, scales, status)
+         call make_storage(file, catalogue, item_group, items, scales, status)
          do group = 1, size(catalogue%groups)
-            if (catalogue%groups(group)%room /= room .or. .not. selection%has_group(group)) cycle
+            if (catalogue%groups(group)%item_group /= item_group .or. .not. selection%has_group(group)) cycle
             n = n + 1
             call make_quantity(file, catalogue, group, items, block, scales, datasets(n), status)
          end do
@@ -178,11 +178,11 @@ contains
       call close_scales(scales, file, status)
    end subroutine make_quantities
 
-   !> The group of a room and the names of its items.
-   subroutine make_storage(file, catalogue, room, items, scales, status)
+   !> The group of a group and the names of its items.
+   subroutine make_storage(file, catalogue, item_group, items, scales, status)
       integer(hid_t), intent(in) :: file          !! the file
       type(catalogue_t), intent(in) :: catalogue  !! what can be recorded
-      integer, intent(in) :: room                 !! number of the room
+      integer, intent(in) :: item_group                 !! number of the group
       integer, intent(in) :: items(:)             !! (n) items that are kept
       type(scales_t), intent(inout) :: scales     !! gets that of the items
       integer, intent(inout) :: status            !! negative: failed
@@ -190,11 +190,11 @@ contains
       integer(hid_t) :: group, radius
       integer :: closed
 
-      associate (this => catalogue%rooms(room))
+      associate (this => catalogue%item_groups(item_group))
          call new_group(file, this%name, group, status)
          if (status < 0) return
          call h5gclose_f(group, closed)
-         select case (room)
+         select case (item_group)
          case (group_energy, group_requests)
             continue
          case (group_contacts)
@@ -206,8 +206,9 @@ contains
             call text_dataset(file, this%name//"/names", picked(this%names, items), .false., &
                               "name of each item", status)
          end select
-         if (all(room /= [group_energy, group_requests])) call add_scale(scales, file, scale_of(catalogue, room), status)
-         if (room /= group_clearances) return
+         if (all(item_group /= [group_energy, group_requests])) &
+            call add_scale(scales, file, scale_of(catalogue, item_group), status)
+         if (item_group /= group_clearances) return
          call new_dataset(file, this%name//"/clearance", h5t_ieee_f64le, [size(items, kind=hsize_t)], radius, status)
          if (status >= 0) call h5dwrite_f(radius, h5t_native_double, this%radius(items), &
                                           [size(items, kind=hsize_t)], status)
@@ -216,14 +217,14 @@ contains
       end associate
    end subroutine make_storage
 
-   !> Path of the scale of a room's items.
-   pure function scale_of(catalogue, room) result(path)
+   !> Path of the scale of a group's items.
+   pure function scale_of(catalogue, item_group) result(path)
       type(catalogue_t), intent(in) :: catalogue  !! what can be recorded
-      integer, intent(in) :: room                 !! number of the room
+      integer, intent(in) :: item_group                 !! number of the group
       character(longest_scale) :: path            !! path in the file
 
-      path = trim(catalogue%rooms(room)%name)//"/names"
-      if (room == group_contacts) path = "clearances/contact_label"
+      path = trim(catalogue%item_groups(item_group)%name)//"/names"
+      if (item_group == group_contacts) path = "clearances/contact_label"
    end function scale_of
 
    !> Path of the scale of an item's numbers, made when it is first requested.
@@ -280,12 +281,12 @@ contains
       integer(hsize_t) :: rows
       integer :: c, i
 
-      associate (this => catalogue%groups(group), room => catalogue%groups(group)%room, &
+      associate (this => catalogue%groups(group), item_group => catalogue%groups(group)%item_group, &
                  components => catalogue%groups(group)%channel%components)
          dataset%place = [((catalogue%place(group, c, items(i)), c=1, components), i=1, size(items))]
-         dataset%is_state = room == group_contacts .and. this%channel%name == "state"
+         dataset%is_state = item_group == group_contacts .and. this%channel%name == "state"
          allocate (dataset%rows(size(dataset%place), block))
-         if (room == group_energy .or. room == group_requests) then
+         if (item_group == group_energy .or. item_group == group_requests) then
             allocate (dataset%shape(0))
          else if (components == 1) then
             dataset%shape = [size(items, kind=hsize_t)]
@@ -295,14 +296,14 @@ contains
          rows = block
          kind_of_number = h5t_ieee_f64le
          if (dataset%is_state) kind_of_number = h5t_std_i8le
-         path = catalogue%rooms(room)%name//"/"//this%channel%name
+         path = catalogue%item_groups(item_group)%name//"/"//this%channel%name
          call new_dataset(file, path, kind_of_number, [dataset%shape, 0_hsize_t], dataset%id, status, &
                           chunk=[dataset%shape, rows])
          call describe(dataset%id, this%channel%unit, this%channel%help, this%channel%frame, status)
          if (dataset%is_state) call text_attribute(dataset%id, "states", &
             "0 free, 1 contact, 2 film, 3 mixed, -1 not known", status)
          dimensions(1) = "time"
-         dimensions(2) = scale_of(catalogue, room)
+         dimensions(2) = scale_of(catalogue, item_group)
          if (size(dataset%shape) == 2) call find_components(file, components, scales, dimensions(3), status)
          call take_scales(scales, file, dataset%id, path, dimensions(:size(dataset%shape) + 1), status)
       end associate

@@ -90,7 +90,8 @@ contains
       call text_attribute(self%file, "program_version", plan%origin%program_version, status)
       call text_attribute(self%file, "title", plan%title, status)
       call write_status(self%file, status_running, status)
-      call text_dataset(self%file, "bodies", catalogue%rooms(group_bodies)%names, .false., "bodies, from 1; 0 is the ground", &
+      call text_dataset(self%file, "bodies", catalogue%item_groups(group_bodies)%names, .false., &
+                        "bodies, from 1; 0 is the ground", &
                         status)
       call text_dataset(self%file, "contacts", contact_names(catalogue), .false., "contacts, from 1", status)
       call make_cells(self%file, self%drawing, self%reader%n_contact, self%layout, status)
@@ -112,7 +113,7 @@ contains
 
       integer :: k
 
-      allocate (names(size(catalogue%rooms(group_contacts)%names)))
+      allocate (names(size(catalogue%item_groups(group_contacts)%names)))
       do k = 1, size(names)
          names(k)%s = item_name(catalogue, group_contacts, k)
          if (len(label_in_name(catalogue, group_contacts, k)) > 0) then

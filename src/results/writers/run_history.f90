@@ -23,7 +23,7 @@ module run_history
    private
    public :: read_run
 
-   character(10), parameter :: rooms(10) = [character(10) :: "bodies", "joints", "drivers", "clearances", "forces", "energy", &
+   character(10), parameter :: names(10) = [character(10) :: "bodies", "joints", "drivers", "clearances", "forces", "energy", &
                                              "points", "motions", "reactions", "requests"]
    !> Angles from -pi to pi.
    character(*), parameter :: wrapped(2) = [character(33) :: "joints/angle", "clearances/contacts/contact_angle"]
@@ -124,8 +124,8 @@ contains
          call read_reals(file, "time", history%time, status)
          call read_reals(file, "row_kind", kinds, status)
          history%is_output = kinds(:size(history%time)) < 0.5_wp
-         do k = 1, size(rooms)
-            if (has_top(file, trim(rooms(k)))) call read_channel_group(file, trim(rooms(k)), history, status)
+         do k = 1, size(names)
+            if (has_top(file, trim(names(k)))) call read_channel_group(file, trim(names(k)), history, status)
          end do
          if (has_top(file, "extremes")) call read_extremes(file, history, status)
          if (has_top(file, "events")) call read_impacts(file, history, status)
@@ -145,10 +145,10 @@ contains
       has_top = has_top .and. status >= 0
    end function has_top
 
-   !> All numbers of a room.
-   subroutine read_channel_group(file, room, history, status)
+   !> All numbers of a group.
+   subroutine read_channel_group(file, item_group, history, status)
       integer(hid_t), intent(in) :: file            !! the file
-      character(*), intent(in) :: room              !! name of the group
+      character(*), intent(in) :: item_group              !! name of the group
       type(history_t), intent(inout) :: history     !! grown
       integer, intent(inout) :: status              !! negative: failed
 
@@ -156,17 +156,17 @@ contains
       integer :: k
 
       allocate (items(0), contacts(0))
-      if (room == "energy") call append_text(items, "energy")
-      if (room == "requests") call append_text(items, "request")
-      if (has_dataset(file, room, "names")) call read_texts(file, room//"/names", items, status)
-      call read_group(file, room, items, history, status)
-      if (.not. has_dataset(file, room, "contact_joint")) return
-      call read_texts(file, room//"/contact_joint", contacts, status)
-      call read_texts(file, room//"/contact_label", labels, status)
+      if (item_group == "energy") call append_text(items, "energy")
+      if (item_group == "requests") call append_text(items, "request")
+      if (has_dataset(file, item_group, "names")) call read_texts(file, item_group//"/names", items, status)
+      call read_group(file, item_group, items, history, status)
+      if (.not. has_dataset(file, item_group, "contact_joint")) return
+      call read_texts(file, item_group//"/contact_joint", contacts, status)
+      call read_texts(file, item_group//"/contact_label", labels, status)
       do k = 1, size(contacts)
          if (labels(k)%s /= "") contacts(k)%s = contacts(k)%s//"."//labels(k)%s
       end do
-      if (has_dataset(file, room, "contacts")) call read_group(file, room//"/contacts", contacts, history, status)
+      if (has_dataset(file, item_group, "contacts")) call read_group(file, item_group//"/contacts", contacts, history, status)
    end subroutine read_channel_group
 
    !> All numbers of a group, whose datasets have a row for each time and a column for each item.

@@ -78,16 +78,16 @@ contains
       type(extra_table_t), intent(in) :: extra(:)        !! (n) further tables
       type(error_t), allocatable, intent(out) :: error   !! a file cannot be made
 
-      integer :: item, k, n, room, pass
+      integer :: item, k, n, item_group, pass
 
       self%block = max(fewest_rows, min(most_rows, numbers_in_memory/max(1, selection%count())))
       do pass = 1, 2
          n = 0
-         do room = 1, n_groups
-            if (room == group_contacts) cycle
-            do item = 1, size(catalogue%rooms(room)%names)
-               call add_table(self, pass, n, file_of_item(item_name(catalogue, room, item), plan%suffix), &
-                              columns_of_item(catalogue, selection, room, item), plan, catalogue, error)
+         do item_group = 1, n_groups
+            if (item_group == group_contacts) cycle
+            do item = 1, size(catalogue%item_groups(item_group)%names)
+               call add_table(self, pass, n, file_of_item(item_name(catalogue, item_group, item), plan%suffix), &
+                              columns_of_item(catalogue, selection, item_group, item), plan, catalogue, error)
                if (allocated(error)) return
             end do
          end do
@@ -137,40 +137,40 @@ contains
       type(output_plan_t), intent(in) :: plan       !! what the files say of the run
       type(catalogue_t), intent(in) :: catalogue    !! what can be recorded
 
-      with_kinds = plan%with%contact_rows .and. size(catalogue%rooms(group_contacts)%names) > 0
+      with_kinds = plan%with%contact_rows .and. size(catalogue%item_groups(group_contacts)%names) > 0
    end function with_kinds
 
    !> The chosen numbers of an item and, of a clearance joint, of its contacts.
-   function columns_of_item(catalogue, selection, room, item) result(columns)
+   function columns_of_item(catalogue, selection, item_group, item) result(columns)
       type(catalogue_t), intent(in) :: catalogue    !! what can be recorded
       type(selection_t), intent(in) :: selection    !! what is
-      integer, intent(in) :: room                   !! workspace of the item
+      integer, intent(in) :: item_group                   !! group of the item
       integer, intent(in) :: item                   !! its number there
       type(scalar_t), allocatable :: columns(:)     !! (n) numbers in the order of the catalogue
 
       integer :: k
 
       allocate (columns(0))
-      call append_columns(catalogue, selection, room, item, columns)
-      if (room /= group_clearances) return
-      do k = 1, size(catalogue%rooms(group_contacts)%names)
-         if (catalogue%rooms(group_contacts)%names(k)%s /= catalogue%rooms(room)%names(item)%s) cycle
+      call append_columns(catalogue, selection, item_group, item, columns)
+      if (item_group /= group_clearances) return
+      do k = 1, size(catalogue%item_groups(group_contacts)%names)
+         if (catalogue%item_groups(group_contacts)%names(k)%s /= catalogue%item_groups(item_group)%names(item)%s) cycle
          call append_columns(catalogue, selection, group_contacts, k, columns)
       end do
    end function columns_of_item
 
    !> Append the chosen numbers of an item.
-   subroutine append_columns(catalogue, selection, room, item, columns)
+   subroutine append_columns(catalogue, selection, item_group, item, columns)
       type(catalogue_t), intent(in) :: catalogue                  !! what can be recorded
       type(selection_t), intent(in) :: selection                  !! what is
-      integer, intent(in) :: room                                 !! workspace of the item
+      integer, intent(in) :: item_group                                 !! group of the item
       integer, intent(in) :: item                                 !! its number there
       type(scalar_t), allocatable, intent(inout) :: columns(:)    !! (n) numbers
 
       integer :: component, group
 
       do group = 1, size(catalogue%groups)
-         if (catalogue%groups(group)%room /= room) cycle
+         if (catalogue%groups(group)%item_group /= item_group) cycle
          do component = 1, catalogue%groups(group)%channel%components
             if (selection%groups(group)%mask(component, item)) columns = [columns, scalar_t(group, component, item)]
          end do

@@ -1,7 +1,7 @@
 !> How far the channels of two runs differ.
 !>
 !> Differences of channels are measured by the scale of their kind: of positions, velocities and reactions as in `run_difference`
-!> (velocities and reactions of all rows), of all else the maximum magnitude of what has the same unit in the same room of the
+!> (velocities and reactions of all rows), of all else the maximum magnitude of what has the same unit in the same group of the
 !> catalogue (what turns counts at the maximum radius of gyration), of energies the ledger's yardstick. Angles that jump by a turn
 !> differ by less than half a turn; as long as they go all round they have no extremes.
 module channel_difference

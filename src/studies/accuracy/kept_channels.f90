@@ -2,7 +2,7 @@
 !>
 !> Extremes are those of all rows, and those located between rows. Values are kept at the output instants, or at each of a whole
 !> number of them. Every channel has a kind, by which its differences are measured (`channel_difference`):
-!> what has the same unit in the same room; of requests that are no lengths, rates, forces or energies each is a kind of its own.
+!> what has the same unit in the same group; of requests that are no lengths, rates, forces or energies each is a kind of its own.
 !> Where a contact would act is kept while its bodies touch only, else it is no number: a pin in the middle of its bearing, or of
 !> its film, would act anywhere.
 module kept_channels
@@ -32,7 +32,7 @@ module kept_channels
 
    !> A kind of channels behind the sorts: what is measured by one scale.
    type :: channel_kind_t
-      integer :: room = 0                         !! of the catalogue
+      integer :: item_group = 0                         !! of the catalogue
       integer :: class = class_other              !! of its unit
       integer :: group = 0                        !! quantity of a request, which is a kind of its own; else 0
       character(:), allocatable :: unit           !! of a unit by itself
@@ -92,7 +92,7 @@ contains
       allocate (self%kind_of(size(catalogue%groups)), source=0)
       allocate (self%goes_round(n), source=.false.)
       do g = 1, size(catalogue%groups)
-         self%kind_of(g) = sort_of(catalogue%groups(g)%room, catalogue%groups(g)%channel%name)
+         self%kind_of(g) = sort_of(catalogue%groups(g)%item_group, catalogue%groups(g)%channel%name)
       end do
       do k = 1, n
          g = self%asked(1, k)
@@ -100,7 +100,7 @@ contains
             if (self%kind_of(g) == 0) self%kind_of(g) = n_sort + number_of_kind(self, group, g)
             self%kind(k) = self%kind_of(g)
             self%factor_of(k) = factor_to(self, group, self%asked(3, k))
-            if (group%room == group_contacts .and. is_place(catalogue, g)) then
+            if (group%item_group == group_contacts .and. is_place(catalogue, g)) then
                self%state_of(k) = catalogue%find_group(group_contacts, "state")
             end if
             self%goes_round(k) = goes_round(group)
@@ -114,7 +114,7 @@ contains
    pure logical function wants_channels(self, group, item) result(wants)
       class(kept_channels_t), intent(in) :: self   !! the recorder
       integer, intent(in) :: group                 !! its group in the catalogue
-      integer, intent(in) :: item                  !! number of the item in the group's room
+      integer, intent(in) :: item                  !! number of the item in the group's group
 
       wants = self%kind_of(group) > 0 .or. any(self%state_of == group) .or. self%kept_run_t%wants(group, item)
    end function wants_channels
@@ -138,14 +138,14 @@ contains
 
       type(channel_kind_t) :: kind
 
-      kind = channel_kind_t(room=group%room, class=class_of(group%channel%unit), unit="")
+      kind = channel_kind_t(item_group=group%item_group, class=class_of(group%channel%unit), unit="")
       if (kind%class == class_other) then
          kind%unit = group%channel%unit
-         if (group%room == group_requests) kind%group = g
+         if (group%item_group == group_requests) kind%group = g
       end if
       do n = 1, size(self%further)
          associate (other => self%further(n))
-            if (other%room == kind%room .and. other%class == kind%class .and. other%group == kind%group .and. &
+            if (other%item_group == kind%item_group .and. other%class == kind%class .and. other%group == kind%group .and. &
                 other%unit == kind%unit) return
          end associate
       end do
@@ -176,12 +176,12 @@ contains
 
       factor = 1.0_wp
       if (group%channel%unit == "N.m") factor = 1.0_wp/maxval(self%arm)
-      if (sort_of(group%room, group%channel%name) == sort_positions .and. group%channel%unit == "1") then
+      if (sort_of(group%item_group, group%channel%name) == sort_positions .and. group%channel%unit == "1") then
          factor = 2.0_wp*self%arm(item)
       end if
       if (index(group%channel%unit, "rad") /= 1) return
       factor = maxval(self%arm)
-      if (group%room == group_bodies) factor = self%arm(item)
+      if (group%item_group == group_bodies) factor = self%arm(item)
    end function factor_to
 
    !> Keep an output instant.

@@ -25,7 +25,7 @@ module kept_run
 
    !> A contact that started.
    type :: contact_t
-      integer :: number = 0                   !! in the catalogue's room of contacts
+      integer :: number = 0                   !! in the catalogue's group of contacts
       real(wp) :: onset = 0.0_wp              !! time at which it started [s]
       real(wp) :: impact_speed = 0.0_wp       !! normal approach speed there [m/s]
       real(wp) :: peak_force = 0.0_wp         !! maximum normal force [N]
@@ -88,9 +88,9 @@ contains
          integer :: component, item, sort
 
          associate (group => catalogue%groups(g))
-            sort = sort_of(group%room, group%channel%name)
+            sort = sort_of(group%item_group, group%channel%name)
             if (sort == 0) return
-            do item = 1, catalogue%rooms(group%room)%n
+            do item = 1, catalogue%item_groups(group%item_group)%n
                if (.not. catalogue%item_has(g, item)) cycle
                do component = 1, numbers_of(group)
                   self%n = self%n + 1
@@ -111,7 +111,7 @@ contains
    pure logical function wants_kept(self, group, item) result(wants)
       class(kept_run_t), intent(in) :: self      !! the recorder
       integer, intent(in) :: group               !! its group in the catalogue
-      integer, intent(in) :: item                !! number of the item in the group's room
+      integer, intent(in) :: item                !! number of the item in the group's group
 
       wants = .false.
       if (self%is_kept) wants = any(self%group == group .and. self%at(2, :) == item)
@@ -121,7 +121,7 @@ contains
    pure logical function is_orientation(group)
       type(group_t), intent(in) :: group   !! the quantity
 
-      is_orientation = group%room == group_bodies .and. group%channel%name == "orientation"
+      is_orientation = group%item_group == group_bodies .and. group%channel%name == "orientation"
    end function is_orientation
 
    !> Numbers that are kept of one item of a quantity.
@@ -131,13 +131,13 @@ contains
       n = merge(n_place, group%channel%components, is_orientation(group))
    end function numbers_of
 
-   !> Sort of a channel of a room, 0 if it is not kept.
-   pure integer function sort_of(room, name) result(sort)
-      integer, intent(in) :: room         !! of the catalogue
+   !> Sort of a channel of a group, 0 if it is not kept.
+   pure integer function sort_of(item_group, name) result(sort)
+      integer, intent(in) :: item_group         !! of the catalogue
       character(*), intent(in) :: name    !! of the channel
 
       sort = 0
-      select case (room)
+      select case (item_group)
       case (group_bodies)
          if (name == "position" .or. name == "angle" .or. name == "orientation") sort = sort_positions
          if (name == "velocity" .or. name == "angular_velocity") sort = sort_velocities
@@ -187,9 +187,9 @@ contains
       integer :: k
 
       if (.not. self%is_kept .or. event%kind /= "contact") return
-      associate (room => self%names%rooms(group_contacts))
-         do k = 1, room%n
-            if (room%names(k)%s == event%item .and. room%labels(k)%s == event%contact) exit
+      associate (item_group => self%names%item_groups(group_contacts))
+         do k = 1, item_group%n
+            if (item_group%names(k)%s == event%item .and. item_group%labels(k)%s == event%contact) exit
          end do
       end associate
       contact = contact_t(k, event%time, event%impact_speed, event%peak_force, event%release_speed)
