@@ -10,7 +10,7 @@ from page_data import page_data
 from support import DECK, ROOT, call, changed, written
 from test_motion_file import CRANK
 
-STYLES = ("ground", "body", "line", "path", "pin", "symbol", "hole", "journal", "arrow")
+STYLES = ("ground", "body", "line", "path", "pin", "symbol", "hole", "journal", "arrow", "name")
 TITLE = r"""a </script><script>alert(1)</script> & 'b' \"c\" `id`"""
 
 
@@ -26,7 +26,7 @@ def strokes(path):
     text = path.read_text(encoding="utf-8")
     unit = {"mm": 1e-3, "m": 1.0, "µm": 1e-6}[re.search(r"x \[(.*?)\]", text).group(1)]
     blocks = [block for block in text.split("\n", 1)[1].split("\n\n\n") if block.strip()]
-    lines = [[np.loadtxt(part.splitlines(), ndmin=2)[:, :2] * unit for part in block.split("\n\n") if part.strip()] for block in blocks]
+    lines = [[np.loadtxt(part.splitlines(), ndmin=2, usecols=(0, 1)) * unit for part in block.split("\n\n") if part.strip()] for block in blocks]
     assert len(lines) % len(STYLES) == 0
     return [dict(zip(STYLES, lines[k : k + len(STYLES)])) for k in range(0, len(lines), len(STYLES))]
 

@@ -130,11 +130,11 @@ contains
       if (mistakes%count() == 0) call check_function_ranges(loaded%scene, loaded%plan%end, mistakes)
       if (has_all_words) then
          if (.not. options%runs%has_known_words) then
-            call check_words(loaded%deck, loaded%scene, loaded%figures, loaded%plan%end, loaded%catalogue, mistakes)
+            call check_words(loaded%deck, loaded%scene, loaded%figures, loaded%sweep, loaded%plan%end, loaded%catalogue, mistakes)
          end if
          if (has_conditions(loaded%scene)) call check_conditions(loaded%scene, loaded%catalogue, mistakes)
       else
-         call check_words(loaded%deck, loaded%scene, loaded%figures, loaded%plan%end, catalogue, mistakes)
+         call check_words(loaded%deck, loaded%scene, loaded%figures, loaded%sweep, loaded%plan%end, catalogue, mistakes)
          call check_conditions(loaded%scene, catalogue, mistakes)
       end if
       if (mistakes%count() == 0 .and. .not. options%runs%is_member) then  ! which draws none

@@ -7,14 +7,15 @@ module word_checks
    use diagnostics, only: diagnostics_t
    use figure_binding, only: bind_figure
    use figure_phrase, only: mistake_t, set_mistake
-   use figure_words, only: draws_mechanism, figure_bifurcation, figure_film, figure_portrait, figure_section, figure_statistics, &
-      figure_t, read_figure
+   use figure_words, only: draws_mechanism, figure_bifurcation, figure_contour, figure_film, figure_portrait, figure_section, &
+      figure_statistics, figure_t, read_figure
    use film_fields, only: moment_at
    use item, only: location_of, place_of, value_t
    use kinds, only: wp
    use scene, only: scene_t
    use spelling, only: nearest_word
    use statistics, only: names_of_numbers, number_t
+   use swept, only: sweep_t
    use text, only: join, real_text, text_t
    implicit none (type, external)
    private
@@ -57,10 +58,11 @@ contains
    end subroutine report_mistake
 
    !> Channels and figures must name what the scene has.
-   subroutine check_words(deck, scene, figures, end, catalogue, mistakes)
+   subroutine check_words(deck, scene, figures, sweep, end, catalogue, mistakes)
       type(deck_t), intent(in) :: deck                !! the deck, for the places of errors
       type(scene_t), intent(in) :: scene              !! the scene
       type(figure_t), intent(in) :: figures(:)        !! (n) its figures
+      type(sweep_t), intent(in) :: sweep              !! that it is to make, perhaps none
       real(wp), intent(in) :: end                     !! of the run; 0: it has none [s]
       type(catalogue_t), intent(in) :: catalogue      !! what it can report
       type(diagnostics_t), intent(inout) :: mistakes  !! errors found
@@ -75,6 +77,7 @@ contains
             figure = figures(k)
             call bind_figure(figure, catalogue, mistake)
             if (.not. allocated(mistake)) call check_statistics(figure, scene, catalogue, mistake)
+            if (.not. allocated(mistake)) call check_contour(figure, sweep, mistake)
             if (.not. allocated(mistake)) call check_film(figure, scene, end, mistake)
             if (allocated(mistake)) call report_mistake(deck, output%values(place_of(output, "figures")), k, mistake, mistakes)
          end do
@@ -124,7 +127,7 @@ contains
          call set_mistake(mistake, "'"//figure%word//"' needs the drive period", &
                           "add to section [statistics]: period = 1 turns of motor, or a time", "")
       end if
-      if (allocated(mistake) .or. figure%kind /= figure_statistics) return
+      if (allocated(mistake) .or. all(figure%kind /= [figure_statistics, figure_contour])) return
       known = known_numbers(scene, catalogue)
       do k = 1, size(figure%arguments)
          associate (number => figure%arguments(k)%s)
@@ -137,6 +140,22 @@ contains
          end associate
       end do
    end subroutine check_statistics
+
+   !> A number over two parameters needs a sweep that makes a grid of two.
+   subroutine check_contour(figure, sweep, mistake)
+      type(figure_t), intent(in) :: figure                     !! the figure
+      type(sweep_t), intent(in) :: sweep                       !! cases, perhaps none
+      type(mistake_t), allocatable, intent(inout) :: mistake   !! what is wrong
+
+      logical :: is_grid
+
+      if (figure%kind /= figure_contour .or. .not. sweep%is_present) return
+      is_grid = allocated(sweep%parameters) .and. .not. sweep%is_paired .and. sweep%n_together == 1
+      if (is_grid) is_grid = size(sweep%parameters) == 2
+      if (is_grid) return
+      call set_mistake(mistake, "'"//figure%word//"' needs a sweep over a grid of two parameters", &
+                       "statistics("//figure%arguments(1)%s//") has a curve for each combination of further parameters", "")
+   end subroutine check_contour
 
    !> Names of the numbers of a scene's statistics.
    function known_numbers(scene, catalogue) result(names)

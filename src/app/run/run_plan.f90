@@ -55,6 +55,7 @@ contains
       plan%moved = assembly%moved
       if (loaded%scene%analysis /= analysis_static) plan%n_instant = last_instant(loaded%plan) + 1_i8
       plan%n_freedom = size(loaded%system%linkage%mass) - loaded%system%linkage%rows%n
+      plan%mass = minval(loaded%system%linkage%mass(1, :))  ! the first rate of a body is of its place
       if (allocated(assembly%dependent)) plan%n_freedom = plan%n_freedom + size(assembly%dependent)
       call plan_statistics(loaded, plan%statistics)
       call find_known_words(loaded, plan, figures)

@@ -5,7 +5,7 @@ module sweep_report
    use errors, only: error_t, exit_sweep, set_error
    use figure_binding, only: bind_figure
    use figure_phrase, only: mistake_t
-   use figure_words, only: figure_t, is_of_run
+   use figure_words, only: figure_contour, figure_t, is_of_run
    use gnuplot_runs, only: draw_figures, make_folder
    use json_text, only: json_object_t
    use kinds, only: i8, wp
@@ -15,6 +15,7 @@ module sweep_report
    use options, only: options_t
    use plot_table, only: plot_table_t, tell_empty, write_plot
    use recorder, only: status_complete, status_failed, status_stopped
+   use sweep_map, only: write_sweep_map
    use sweep_plots, only: sweep_table
    use sweep_work, only: failure_text, sweep_work_t
    use text, only: append_text, real_text, text_t, to_text
@@ -54,10 +55,15 @@ contains
          if (allocated(mistake) .or. is_of_run(figure)) cycle
          call make_folder(folder, error)
          if (allocated(error)) return
-         call sweep_table(figure, work%results, catalogue, file_heading(work%plan), table)
-         call write_plot(folder, loaded%scene%title, table, is_written, error, empty)
+         if (figure%kind == figure_contour) then
+            call write_sweep_map(folder, loaded%scene%title, figure%name, figure%arguments(1)%s, work%results, &
+                                 file_heading(work%plan), is_written, error)
+         else
+            call sweep_table(figure, work%results, catalogue, file_heading(work%plan), table)
+            call write_plot(folder, loaded%scene%title, table, is_written, error, empty)
+            if (.not. allocated(error)) call tell_empty(figure%word, empty, warnings)
+         end if
          if (allocated(error)) return
-         call tell_empty(figure%word, empty, warnings)
          if (is_written) then
             call append_text(names, figure%name)
          else

@@ -32,6 +32,7 @@ module catalogue
       real(wp), allocatable :: values(:)          !! (any) current values of all, SI; NaN: the item has no such channel [any]
       type(reading_offer_t) :: offer              !! what the sets of the system report
       type(reading_plan_t) :: readings            !! what is read of the sets of the system, if it is bound
+      integer, allocatable :: magnitudes(:, :)    !! (2, any) requested ones: place in `values`, place before the vector
       type(bound_formula_t), allocatable :: formulas(:)  !! (any) expressions over channels, each after those that it uses
    contains
       procedure :: add_group => catalogue_add_group
@@ -293,7 +294,11 @@ contains
             if (allocated(group%has)) deallocate (group%has, group%is_wanted)
             allocate (group%is_wanted(size(self%item_groups(group%item_group)%names)), source=.true.)
             word = " "//group%channel%name//" "
-            group%has = [(has_channel(self%item_groups(group%item_group), word, item), item=1, size(group%is_wanted))]
+            if (group%vector > 0) then
+               group%has = self%groups(group%vector)%has
+            else
+               group%has = [(has_channel(self%item_groups(group%item_group), word, item), item=1, size(group%is_wanted))]
+            end if
             group%before = n
             n = n + group%channel%components*size(group%has)
          end associate

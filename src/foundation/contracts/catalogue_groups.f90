@@ -1,9 +1,10 @@
 !> Groups of the catalogue: one quantity of all the items of a group, and a list of them that grows.
 module catalogue_groups
+   use groups_of_catalogue, only: group_contacts, group_joints, group_requests
    use kind_info, only: channel_t
    implicit none (type, external)
    private
-   public :: group_t, resize_groups
+   public :: goes_round, group_t, resize_groups
 
    !> One quantity of all the items of a group.
    type :: group_t
@@ -11,10 +12,26 @@ module catalogue_groups
       type(channel_t) :: channel              !! name, SI unit, frame, components and long name
       logical, allocatable :: has(:)          !! (items) which of them have the channel
       logical, allocatable :: is_wanted(:)    !! (items) whose value someone reads; others may not be found
+      integer :: vector = 0                   !! of a magnitude: group of its vector; 0: it is none
       integer :: before = 0                   !! numbers before its own in `values`: all components of its first item, of its second
    end type group_t
 
 contains
+
+   !> Whether a quantity is an angle that jumps from pi to -pi, or may: that of a request.
+   pure logical function goes_round(group)
+      type(group_t), intent(in) :: group   !! the quantity
+
+      character(*), parameter :: of_joints = " angle angle_i angle_j "   ! other angles are accumulated over revolutions
+
+      goes_round = group%channel%unit == "rad"
+      if (.not. goes_round) return
+      select case (group%item_group)
+      case (group_contacts); goes_round = group%channel%name == "contact_angle"
+      case (group_joints); goes_round = index(of_joints, " "//group%channel%name//" ") > 0
+      case default; goes_round = group%item_group == group_requests
+      end select
+   end function goes_round
 
    !> Give the quantities another number of places, and keep them.
    subroutine resize_groups(groups, n, places)
@@ -46,6 +63,7 @@ contains
       call move_alloc(from%channel%help, to%channel%help)
       call move_alloc(from%has, to%has)
       call move_alloc(from%is_wanted, to%is_wanted)
+      to%vector = from%vector
       to%before = from%before
    end subroutine take_over
 

@@ -2,7 +2,8 @@
 !>
 !> A sum of numbers is rounded by a part of the maximum of them, so a channel whose maximum magnitude is below that part of the
 !> maximum of its kind was computed from nothing. Kinds are units; those of rates, accelerations and powers follow from the
-!> lengths, the duration and the forces too, so that a mechanism at rest has noise as one that moves. Tables, figures and
+!> lengths, the duration and the forces too, so that a mechanism at rest has noise as one that moves; those of forces from the
+!> least mass and the accelerations, so that a mechanism without forces has noise too. Tables, figures and
 !> comparisons show such a channel as zero; run.h5 keeps its numbers.
 module channel_noise
    use, intrinsic :: ieee_arithmetic, only: ieee_is_finite
@@ -19,10 +20,11 @@ module channel_noise
 contains
 
    !> The noise of channels by the maximum magnitudes of all.
-   pure function noise_of_channels(units, maximum, duration) result(noise)
+   pure function noise_of_channels(units, maximum, duration, mass) result(noise)
       type(text_t), intent(in) :: units(:)                 !! (n) SI
       real(wp), intent(in) :: maximum(:)                  !! (n) maximum magnitudes; none is a number: 0 [any]
       real(wp), intent(in) :: duration                     !! of the run [s]
+      real(wp), intent(in), optional :: mass               !! of the lightest body, if it is known [kg]
       real(wp) :: noise(size(units))                       !! (n) less is round-off [any]
 
       real(wp) :: energy, force, length, moment, power, rate, speed, contact_rate, thrust
@@ -39,6 +41,7 @@ contains
       moment = max_of("N.m")
       force = max_of("N")
       if (length > 0.0_wp) force = max(force, moment/length)
+      if (present(mass)) force = max(force, mass*thrust)
       moment = max(moment, force*length)
       energy = max_of("J")
       power = max(max_of("W"), force*speed)
@@ -101,7 +104,8 @@ contains
       words = "channels shown as zero: those below "//real_text(of_length, 2)//" of the maximum length, angle (1 rad) or "// &
          "number, "// &
               real_text(of_rate, 2)//" of the maximum speed or energy, "//real_text(of_load, 2)// &
-              " of the maximum force, acceleration or power of the run"
+              " of the maximum force, acceleration or power of the run (of a force: at least the mass of the lightest body "// &
+              "times the maximum acceleration)"
    end function noise_words
 
 end module channel_noise

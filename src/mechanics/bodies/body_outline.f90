@@ -4,7 +4,7 @@
 !> if they are more than three), the line from its centre of mass to a single point, a block in proportion to the scene where that
 !> is the centre of mass.
 module body_outline
-   use drawing, only: add_stroke, drawing_t, in_both, part_t, round_part, start_part
+   use drawing, only: add_stroke, drawing_t, in_both, in_pictures, part_t, round_part, start_part
    use kinds, only: wp
    use rotations, only: axes_across
    use shapes, only: box_part
@@ -14,6 +14,8 @@ module body_outline
 
    real(wp), parameter :: block_length = 0.13_wp   !! of a body that is one point, of the size of the scene [1]
    real(wp), parameter :: block_height = 0.075_wp  !! the same, across [1]
+   real(wp), parameter :: bar = 0.06_wp            !! across a shaft, of the size of the scene [1]
+   real(wp), parameter :: parallel = 0.999_wp      !! cosine of an angle of lines that are parallel [1]
    real(wp), parameter :: same_place = 1.0e-6_wp   !! distance of two points that are drawn as one, of the size of the scene [1]
 
 contains
@@ -46,11 +48,12 @@ contains
    end function distinct_points
 
    !> Outline of a body by its points.
-   subroutine outline(drawing, body, s, frame, part)
+   subroutine outline(drawing, body, s, frame, shaft, part)
       type(drawing_t), intent(in) :: drawing  !! for the size of the scene
       integer, intent(in) :: body             !! the body
       real(wp), intent(in) :: s(:, :)         !! (3, n) places of its points [m]
       real(wp), intent(in) :: frame(3, 3)     !! (3, 3) axes of a block: in which it slides, or zero, and those across [1]
+      real(wp), intent(in) :: shaft(3)        !! (3) an axis that it turns about, or zero [1]
       type(part_t), intent(out) :: part       !! the outline
 
       real(wp), parameter :: centre(3, 1) = 0.0_wp
@@ -63,16 +66,14 @@ contains
          call round_part(part, body, centre(:, 1), reshape([1.0_wp, 0.0_wp, 0.0_wp, 0.0_wp, 1.0_wp, 0.0_wp], [3, 2]), &
                          0.5_wp*block_height*drawing%size)
       else if (n == 1 .and. norm2(s(:, 1)) > same_place*drawing%size) then
-         call start_part(part, body, reshape([centre, s], [3, 2]))
-         call add_stroke(part, [1, 2], .false., in_both)
+         call draw_line(reshape([centre, s], [3, 2]))
       else if (n == 1) then
          axes = axes_across([0.0_wp, 0.0_wp, 1.0_wp])
          if (norm2(frame(:, 1)) > 0.0_wp) axes = frame
          half = 0.5_wp*drawing%size*[block_length, block_height, merge(block_height, 0.0_wp, drawing%is_spatial)]
          call box_part(half, centre(:, 1), axes, body, part)
       else if (n == 2) then
-         call start_part(part, body, s)
-         call add_stroke(part, [1, 2], .false., in_both)
+         call draw_line(s)
       else if (n == 3 .or. .not. drawing%is_spatial) then
          call start_part(part, body, s)
          call find_hull(s, drawing%is_spatial, hull)
@@ -87,6 +88,27 @@ contains
             call add_stroke(part, [k, n + 1], .false., in_both)
          end do
       end if
+
+   contains
+
+      !> A line; of a shaft, which turns about it, pictures show a bar across it, whose turn is seen.
+      subroutine draw_line(ends)
+         real(wp), intent(in) :: ends(3, 2)   !! (3, 2) its ends [m]
+
+         real(wp) :: across(3, 3), middle(3), way(3)
+
+         way = ends(:, 2) - ends(:, 1)
+         if (norm2(shaft) > 0.0_wp .and. abs(dot_product(way, shaft)) > parallel*norm2(way)*norm2(shaft)) then
+            across = axes_across(shaft)
+            middle = 0.5_wp*(ends(:, 1) + ends(:, 2))
+            call start_part(part, body, reshape([ends, middle, middle + bar*drawing%size*across(:, 1)], [3, 4]))
+            call add_stroke(part, [3, 4], .false., in_pictures)
+         else
+            call start_part(part, body, ends)
+         end if
+         call add_stroke(part, [1, 2], .false., in_both)
+      end subroutine draw_line
+
    end subroutine outline
 
    !> The convex hull of points in the plane, or three points of space; two points if all lie on a line.

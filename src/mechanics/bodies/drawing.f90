@@ -7,7 +7,7 @@ module drawing
    use text, only: text_t
    implicit none (type, external)
    private
-   public :: add_mark, add_part, add_stroke, drawing_t, mark_t, part_t, round_part, start_part, stroke_t
+   public :: add_mark, add_part, add_stroke, add_teeth, drawing_t, mark_t, part_t, round_part, start_part, stroke_t
    public :: in_both, in_files, in_pictures
    public :: mark_bearing, mark_damper, mark_guide, mark_link, mark_load, mark_pin, mark_plane, mark_slide, mark_spring
 
@@ -126,6 +126,34 @@ contains
       call add_stroke(part, [(k, k=1, n_round)], .true., in_both)
       if (norm2(centre) < concentric*radius) call add_stroke(part, [1, 1 + n_round/2], .false., in_pictures)
    end subroutine round_part
+
+   !> Teeth of a gear in pictures: short lines across its circle, apart by about a pitch.
+   subroutine add_teeth(part, centre, across, radius, pitch)
+      type(part_t), intent(inout) :: part  !! the circle
+      real(wp), intent(in) :: centre(3)    !! (3) its centre, own frame [m]
+      real(wp), intent(in) :: across(3, 2) !! (3, 2) two unit vectors across its axis, own frame [1]
+      real(wp), intent(in) :: radius       !! its radius [m]
+      real(wp), intent(in) :: pitch        !! distance of two teeth along the circle, about [m]
+
+      integer, parameter :: fewest = 8, most = 120
+      real(wp), parameter :: turn = 8.0_wp*atan(1.0_wp)
+      real(wp) :: angle, way(3)
+      real(wp), allocatable :: s(:, :)
+      integer :: k, n, before
+
+      n = max(fewest, min(most, nint(min(turn*radius/pitch, real(most, wp)))))
+      before = size(part%s, 2)
+      allocate (s(3, before + 2*n))
+      s(:, :before) = part%s
+      do k = 1, n
+         angle = turn*real(k - 1, wp)/real(n, wp)
+         way = cos(angle)*across(:, 1) + sin(angle)*across(:, 2)
+         s(:, before + 2*k - 1) = centre + (radius - 0.4_wp*pitch)*way
+         s(:, before + 2*k) = centre + (radius + 0.4_wp*pitch)*way
+         call add_stroke(part, before + [2*k - 1, 2*k], .false., in_pictures)
+      end do
+      call move_alloc(s, part%s)
+   end subroutine add_teeth
 
    !> Add a part to a drawing.
    subroutine add_part(drawing, part)

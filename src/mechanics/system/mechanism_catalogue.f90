@@ -11,6 +11,7 @@ module mechanism_catalogue
    use joint_set, only: joint_set_t, of_coordinate
    use kind_info, only: add_channel, channel_t, kind_info_t
    use kinds, only: not_a_number
+   use magnitudes, only: spread_to_vectors
    use mechanism, only: mechanism_t
    use point_contacts, only: named_channels, of_eccentricity, of_force
    use readings, only: reading_plan_t
@@ -133,6 +134,7 @@ contains
       integer :: k
 
       call catalogue%spread_wants()
+      call spread_to_vectors(catalogue)
       call bind_requests(catalogue)
       associate (plan => catalogue%readings, offer => catalogue%offer)
          call catalogue%bind(offer%bodies, plan%bodies, [(k, k=1, system%linkage%bodies%n)])

@@ -5,6 +5,7 @@ module mechanism_report
    use force_set, only: force_set_t
    use kinds, only: wp
    use linkage, only: linkage_t
+   use magnitudes, only: find_magnitudes
    use mechanism_catalogue, only: of_dissipated_contact, of_dissipated_damper, of_dissipated_film, of_dissipated_friction, &
       of_drive_work, of_elastic, of_kinetic, of_load_work, of_potential, of_stabilisation_work
    use mechanism_energy, only: energy_of, energy_t
@@ -121,6 +122,7 @@ contains
          if (plan%points%n + plan%motions%n + plan%reactions%n > 0) call report_requests(system, t, plan, values)
          if (plan%energy%n > 0) call report_energy(system, y, residual, plan%energy, values)
       end associate
+      call find_magnitudes(catalogue)
       if (size(catalogue%formulas) > 0) call catalogue%work_out(t)
    end subroutine report_rest
 

@@ -4,6 +4,7 @@ module request_report
    use groups_of_catalogue, only: n_groups, group_contacts, group_motions, group_points, group_reactions, group_requests
    use kind_info, only: channel_t, kind_info_t
    use kinds, only: wp
+   use magnitudes, only: add_magnitudes
    use mechanism, only: mechanism_t
    use reaction_at, only: find_reaction
    use readings, only: reading_plan_t, readings_t
@@ -16,14 +17,18 @@ module request_report
 
 contains
 
-   !> Items and channels of requests. Expressions over channels that this catalogue does not have are omitted.
+   !> Items and channels of requests, then the magnitudes of all vectors. Expressions over channels that this catalogue does not
+   !> have are omitted.
    subroutine add_requests(requests, catalogue)
       type(requests_t), intent(in) :: requests         !! what is asked
       type(catalogue_t), intent(inout) :: catalogue    !! grows; all other items and groups are there
 
       integer :: k
 
-      if (.not. allocated(requests%points)) return  ! a system that was not made from a deck
+      if (.not. allocated(requests%points)) then  ! a system that was not made from a deck
+         call add_magnitudes(catalogue)
+         return
+      end if
       if (size(requests%points) > 0) call add(group_points, point_channels(), catalogue%offer%points)
       do k = 1, size(requests%points)
          call catalogue%add_item(group_points, requests%points(k)%s)
@@ -36,6 +41,7 @@ contains
       do k = 1, size(requests%reactions)
          call catalogue%add_item(group_reactions, requests%reactions(k)%name)
       end do
+      call add_magnitudes(catalogue)
       if (size(requests%formulas) > 0) call catalogue%add_item(group_requests, "request")
       allocate (catalogue%formulas(size(requests%formulas)))
       do k = 1, size(requests%formulas)

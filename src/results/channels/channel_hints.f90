@@ -95,6 +95,7 @@ contains
 
       allocate (quantities(0))
       do group = 1, size(catalogue%groups)
+         if (catalogue%groups(group)%vector > 0) cycle
          associate (item_group => catalogue%groups(group)%item_group, quantity => catalogue%groups(group)%channel%name)
             do item = 1, size(catalogue%item_groups(item_group)%names)
                if (.not. is_same(name, item_name(catalogue, item_group, item)) .and. name /= "*") cycle

@@ -1,6 +1,6 @@
 !> Which channels a run keeps: from the deck's words to a mask over the catalogue.
 !>
-!> Words: `slider.position`, `slider.position.x`, `gudgeon.*`, `*.velocity`, `*`, `gudgeon.penetration`
+!> Words: `slider.position`, `slider.position.x`, `slider.position.magnitude`, `gudgeon.*`, `*.velocity`, `*`, `gudgeon.penetration`
 !> of a contact, `guide.A.penetration` where a joint has several, `energy.residual`, `energy.*`, `request.NAME`. A `*` for the item
 !> stands for everything but points, which have channels only where they are named.
 module channels
@@ -10,7 +10,7 @@ module channels
    use channel_names, only: component_letter, item_name, scalar_t
    use name_table, only: name_table_t
    use point_contacts, only: named_channels
-   use text, only: text_t
+   use text, only: segment, text_t
    implicit none (type, external)
    private
    public :: chosen_t, find_scalars, item_finder_t, list_scalars, match_word, select_channels, selection_t
@@ -193,7 +193,7 @@ contains
       type(scalar_t), intent(in) :: scalar        !! the number
 
       character(:), allocatable :: label, letter, quantity
-      integer :: item_group
+      integer :: item_group, vector
 
       item_group = catalogue%groups(scalar%group)%item_group
       quantity = catalogue%groups(scalar%group)%channel%name
@@ -201,6 +201,12 @@ contains
       label = ""
       if (item_group == group_contacts) label = catalogue%item_groups(item_group)%labels(scalar%item)%s
       fits = .false.
+      vector = catalogue%groups(scalar%group)%vector
+      if (vector > 0) then  ! only where it is named
+         letter = segment(quantity, len(catalogue%groups(vector)%channel%name) + 2)
+         quantity = catalogue%groups(vector)%channel%name
+         if (parts(size(parts))%s /= letter .or. size(parts) < 3) return
+      end if
       select case (size(parts))
       case (1)
          fits = parts(1)%s == "*" .and. .not. is_named_only(quantity)

@@ -185,7 +185,7 @@ contains
       if (len(message) > 0) return
       if (size(scalars) > 1) then
          message = "'"//word//"' has several components"
-         help = "write "//word//".x or .y"
+         help = "write "//word//".x, .y or .magnitude"
          return
       end if
       call parse_unit(self%catalogue%groups(scalars(1)%group)%channel%unit, unit, wrong, first, last)

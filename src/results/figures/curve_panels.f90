@@ -97,6 +97,7 @@ contains
          name = ""
          do i = 1, size(list)
             one = replace(catalogue%groups(figure%scalars(curves(list(i))%number)%group)%channel%name, "_", " ")
+            one = replace(one, ".", " ")
             if (i == 1) name = one
             if (index(", "//name//",", ", "//one//",") > 0) cycle
             name = name//", "//one

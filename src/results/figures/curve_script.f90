@@ -15,8 +15,8 @@ module curve_script
    use kinds, only: wp
    use panel_cells, only: cell_heights, cell_words, picture_height
    use plot_text, only: quoted
-   use script_parts, only: angle_tics, axes_t, axis_range, colours, edges, find_long_tics, hangs_from_zero, ideal_style, &
-      label_words, largest, largest_y, preamble, source, stands_on_zero
+   use script_parts, only: angle_tics, axes_t, axis_range, colours, edges, find_long_tics, hangs_from_zero, ideal_colour, &
+      ideal_line, label_words, largest, largest_y, line_source, preamble, stands_on_zero
    use text, only: real_text, to_text
    use text_buffer, only: buffer_t
    implicit none (type, external)
@@ -232,7 +232,7 @@ contains
       do k = 1, size(panel%curves)
          axes%y = panel%unit(panel%side(k))
          axes%less = panel%less(panel%side(k))
-         colour = " linecolor rgb '"//colours(mod(k - 1, size(colours)) + 1)//"'"
+         colour = colours(mod(k - 1, size(colours)) + 1)
          name = panel%curves(k)%name
          on = ""
          if (len(panel%right_label) > 0) then
@@ -242,8 +242,9 @@ contains
          place = envelope%place(panel%curves(k)%number)
          call lines%add(merge("plot ", "     ", k == 1))
          if (place == 0) then
-            call lines%add(source(panel%curves(k), axes)//on//" with lines linewidth 2"//colour//" title "//quoted(name))
+            call lines%add(line_source(panel%curves(k), axes, on, "linewidth 2", colour, "title "//quoted(name)))
          else
+            colour = " linecolor rgb '"//colour//"'"
             call lines%line(envelope%range_source(place, axes)//on//range_style//colour//" title "// &
                             quoted(name//", range")//", \")
             call lines%add("     "//envelope%mean_source(place, axes)//on//" with lines linewidth 2"//colour//" title 'mean'")
@@ -254,8 +255,8 @@ contains
          axes%y = panel%unit(panel%ideal_side(k))
          axes%less = panel%less(panel%ideal_side(k))
          on = trim(merge(" axes x1y2", "          ", panel%ideal_side(k) == 2))
-         call lines%line("     "//source(panel%ideal(k), axes)//on//ideal_style// &
-                         trim(merge("title 'ideal joints'", "notitle             ", k == 1))// &
+         call lines%line("     "//line_source(panel%ideal(k), axes, on, ideal_line, ideal_colour, &
+                                              trim(merge("title 'ideal joints'", "notitle             ", k == 1)))// &
                          trim(merge(", \", "   ", size(panel%curves) + k < n)))
       end do
    end subroutine plot_lines

@@ -5,14 +5,14 @@
 module drawn_axes
    use body_outline, only: same_place
    use item, only: find_place, item_t
-   use kind_info, only: free_translation
+   use kind_info, only: free_none, free_rotation, free_translation
    use kinds, only: wp
    use rotations, only: axes_across, rotation_about, rotation_of_parameters
    use scene, only: scene_t, table_t
    use ties, only: tie_of, tie_t
    implicit none (type, external)
    private
-   public :: axis_of, direction_in_plane, find_frame, find_ways, start_frame, turning_axis
+   public :: axis_of, direction_in_plane, find_frame, find_shafts, find_ways, start_frame, turning_axis
 
 contains
 
@@ -103,6 +103,35 @@ contains
       end subroutine look
 
    end subroutine find_ways
+
+   !> Axes that bodies of space turn about against others, in their own frames, of revolute joints before others; else zero.
+   subroutine find_shafts(scene, axes)
+      type(scene_t), intent(in) :: scene      !! the scene
+      real(wp), intent(out) :: axes(:, :)     !! (3, bodies) axes [1]
+
+      type(tie_t) :: tie
+      integer :: end, i, k, pass
+
+      axes = 0.0_wp
+      if (.not. scene%settings%is_spatial) return
+      do pass = 1, 2
+         do k = 1, size(scene%joints)
+            associate (leaves => scene%joints(k)%info%free)
+               if (merge(leaves /= free_rotation, any(leaves == [free_translation, free_none]), pass == 1)) cycle
+            end associate
+            do i = 1, size(scene%joints(k)%items)
+               if (find_place(scene%joints(k)%items(i), "axis_i") == 0) cycle
+               tie = tie_of(scene, scene%joints(k)%info, scene%joints(k)%items(i))
+               if (tie%n < 2 .or. tie%by_joint) cycle
+               do end = 1, 2
+                  if (tie%body(end) == 0) cycle
+                  if (norm2(axes(:, tie%body(end))) > 0.0_wp) cycle
+                  axes(:, tie%body(end)) = turning_axis(scene, scene%joints(k)%items(i), tie, end)
+               end do
+            end do
+         end do
+      end do
+   end subroutine find_shafts
 
    !> The axes of what slides in body j, own frame: along the guide, across it in the direction of the width of a block, and across
    !> both. In space they are those of the guide where the deck puts the bodies, but for an axis of its own.

@@ -48,6 +48,9 @@ contains
                end do
                mark%axis = axis_of(item)
                mark%kind = kind_of_mark(scene, info, item, tie, are_forces, same_place*drawing%size)
+               if (mark%kind == mark_pin .and. info%free == free_spherical .and. find_place(item, "axis_j") > 0) then
+                  mark%axis_j = second_arm(scene, item, tie, mark%axis)
+               end if
                if (mark%kind == mark_bearing) then
                   mark%radius = item%number("bearing_radius")
                   mark%clearance = item%number("clearance")
@@ -61,6 +64,21 @@ contains
          end do
       end do
    end subroutine add_marks
+
+   !> The arm of a cross in body j, whose arm in body i is the axis; zero if they are not perpendicular and make no cross.
+   pure function second_arm(scene, item, tie, axis) result(arm)
+      type(scene_t), intent(in) :: scene   !! the scene
+      type(item_t), intent(in) :: item     !! the row
+      type(tie_t), intent(in) :: tie       !! what it ties
+      real(wp), intent(in) :: axis(3)      !! (3) own frame of i [1]
+      real(wp) :: arm(3)                   !! (3) own frame of j [1]
+
+      real(wp), parameter :: skew = 0.1_wp   ! cosine of an angle that is not right [1]
+
+      arm = item%direction("axis_j")
+      if (abs(dot_product(matmul(start_frame(scene, tie%body(1)), axis), matmul(start_frame(scene, tie%body(2)), arm))) > &
+          skew*norm2(arm)) arm = 0.0_wp
+   end function second_arm
 
    !> A force at a point.
    subroutine add_load(item, tie, drawing)

@@ -6,7 +6,7 @@ module drawn_rows
    use catalogue, only: catalogue_t
    use, intrinsic :: ieee_arithmetic, only: ieee_is_nan
    use channel_names, only: scalar_t
-   use kinds, only: wp
+   use kinds, only: pi, wp
    use text, only: text_t
    use text_table, only: column_label
    use text_writer, only: text_writer_t
@@ -27,6 +27,7 @@ module drawn_rows
       real(wp) :: range(2) = [huge(1.0_wp), -huge(1.0_wp)]  !! (2) minimum, maximum; without numbers reversed, SI [any]
       integer :: turns = 0                                  !! from rising to falling, or back
       integer :: falls = 0                                  !! from one number to the next
+      integer :: jumps = 0                                  !! by more than pi from one number to the next
       real(wp), private :: before = huge(1.0_wp)            !! the number before; huge: nothing came before, SI [any]
       integer, private :: direction = 0                     !! 1: rising, -1: falling
    end type course_t
@@ -117,6 +118,7 @@ contains
          if (before < huge(1.0_wp)) then
             if ((x - before)*course%direction < 0.0_wp) course%turns = course%turns + 1
             if (x < before) course%falls = course%falls + 1
+            if (abs(x - before) > pi) course%jumps = course%jumps + 1
             if (x < before .or. x > before) course%direction = merge(-1, 1, x < before)
          end if
          course%range = [min(course%range(1), x), max(course%range(2), x)]
@@ -150,7 +152,7 @@ contains
       do k = 0, size(self%scalars)
          associate (course => self%courses(k))
             call archive%put([course%range, course%before])
-            call archive%put([course%turns, course%falls, course%direction])
+            call archive%put([course%turns, course%falls, course%jumps, course%direction])
          end associate
       end do
    end subroutine save_rows
@@ -170,6 +172,7 @@ contains
             call archive%get(course%before)
             call archive%get(course%turns)
             call archive%get(course%falls)
+            call archive%get(course%jumps)
             call archive%get(course%direction)
          end associate
       end do

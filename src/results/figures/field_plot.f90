@@ -34,17 +34,49 @@ contains
       logical, intent(out) :: is_written                 !! whether there was something to draw
       type(error_t), allocatable, intent(out) :: error   !! a file cannot be written
 
+      type(film_field_t) :: drawn
       integer :: k
 
       is_written = .false.
       do k = 1, size(fields)
          if (fields(k)%request%name /= name) cycle
-         call write_file(folder//"/"//name//".dat", table_text(heading, fields(k)), error)
-         if (.not. allocated(error)) call write_file(folder//"/"//name//".gp", script_of(fields(k), name, title), error)
+         drawn = turned(fields(k))
+         call write_file(folder//"/"//name//".dat", table_text(heading, drawn), error)
+         if (.not. allocated(error)) call write_file(folder//"/"//name//".gp", script_of(drawn, name, title), error)
          is_written = .not. allocated(error)
          return
       end do
    end subroutine write_field_plot
+
+   !> The film as it is drawn: from 0 to 360 degrees, unless there is pressure at 0 degrees; then from the middle of the widest part
+   !> without pressure, or from where it is least, so that the film is in one part. Angles are from -180 to 540 degrees.
+   function turned(field) result(drawn)
+      type(film_field_t), intent(in) :: field  !! the film, at angles from 0 to 360 degrees
+      type(film_field_t) :: drawn              !! the same
+
+      integer, allocatable :: order(:)
+      real(wp) :: p(size(field%theta) - 1)
+      integer :: k, length, n, start, widest
+
+      drawn = field
+      n = size(p)
+      p = maxval(abs(field%pressure(:, :n)), dim=1)
+      if (.not. p(1) > nothing*maxval(p)) return
+      start = minloc(p, dim=1)
+      widest = 0
+      length = 0
+      do k = 1, n
+         length = merge(0, length + 1, p(k) > nothing*maxval(p))
+         if (length <= widest) cycle
+         widest = length
+         start = k - (length - 1)/2
+      end do
+      order = [(modulo(start + k - 2, n) + 1, k=1, n + 1)]
+      drawn%theta = field%theta(order) + [(merge(2.0_wp*pi, 0.0_wp, start + k - 1 > n), k=1, n + 1)]
+      if (field%theta(start) > pi) drawn%theta = drawn%theta - 2.0_wp*pi
+      drawn%pressure = field%pressure(:, order)
+      drawn%gap = field%gap(:, order)
+   end function turned
 
    !> The table: a block for each angle, a row for each place; after two empty lines a row for each angle, at mid-length.
    function table_text(heading, field) result(text)
@@ -104,13 +136,15 @@ contains
       call preamble(lines, name, 1200, 900)
       call lines%line("unset key")
       call lines%line("set multiplot layout 2,1 title "//quoted(title)//" font ',17'")
-      call lines%line("set xrange [0:360]; set xtics 45; set lmargin at screen 0.1; set rmargin at screen 0.84")
+      call lines%line("set xrange ["//real_text(field%theta(1)/degree, 6)//":"// &
+                      real_text(field%theta(size(field%theta))/degree, 6)//"]; set xtics "//angle_tics(field%theta/degree))
+      call lines%line("set lmargin at screen 0.1; set rmargin at screen 0.84")
       call label(lines, field%request%joint//", film "//field%film//", t = "//real_text(field%t, 6)//" s")
       call map_lines(lines, name, field, p, y)
       call label(lines, "maximum pressure "//shown(field%pressure(peak(1), peak(2)), p)//" at "// &
-                 real_text(field%theta(peak(2))/degree, 4)//"°, minimum film thickness "// &
+                 real_text(modulo(field%theta(peak(2)), 2.0_wp*pi)/degree, 4)//"°, minimum film thickness "// &
                  shown(field%gap(thin(1), thin(2)), choose_unit("m", field%gap(thin(1), thin(2))))//" at "// &
-                 real_text(field%theta(thin(2))/degree, 4)//"°")
+                 real_text(modulo(field%theta(thin(2)), 2.0_wp*pi)/degree, 4)//"°")
       call lines%line("set yrange [*:*]; set y2range [0:*]; set ytics auto nomirror; set y2tics; unset view")
       call lines%line("set xlabel 'angle in the frame of the bearing [°]'")
       call lines%line("set ylabel "//quoted("pressure at mid-length ["//p%symbol//"]")//" textcolor rgb '"//colours(1)//"'")
@@ -125,6 +159,22 @@ contains
       call lines%line("unset output")
       script = lines%get()
    end function script_of
+
+   !> Ticks every 45 degrees, from 0 to 360; further turns have the same numbers.
+   function angle_tics(theta) result(words)
+      real(wp), intent(in) :: theta(:)        !! (n) angles of the picture, a turn of them [deg]
+      character(:), allocatable :: words      !! for `set xtics`
+
+      integer :: angle
+
+      words = "45"
+      if (theta(1) >= 0.0_wp .and. theta(1) <= 0.0_wp) return
+      words = ""
+      do angle = 45*ceiling(theta(1)/45.0_wp), floor(theta(size(theta))), 45
+         words = words//", '"//to_text(modulo(angle, 360))//"' "//to_text(angle)
+      end do
+      words = "("//words(3:)//")"
+   end function angle_tics
 
    !> The map of the pressure.
    subroutine map_lines(lines, name, field, p, y)

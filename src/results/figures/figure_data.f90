@@ -1,6 +1,7 @@
 !> The curves of figures: file and columns for gnuplot, and how far they reach.
 module figure_data
    use catalogue, only: catalogue_t
+   use catalogue_groups, only: goes_round
    use channel_names, only: item_name, scalar_name, scalar_t
    use drawn_rows, only: drawn_rows_t
    use extremes, only: extremes_t
@@ -26,6 +27,7 @@ module figure_data
       character(:), allocatable :: y_label !! over that of the ordinate
       real(wp) :: x_range(2) = 0.0_wp      !! (2) minimum and maximum abscissa, SI [any]
       real(wp) :: y_range(2) = 0.0_wp      !! (2) minimum and maximum ordinate, SI [any]
+      logical :: wraps(2) = .false.        !! (2) abscissa, ordinate: an angle that jumps from pi to -pi, or back
       integer :: turns = 0                 !! of the ordinate from rising to falling, or back
       integer :: falls = 0                 !! of the abscissa from one row to the next
    end type curve_t
@@ -96,6 +98,8 @@ contains
       y = rows%columns(y)%series
       curve%x_range = beyond_noise(rows%courses(x)%range, noise_of(over))
       curve%y_range = beyond_noise(rows%courses(y)%range, noise_of(scalar))
+      if (present(over)) curve%wraps(1) = rows%courses(x)%jumps > 0 .and. goes_round(catalogue%groups(over%group))
+      curve%wraps(2) = rows%courses(y)%jumps > 0 .and. goes_round(catalogue%groups(scalar%group))
       curve%falls = rows%courses(x)%falls
       curve%turns = rows%courses(y)%turns
       curve%is_there = curve%x_range(1) <= curve%x_range(2) .and. curve%y_range(1) <= curve%y_range(2)

@@ -22,7 +22,7 @@ module figure_words
    public :: append_figure, call_words, figure_t, orbit_ending, read_figure
    public :: figure_bifurcation, figure_histogram, figure_history, figure_orbit, figure_portrait, figure_section
    public :: draws_mechanism, figure_animation, figure_coupler, figure_mechanism, figure_strip
-   public :: figure_film, figure_spectrum, figure_statistics, is_of_run
+   public :: figure_contour, figure_film, figure_spectrum, figure_statistics, is_of_run
 
    integer, parameter :: figure_history = 1   !! channels over time
    integer, parameter :: figure_orbit = 2     !! eccentricity, y over x
@@ -32,17 +32,19 @@ module figure_words
    integer, parameter :: figure_histogram = 6    !! number of impacts over speed or force
    integer, parameter :: figure_bifurcation = 7  !! of a sweep: a channel once per period over the parameter
    integer, parameter :: figure_statistics = 8   !! of a sweep: numbers with their spread over the parameter
-   integer, parameter :: figure_film = 9         !! pressure of a film around a bearing, unwrapped
-   integer, parameter :: figure_mechanism = 10   !! the mechanism at some instants
-   integer, parameter :: figure_strip = 11       !! the mechanism at several positions over a turn, one over the other
-   integer, parameter :: figure_coupler = 12     !! the path of a point
-   integer, parameter :: figure_animation = 13   !! the moving mechanism
+   integer, parameter :: figure_contour = 9      !! of a sweep: a number over two parameters
+   integer, parameter :: figure_film = 10        !! pressure of a film around a bearing, unwrapped
+   integer, parameter :: figure_mechanism = 11   !! the mechanism at some instants
+   integer, parameter :: figure_strip = 12       !! the mechanism at several positions over a turn, one over the other
+   integer, parameter :: figure_coupler = 13     !! the path of a point
+   integer, parameter :: figure_animation = 14   !! the moving mechanism
    integer, parameter :: longest_name = 100   !! characters of the name of a file without its ending
    !> How the figures with arguments start, by their kind.
    character(*), parameter :: call_words(figure_portrait:figure_animation) = [character(12) :: "portrait(", "section(", &
-      "spectrum(", "histogram(", "bifurcation(", "statistics(", "film(", "mechanism(", "strip(", "coupler(", "animation("]
-   integer, parameter :: fewest(figure_portrait:figure_animation) = [2, 2, 1, 1, 1, 1, 1, 0, 0, 1, 0]  !! arguments of each
-   integer, parameter :: most(figure_portrait:figure_animation) = [2, 2, 1, 1, 1, 4, 2, spread(huge(1), 1, 4)]  !! the same
+      "spectrum(", "histogram(", "bifurcation(", "statistics(", "contour(", "film(", "mechanism(", "strip(", "coupler(", &
+      "animation("]
+   integer, parameter :: fewest(figure_portrait:figure_animation) = [2, 2, 1, 1, 1, 1, 1, 1, 0, 0, 1, 0]  !! arguments of each
+   integer, parameter :: most(figure_portrait:figure_animation) = [2, 2, 1, 1, 1, 4, 1, 2, spread(huge(1), 1, 4)]  !! the same
    character(*), parameter :: orbit_ending = ".orbit"      !! how an orbit ends
 
    !> One figure.
@@ -127,6 +129,7 @@ contains
          hint = "write "//trim(call_words(figure%kind))//trim(merge("x_channel,y_channel", "channel            ", &
                                                                     fewest(figure%kind) == 2))//")"
          if (figure%kind == figure_statistics) hint = "write statistics(NUMBER,NUMBER) with one to four numbers"
+         if (figure%kind == figure_contour) hint = "write contour(NUMBER) with one number"
          if (figure%kind == figure_film) hint = film_hint
          if (draws_mechanism(figure)) hint = motion_hint
          call set_mistake(mistake, "cannot read '"//word//"'", hint, "")
@@ -206,7 +209,7 @@ contains
    pure logical function is_of_run(figure)
       type(figure_t), intent(in) :: figure  !! the figure
 
-      is_of_run = figure%kind /= figure_bifurcation .and. figure%kind /= figure_statistics
+      is_of_run = all(figure%kind /= [figure_bifurcation, figure_statistics, figure_contour])
    end function is_of_run
 
    !> Whether a figure draws the mechanism.

@@ -2,7 +2,8 @@
 !>
 !> `mechanism` at the end, `mechanism(t=1ms,2ms)` at instants; `strip(n=8)`: n positions over a turn of the first driver, or over
 !> `last=2turnsofmotor` or a time; `coupler(POINT)`: the path of a point of the deck, over all that is written or over `last=...`;
-!> `animation(last=1turnsofmotor)`, with n pictures. `film(JOINT)`, `film(JOINT,end)`, `film(JOINT,least)`, `film(JOINT,0.3s)`.
+!> `animation(last=1turnsofmotor)`, with n pictures. All take `names=on` or `names=off`. `film(JOINT)`,
+!> `film(JOINT,end)`, `film(JOINT,least)`, `film(JOINT,0.3s)`.
 module motion_words
    use figure_phrase, only: mistake_t, set_mistake
    use film_fields, only: field_request_t, moment_at, moment_end, moment_min
@@ -13,11 +14,15 @@ module motion_words
    use units, only: parse_unit, read_quantity, unit_t
    implicit none (type, external)
    private
-   public :: film_hint, motion_hint, motion_request_t, read_moment, read_motion
+   public :: film_hint, motion_hint, motion_request_t, names_if_few, names_on, read_moment, read_motion
 
    integer, parameter :: most_pictures = 200  !! of one figure
+   integer, parameter :: names_if_few = 0     !! names are shown unless there are many
+   integer, parameter :: names_on = 1         !! names are shown
+   integer, parameter :: names_off = 2        !! they are not
    character(*), parameter :: motion_hint = "write mechanism(t=1ms,2ms), strip(n=8), coupler(POINT) or "// &
-                              "animation(last = 1 turns of DRIVER); strip, coupler and animation take n=... and last=..."
+                              "animation(last = 1 turns of DRIVER); strip, coupler and animation take n=... and last=..., "// &
+                              "all take names=on or names=off"
    character(*), parameter :: film_hint = "write film(JOINT) for the end of the run, film(JOINT,least) or "// &
                               "film(JOINT,0.3s)"  !! what would be right
 
@@ -25,6 +30,7 @@ module motion_words
    type :: motion_request_t
       real(wp), allocatable :: times(:)        !! (any) instants that are named [s]
       integer :: n = 0                         !! pictures; 0: as many as is usual
+      integer :: names = names_if_few          !! whether it has the names of bodies, joints and points, as below
       real(wp) :: last = 0.0_wp                !! length of the window; 0: as is usual [s, or turns of the driver]
       character(:), allocatable :: driver      !! whose turns these are; blank: `last` is a time
       character(:), allocatable :: point       !! whose path is drawn; blank: none
@@ -51,6 +57,8 @@ contains
          associate (word => arguments(k)%s)
             if (starts_with(word, "n=")) then
                call read_count(segment(word, 3), request, message)
+            else if (word == "names=on" .or. word == "names=off") then
+               request%names = merge(names_on, names_off, word == "names=on")
             else if (starts_with(word, "last=")) then
                call read_window(segment(word, 6), request, message)
             else

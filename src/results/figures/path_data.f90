@@ -8,7 +8,8 @@ module path_data
    use drawn_rows, only: drawn_rows_t
    use figure_data, only: curve_t
    use, intrinsic :: ieee_arithmetic, only: ieee_is_finite
-   use kinds, only: wp
+   use kinds, only: pi, wp
+   use path_corners, only: corners_t
    use row_reader, only: row_reader_t
    use text_buffer, only: buffer_t
    use text_file, only: text_file_t
@@ -28,6 +29,7 @@ module path_data
    !> A path for a picture.
    type :: path_t
       logical :: is_used = .false.            !! it is drawn in place of the run's own table
+      logical :: is_of_chords = .false.       !! it has a corner at most rows
       character(:), allocatable :: file       !! table of two columns, beside the script
       character(2) :: alpha = ""              !! transparency, as colours of gnuplot have it
       character(:), allocatable :: style      !! how it is drawn
@@ -35,7 +37,7 @@ module path_data
 
 contains
 
-   !> Make the table of a path with too many points for the run's own.
+   !> Whether a path has a corner at most rows; and the table of a path with too many points for the run's own.
    subroutine make_path(folder, name, heading, rows, curve, path, error)
       character(*), intent(in) :: folder                 !! of the figures
       character(*), intent(in) :: name                   !! of the figure
@@ -52,7 +54,8 @@ contains
       integer :: n, r
       logical :: has_last
 
-      if (rows%n <= most_rows) return
+      call find_corners(folder, rows, curve, path%is_of_chords, error)
+      if (allocated(error) .or. rows%n <= most_rows) return
       call reader%open(folder, curve, error)
       if (allocated(error)) return
       path%file = name//".path.dat"
@@ -60,8 +63,7 @@ contains
       call lines%line("# "//curve%x_label//" "//curve%y_label)
       call lines%add(heading)
       call lines%line("# path, points closer than half a pixel omitted, SI")
-      extent = [curve%x_range(2) - curve%x_range(1), curve%y_range(2) - curve%y_range(1)]
-      if (.not. all(ieee_is_finite(extent))) extent = 0.0_wp  ! infinite numbers are omitted, and no others
+      extent = extent_of(curve)
       crossings = 0.0_wp
       has_last = .false.
       n = 0
@@ -69,9 +71,13 @@ contains
          call reader%next(point, error)
          if (allocated(error)) return
          if (.not. all(ieee_is_finite(point))) then
-            if (has_last) call lines%line("")  ! a gap
+            if (has_last) call lines%line("")
             has_last = .false.
             cycle
+         end if
+         if (has_last .and. any(curve%wraps .and. abs(point - last) > pi)) then
+            call lines%line("")  ! from pi to -pi, or back
+            has_last = .false.
          end if
          if (has_last) then
             if (all(abs(point - last) <= nearest*extent)) cycle
@@ -91,6 +97,45 @@ contains
       path%is_used = n > 0 .and. .not. allocated(error)
       call choose_style(crossings, n, path)
    end subroutine make_path
+
+   !> Whether a path has a corner at most rows, by its first ones.
+   subroutine find_corners(folder, rows, curve, are_most, error)
+      character(*), intent(in) :: folder                 !! of the figures
+      type(drawn_rows_t), intent(in) :: rows             !! of the run
+      type(curve_t), intent(in) :: curve                 !! the path
+      logical, intent(out) :: are_most                   !! whether it is so
+      type(error_t), allocatable, intent(out) :: error   !! the rows cannot be read
+
+      type(corners_t) :: corners
+      type(row_reader_t) :: reader
+      real(wp) :: extent(2), point(2)
+      integer :: r
+
+      are_most = .false.
+      call reader%open(folder, curve, error)
+      if (allocated(error)) return
+      extent = extent_of(curve)
+      do r = 1, min(rows%n, most_rows)
+         call reader%next(point, error)
+         if (allocated(error)) return
+         if (.not. all(ieee_is_finite(point))) then
+            corners%n_place = 0
+         else
+            call corners%add(merge(point, 0.0_wp, extent > 0.0_wp)/merge(extent, 1.0_wp, extent > 0.0_wp))
+         end if
+      end do
+      call reader%close()
+      are_most = corners%are_most()
+   end subroutine find_corners
+
+   !> How far a path reaches along both axes.
+   pure function extent_of(curve) result(extent)
+      type(curve_t), intent(in) :: curve   !! the path
+      real(wp) :: extent(2)                !! (2) SI [any]
+
+      extent = [curve%x_range(2) - curve%x_range(1), curve%y_range(2) - curve%y_range(1)]
+      if (.not. all(ieee_is_finite(extent))) extent = 0.0_wp  ! infinite numbers are omitted, and no others
+   end function extent_of
 
    !> Line or points, and how transparent.
    subroutine choose_style(crossings, n, path)

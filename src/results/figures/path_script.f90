@@ -11,10 +11,11 @@ module path_script
    use groups_of_catalogue, only: group_clearances
    use plot_text, only: quoted
    use kinds, only: wp
+   use path_corners, only: chord_words
    use path_data, only: path_t
    use round_values, only: round_value, round_value_t
-   use script_parts, only: axes_t, axis_range, colours, edge, edges, hangs_from_zero, ideal_style, largest, largest_y, &
-      path_source, preamble, source, stands_on_zero, with_unit
+   use script_parts, only: axes_t, axis_range, colours, edge, edges, hangs_from_zero, ideal_colour, ideal_line, largest, &
+      largest_y, line_source, path_source, preamble, stands_on_zero, with_unit
    use text, only: real_text
    use text_buffer, only: buffer_t
    implicit none (type, external)
@@ -78,19 +79,19 @@ contains
       call lines%line("set offsets "//edge(stands_on_zero(x), "0.03")//", "//edge(hangs_from_zero(x), "0.03")//", "// &
                       edges(y, "0.05"))
       call lines%line("set title "//quoted(title)//" font ',17'")
+      call chord_lines(lines, thinned)
       width = trim(merge("0.8", "2  ", is_thin))
       own = trim(merge("title 'with clearance'", "notitle               ", size(ideal) > 0))
       if (thinned%is_used) then
          call lines%add("plot "//path_source(curves(1), axes, thinned, own))
       else
-         call lines%add("plot "//source(curves(1), axes)//" with lines linewidth "//width// &
-                        " linecolor rgb '"//colours(1)//"' "//own)
+         call lines%add("plot "//line_source(curves(1), axes, "", "linewidth "//width, colours(1), own))
       end if
       if (size(ideal) == 0) then
          call lines%line("")
       else
          call lines%line(", \")
-         call lines%line("     "//source(ideal(1), axes)//ideal_style//"title 'ideal joints'")
+         call lines%line("     "//line_source(ideal(1), axes, "", ideal_line, ideal_colour, "title 'ideal joints'"))
       end if
       call lines%line("unset output")
 
@@ -142,6 +143,8 @@ contains
       call lines%line("set title "//quoted(title, most_of_title)//" font ',17'")
       call lines%line("set xlabel "//quoted(axis_of(curves(h))//" ["//axes%x%symbol//"]"))
       call lines%line("set ylabel "//quoted(axis_of(curves(v))//" ["//axes%y%symbol//"]"))
+      call chord_lines(lines, thinned)
+      if (size(curves) > 2) call plane_lines(lines, curves, h, v, axes)
       if (extreme > slot_ratio*radius .and. radius > 0.0_wp) then
          call lines%line("set offsets graph 0.03, graph 0.03, graph 0.1, graph 0.1")
          call lines%line("plot "//path_source(path_of(curves), axes, thinned, "title "//quoted(joint))//", \")
@@ -164,6 +167,32 @@ contains
       end if
       call lines%line("unset output")
    end subroutine orbit_lines
+
+   !> Say that a path is of chords.
+   subroutine chord_lines(lines, path)
+      type(buffer_t), intent(inout) :: lines   !! the script
+      type(path_t), intent(in) :: path         !! the path
+
+      if (path%is_of_chords) call lines%line("set label "//quoted(chord_words)//" at graph 0.02, graph 0.965 front font ',13'")
+   end subroutine chord_lines
+
+   !> Say in which plane an orbit in space is drawn, and how far it leaves that plane.
+   subroutine plane_lines(lines, curves, h, v, axes)
+      type(buffer_t), intent(inout) :: lines      !! the script
+      type(curve_t), intent(in) :: curves(:)      !! (3) components of the eccentricity
+      integer, intent(in) :: h                    !! the one drawn along x
+      integer, intent(in) :: v                    !! the one drawn along y
+      type(axes_t), intent(in) :: axes            !! scales of the figure
+
+      integer :: other
+
+      other = 6 - h - v
+      call lines%line("set label "//quoted("projection on the plane "//letter_of(curves(h))//", "//letter_of(curves(v))// &
+                                           " of the world frame; "//letter_of(curves(other))//" from "// &
+                                           real_text(axes%x%factor*curves(other)%y_range(1), 3)//" to "// &
+                                           real_text(axes%x%factor*curves(other)%y_range(2), 3)//" "//axes%x%symbol)// &
+                      " at graph 0.02, graph 0.03 front font ',13'")
+   end subroutine plane_lines
 
    !> The path of an orbit as a curve: file and columns.
    function path_of(curves) result(path)
@@ -200,7 +229,15 @@ contains
       type(curve_t), intent(in) :: curve     !! a component of the eccentricity
       character(:), allocatable :: label     !! as `eccentricity x`
 
-      label = "eccentricity "//curve%name(len(curve%name):)
+      label = "eccentricity "//letter_of(curve)
    end function axis_of
+
+   !> The axis of a component.
+   pure function letter_of(curve) result(letter)
+      type(curve_t), intent(in) :: curve     !! a component of the eccentricity
+      character :: letter                    !! as `x`
+
+      letter = curve%name(len(curve%name):)
+   end function letter_of
 
 end module path_script

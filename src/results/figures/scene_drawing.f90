@@ -6,8 +6,8 @@
 !> row; its points are drawn only where they lie beyond the block. Joints and forces are marks (`drawn_marks`).
 module scene_drawing
    use body_outline, only: distinct_points, outline, same_place
-   use drawing, only: add_part, drawing_t, part_t, round_part
-   use drawn_axes, only: axis_of, find_frame, find_ways, turning_axis
+   use drawing, only: add_part, add_teeth, drawing_t, part_t, round_part
+   use drawn_axes, only: axis_of, find_frame, find_shafts, find_ways, turning_axis
    use drawn_marks, only: add_marks
    use item, only: find_place
    use kind_info, only: free_other
@@ -43,8 +43,8 @@ contains
       has_part = .false.
       call add_shapes(scene, drawing, has_part)
       has_shape = has_part
-      call add_rounds(scene, scene%joints, .false., drawing, has_part)
-      call add_rounds(scene, scene%clearances, drawing%is_spatial, drawing, has_part)
+      call add_rounds(scene, scene%joints, .false., .true., drawing, has_part)
+      call add_rounds(scene, scene%clearances, drawing%is_spatial, .false., drawing, has_part)
       call add_blocks(scene, has_shape, drawing, has_part)
       call add_outlines(scene, drawing, has_part)
       call add_marks(scene, scene%joints, .false., has_shape, drawing)
@@ -81,15 +81,17 @@ contains
    end subroutine add_shapes
 
    !> Circles of discs and gears, and balls, of bodies without shapes.
-   subroutine add_rounds(scene, tables, are_balls, drawing, has_part)
+   subroutine add_rounds(scene, tables, are_balls, are_gears, drawing, has_part)
       type(scene_t), intent(in) :: scene            !! the scene
       type(table_t), intent(in) :: tables(:)        !! (kinds) joints, or joints with clearance
       logical, intent(in) :: are_balls              !! they are round all over
+      logical, intent(in) :: are_gears              !! they have teeth
       type(drawing_t), intent(inout) :: drawing     !! gets parts
       logical, intent(inout) :: has_part(0:)        !! (0:bodies) whether a body has one
 
       character(*), parameter :: columns(3) = [character(8) :: "radius_i", "radius_j", "radius"]
       integer, parameter :: ends(3) = [1, 2, 2]
+      real(wp), parameter :: pitch = 0.03_wp   ! of teeth, of the size of the scene [1]
       logical :: had_part(0:scene%bodies%n)
       type(part_t) :: part
       real(wp) :: axes(3, 3)
@@ -111,6 +113,7 @@ contains
                   else
                      axes = axes_across(turning_axis(scene, tables(k)%items(i), tie, ends(c)))
                      call round_part(part, body, drawing%s(:, point), axes(:, :2), radius)
+                     if (are_gears) call add_teeth(part, drawing%s(:, point), axes(:, :2), radius, pitch*drawing%size)
                   end if
                   call add_part(drawing, part)
                   if (norm2(drawing%s(:, point)) < same_place*drawing%size) has_part(body) = .true.
@@ -176,11 +179,12 @@ contains
       logical, intent(in) :: has_part(0:)           !! (0:bodies) whether a body has one
 
       type(part_t) :: part
-      real(wp) :: frames(3, 3, scene%bodies%n)
+      real(wp) :: frames(3, 3, scene%bodies%n), shafts(3, scene%bodies%n)
       integer, allocatable :: first(:), next(:)
       integer :: body, k
 
       call find_ways(scene, frames)
+      call find_shafts(scene, shafts)
       allocate (first(0:scene%bodies%n), next(scene%points%n), source=0)
       do k = scene%points%n, 1, -1  ! lists of the points of each body, in the order of the deck
          next(k) = first(scene%points%body(k))
@@ -188,7 +192,8 @@ contains
       end do
       do body = 1, scene%bodies%n
          if (has_part(body)) cycle
-         call outline(drawing, body, distinct_points(drawing, first(body), next), frames(:, :, body), part)
+         call outline(drawing, body, distinct_points(drawing, first(body), next), frames(:, :, body), shafts(:, body), &
+                      part)
          call add_part(drawing, part)
       end do
    end subroutine add_outlines

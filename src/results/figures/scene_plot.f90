@@ -9,12 +9,17 @@ module scene_plot
    use errors, only: error_t
    use figure_words, only: figure_animation, figure_coupler, figure_mechanism, figure_strip, figure_t
    use frames, only: frame_t
+   use groups_of_catalogue, only: group_bodies
    use kinds, only: wp
+   use motion_words, only: names_if_few, names_on
+   use path_corners, only: chord_words, corners_t
    use plot_text, only: quoted
    use scene_legends, only: short_legend, time_text
+   use scene_names, only: add_names, count_names, start_names
+   use scene_sheet, only: frame_lines, height_of, letter_size, scene_sheet_t, width_moving, width_still
    use scene_strokes, only: canvas_t, draw_scene, n_style, style_arrow, style_body, style_ground, &
-      style_hole, style_journal, style_line, style_path, style_pin, style_symbol, symbols_t
-   use scene_views, only: extents_t, lay_out_views, projected, view_t
+      style_hole, style_journal, style_line, style_name, style_path, style_pin, style_symbol
+   use scene_views, only: lay_out_views, projected, view_t
    use script_parts, only: preamble
    use symbol_scales, only: arrow_tips, largest_force, new_symbols
    use text, only: real_text, to_text
@@ -25,22 +30,10 @@ module scene_plot
    private
    public :: write_scene_plot
 
-   integer, parameter :: width_still = 1200    !! of a picture, in units of layout
-   integer, parameter :: width_moving = 640    !! of an animation, in pixels
+   integer, parameter :: line_still = 3        !! width of lines of bodies in a picture
+   integer, parameter :: line_moving = 2       !! the same in an animation
+   integer, parameter :: most_names = 24       !! of a picture that has names unless it is told to
    integer, parameter :: seconds_moving = 6    !! that an animation takes, about
-   real(wp), parameter :: corner = 0.2_wp       !! turn of a path at a row that can be seen [rad]
-
-   !> Everything about one figure that its parts need.
-   type :: scene_figure_t
-      type(display_unit_t) :: unit              !! of lengths
-      type(symbols_t) :: symbols                !! scales
-      type(extents_t) :: extents                !! of the whole picture [m]
-      type(view_t), allocatable :: views(:)     !! views of a cell
-      real(wp) :: cell(2) = 0.0_wp              !! (2) size of a cell, where several instants stand side by side [m]
-      integer :: columns = 1                    !! cells beside each other
-      integer :: cells = 1                      !! all of them
-      logical :: has_axes = .false.             !! coordinates of the world stand at its edges
-   end type scene_figure_t
 
 contains
 
@@ -56,7 +49,7 @@ contains
       type(error_t), allocatable, intent(out) :: error    !! a file cannot be written
 
       type(buffer_t) :: data, script
-      type(scene_figure_t) :: plot
+      type(scene_sheet_t) :: plot
       type(track_t) :: path
       logical :: has_style(n_style)
 
@@ -80,11 +73,12 @@ contains
       type(drawing_t), intent(in) :: drawing        !! the scene
       type(frame_t), intent(in) :: list(:)          !! (1 or more) frames
       type(track_t), intent(in) :: path             !! path of a point, or none
-      type(scene_figure_t), intent(out) :: plot     !! the plan
+      type(scene_sheet_t), intent(out) :: plot     !! the plan
 
       real(wp), parameter :: narrowest = 0.7_wp  ! width of a picture over its height [1]
       real(wp) :: lacking
       integer :: first, rows
+      logical :: with_names
 
       if (figure%kind == figure_mechanism) plot%cells = size(list)
       call new_symbols(catalogue, drawing, list, plot%symbols)
@@ -99,6 +93,7 @@ contains
          plot%extents%maximum(1) = plot%extents%maximum(1) + 0.5_wp*lacking
       end if
       plot%unit = choose_unit("m", maxval(plot%extents%maximum - plot%extents%minimum))
+      plot%is_planar = .not. drawing%is_spatial
       plot%has_axes = plot%cells == 1 .and. size(plot%views) == 1 .and. .not. drawing%is_spatial
       plot%symbols%scale = plot%unit%factor
       plot%cell = plot%extents%maximum - plot%extents%minimum
@@ -107,6 +102,13 @@ contains
       rows = (plot%cells + plot%columns - 1)/plot%columns
       plot%extents%maximum(1) = plot%extents%minimum(1) + plot%columns*plot%cell(1)
       plot%extents%minimum(2) = plot%extents%maximum(2) - rows*plot%cell(2)
+      allocate (plot%names%list(0))
+      with_names = figure%motion%names == names_on
+      associate (bodies => catalogue%item_groups(group_bodies)%names)
+         if (figure%motion%names == names_if_few) with_names = count_names(drawing, bodies) <= most_names
+         if (with_names) call start_names(drawing, bodies, plot%symbols%size, &
+                                          letter_size(plot, figure%kind == figure_animation), plot%names)
+      end associate
    end subroutine plan_plot
 
    !> All strokes.
@@ -115,7 +117,7 @@ contains
       type(drawing_t), intent(in) :: drawing        !! the scene
       type(frame_t), intent(in) :: list(:)          !! (1 or more) frames
       type(track_t), intent(in) :: path             !! path of a point, or none
-      type(scene_figure_t), intent(in) :: plot      !! the plan
+      type(scene_sheet_t), intent(inout) :: plot   !! the plan; where names stand is kept
       type(buffer_t), intent(inout) :: data         !! the file
       logical, intent(out) :: has_style(n_style)    !! which styles occur
 
@@ -138,6 +140,10 @@ contains
             call draw_scene(drawing, list(f), view, plot%symbols, paleness, figure%kind /= figure_strip .or. f == size(list), &
                             canvas)
          end do
+         if (size(plot%names%list) > 0 .and. f == merge(size(list), f, figure%kind == figure_strip) .and. &
+             (f == 1 .or. figure%kind /= figure_mechanism)) then  ! of several instants at the first
+            call add_names(plot%names, list(f), plot%views(1), plot%symbols, plot%extents, canvas)
+         end if
          if (f < size(list) .and. figure%kind /= figure_animation) cycle
          do k = 1, n_style
             has_style(k) = has_style(k) .or. canvas%styles(k)%length() > 0
@@ -155,23 +161,17 @@ contains
       end do
    end subroutine write_data
 
-   !> Whether rows are too far apart for a path: the lines from row to row turn by more than `corner` at most of them.
+   !> Whether a path has a corner at most rows.
    pure logical function has_chords(path)
       type(track_t), intent(in) :: path   !! the path, perhaps none
 
-      real(wp) :: before(3), after(3)
-      integer :: k, n, n_corner
+      type(corners_t) :: corners
+      integer :: k
 
-      n = 0
-      n_corner = 0
-      do k = 2, path%n - 1
-         before = path%x(:, k) - path%x(:, k - 1)
-         after = path%x(:, k + 1) - path%x(:, k)
-         if (.not. min(norm2(before), norm2(after)) > 0.0_wp) cycle
-         n = n + 1
-         if (dot_product(before, after) < cos(corner)*norm2(before)*norm2(after)) n_corner = n_corner + 1
+      do k = 1, path%n
+         call corners%add(path%x(:, k))
       end do
-      has_chords = 2*n_corner > n
+      has_chords = corners%are_most()
    end function has_chords
 
    !> The path of a point.
@@ -192,51 +192,6 @@ contains
       call canvas%styles(style_path)%line("")
    end subroutine draw_path
 
-   !> Frame of the picture, in its unit.
-   subroutine frame_lines(script, plot)
-      type(buffer_t), intent(inout) :: script      !! the script
-      type(scene_figure_t), intent(in) :: plot     !! the plan
-
-      real(wp) :: at(2), bar
-      integer :: v
-
-      call script%line("set size ratio -1")
-      call script%line("set key noautotitle")
-      call script%line("set style textbox opaque margins 0.4,0.4 noborder")
-      associate (e => plot%extents, factor => plot%unit%factor)
-         call script%line("set xrange ["//real_text(factor*e%minimum(1), 6)//":"//real_text(factor*e%maximum(1), 6)//"]")
-         call script%line("set yrange ["//real_text(factor*e%minimum(2), 6)//":"//real_text(factor*e%maximum(2), 6)//"]")
-         if (plot%has_axes) then
-            call script%line("set xlabel "//quoted("x ["//plot%unit%symbol//"]"))
-            call script%line("set ylabel "//quoted("y ["//plot%unit%symbol//"]"))
-            return
-         end if
-         call script%line("unset grid; unset border; unset xtics; unset ytics")
-         bar = round_below(0.3_wp*factor*plot%cell(1)/sqrt(real(size(plot%views), wp)))
-         call script%line("set arrow from graph 0.02, graph 0.02 rto first "//real_text(bar, 3)// &
-                          ", 0 heads size graph 0.004,90 linewidth 2")
-         call script%line("set label "//quoted(real_text(bar, 3)//" "//plot%unit%symbol)//" at graph 0.02, graph 0.045")
-         if (plot%cells > 1) return
-         do v = 1, size(plot%views)
-            at = factor*plot%views(v)%label_at
-            call script%line("set label "//quoted(trim(plot%views(v)%label))//" at "//real_text(at(1), 6)//", "// &
-                             real_text(at(2), 6)//" center front textcolor rgb '#808080'")
-         end do
-      end associate
-   end subroutine frame_lines
-
-   !> The maximum of 1, 2, 5 times a power of ten that is not above a length.
-   pure real(wp) function round_below(length) result(round)
-      real(wp), intent(in) :: length  !! the length, positive [any]
-
-      round = 10.0_wp**floor(log10(length))
-      if (5.0_wp*round <= length) then
-         round = 5.0_wp*round
-      else if (2.0_wp*round <= length) then
-         round = 2.0_wp*round
-      end if
-   end function round_below
-
    !> The plot command.
    subroutine plot_lines(script, name, first, width, has_style)
       type(buffer_t), intent(inout) :: script       !! the script
@@ -256,12 +211,14 @@ contains
       how(style_symbol) = "lines linewidth 1.6 linecolor rgb '#404040'"
       how(style_hole) = "filledcurves closed fillcolor rgb '#fff4d6'"
       how(style_journal) = "filledcurves closed fillcolor rgb '#9fb4c7'"
+      how(style_name) = "labels center font ',"//to_text(merge(12, 9, width == line_still))//"' textcolor rgb variable"
       how(style_arrow) = "lines linewidth 2.5 linecolor rgb variable"
       last = findloc(has_style, .true., dim=1, back=.true.)
       call script%line("plot \")
       do k = 1, n_style
          if (.not. has_style(k)) cycle
          call script%add("  '"//name//".dat' index "//first//"+"//to_text(k - 1)//" using 1:2")
+         if (k == style_name) call script%add(":4")
          if (index(how(k), "variable") > 0) call script%add(":3")
          call script%add(" with "//trim(how(k)))
          if (index(how(k), "filled") > 0) call script%add(" fillstyle solid border linecolor rgb '#404040'")
@@ -269,23 +226,12 @@ contains
       end do
    end subroutine plot_lines
 
-   !> Height of a picture of a width.
-   pure integer function height_of(plot, width) result(height)
-      type(scene_figure_t), intent(in) :: plot    !! the plan
-      integer, intent(in) :: width                !! in pixels
-
-      associate (e => plot%extents)
-         height = nint(real(width, wp)*(e%maximum(2) - e%minimum(2))/(e%maximum(1) - e%minimum(1)))
-      end associate
-      height = min(max(height + width/10, width*2/5), width*5/4)
-   end function height_of
-
    !> A picture.
    subroutine still_script(figure, title, list, plot, is_of_chords, has_style, script)
       type(figure_t), intent(in) :: figure          !! the figure
       character(*), intent(in) :: title             !! of the scene, any text
       type(frame_t), intent(in) :: list(:)          !! (1 or more) frames
-      type(scene_figure_t), intent(in) :: plot      !! the plan
+      type(scene_sheet_t), intent(in) :: plot      !! the plan
       logical, intent(in) :: is_of_chords           !! the path has a corner at most rows
       logical, intent(in) :: has_style(n_style)     !! which styles occur
       type(buffer_t), intent(inout) :: script       !! the script
@@ -299,7 +245,7 @@ contains
       call frame_lines(script, plot)
       words = short_legend(plot%symbols)
       if (figure%kind == figure_coupler) words = "path of "//figure%motion%point
-      if (is_of_chords) words = words//", straight lines between output times: use a smaller every"
+      if (is_of_chords) words = words//", "//chord_words
       if (plot%cells == 1 .and. figure%kind /= figure_coupler) then
          if (len(words) > 0) words = ",  "//words
          if (figure%kind == figure_strip) then
@@ -317,7 +263,7 @@ contains
                              ", "//real_text(plot%unit%factor*at(2), 6)//" front font ',13'")
          end do
       end if
-      call plot_lines(script, figure%name, "0", 3, has_style)
+      call plot_lines(script, figure%name, "0", line_still, has_style)
       call script%line("unset output")
    end subroutine still_script
 
@@ -326,7 +272,7 @@ contains
       type(figure_t), intent(in) :: figure          !! the figure
       character(*), intent(in) :: title             !! of the scene, any text
       type(frame_t), intent(in) :: list(:)          !! (1 or more) frames
-      type(scene_figure_t), intent(in) :: plot      !! the plan
+      type(scene_sheet_t), intent(in) :: plot      !! the plan
       logical, intent(in) :: has_style(n_style)     !! which styles occur
       type(buffer_t), intent(inout) :: script       !! the script
 
@@ -355,7 +301,7 @@ contains
       call script%line("'")
       call script%line("do for [f=0:"//to_text(size(list) - 1)//"] {")
       call script%line("set label 99 't = '.word(times, f + 1).' "//unit%symbol//"' at graph 0.985, graph 0.96 right front boxed")
-      call plot_lines(script, figure%name, "f*"//to_text(n_style), 2, has_style)
+      call plot_lines(script, figure%name, "f*"//to_text(n_style), line_moving, has_style)
       call script%line("}")
       call script%line("unset output")
    end subroutine moving_script

@@ -9,13 +9,15 @@ module scene_strokes
       mark_spring, mark_t
    use frames, only: frame_t
    use kinds, only: wp
+   use scene_colours, only: body_colour, dark, red
    use scene_views, only: projected, view_t
    use text, only: real_text, to_text
    use text_buffer, only: buffer_t
    implicit none (type, external)
    private
-   public :: arrow_at, bearing_size, body_colour, canvas_t, draw_scene, journal_part, n_style, symbols_t
-   public :: style_arrow, style_body, style_ground, style_hole, style_journal, style_line, style_path, style_pin, style_symbol
+   public :: add_disc, arrow_at, bearing_size, canvas_t, draw_scene, journal_part, n_style, pin_size, symbols_t
+   public :: style_arrow, style_body, style_ground, style_hole, style_journal, style_line, style_name, style_path, style_pin, &
+      style_symbol
 
    ! styles, in the order in which they are drawn
    integer, parameter :: style_ground = 1    !! lines of the ground
@@ -27,16 +29,16 @@ module scene_strokes
    integer, parameter :: style_hole = 7      !! filled holes of clearance joints
    integer, parameter :: style_journal = 8   !! filled journals
    integer, parameter :: style_arrow = 9     !! forces
-   integer, parameter :: n_style = 9         !! styles
+   integer, parameter :: style_name = 10     !! names, of bodies, joints and points
+   integer, parameter :: n_style = 10        !! styles
 
    real(wp), parameter :: seen_aside = 0.1_wp      !! of a plane's normal in the view, below which it is observed from above [1]
    real(wp), parameter :: pin_size = 0.014_wp      !! radius of a pin, of the size of the scene [1]
+   real(wp), parameter :: arm_size = 0.035_wp      !! half length of the arm of a cross, of that size [1]
    real(wp), parameter :: bearing_size = 0.034_wp  !! radius of a magnified bearing, of that size [1]
    real(wp), parameter :: journal_part = 0.62_wp   !! radius of its journal, of that of the bearing [1]
    real(wp), parameter :: arrow_size = 0.25_wp     !! of the maximum force, of the size of the scene [1]
    integer, parameter :: n_round = 24              !! sides of a symbol's circle
-   integer, parameter :: dark = 4210752            !! colour of symbols, #404040
-   integer, parameter :: red = 13715803            !! colour of forces, #d1495b
    real(wp), parameter :: turn = 8.0_wp*atan(1.0_wp)  !! [rad]
 
    !> What is common to all frames of a figure.
@@ -135,6 +137,10 @@ contains
       case (mark_pin)
          if (any(mark%body == 0)) call draw_support(canvas, symbols, p(:, merge(1, 2, mark%body(1) == 0)))
          call add_disc(canvas, style_pin, symbols, p(:, 2), radius)
+         if (norm2(mark%axis_j) > 0.0_wp) then  ! arms of a cross
+            call draw_arm(canvas, symbols, view, x(:, 2), matmul(frame%a(:, :, mark%body(1)), mark%axis))
+            call draw_arm(canvas, symbols, view, x(:, 2), matmul(frame%a(:, :, mark%body(2)), mark%axis_j))
+         end if
       case (mark_link)
          if (any(mark%body == 0)) call draw_support(canvas, symbols, p(:, merge(1, 2, mark%body(1) == 0)))
          call add(canvas, style_symbol, symbols, p, dark)
@@ -168,6 +174,20 @@ contains
       end select
       call draw_arrow(canvas, symbols, p(:, 2), projected(view, arrow_at(symbols, frame, number)) - view%shift)
    end subroutine draw_mark
+
+   !> An arm of a cross.
+   subroutine draw_arm(canvas, symbols, view, x, way)
+      type(canvas_t), intent(inout) :: canvas  !! gets lines
+      type(symbols_t), intent(in) :: symbols   !! scales
+      type(view_t), intent(in) :: view         !! from where it is seen
+      real(wp), intent(in) :: x(3)             !! (3) the middle of the cross, world frame [m]
+      real(wp), intent(in) :: way(3)           !! (3) direction of the arm, world frame [1]
+
+      real(wp) :: half(3)
+
+      half = arm_size*symbols%size*way/norm2(way)
+      call add(canvas, style_symbol, symbols, reshape([projected(view, x - half), projected(view, x + half)], [2, 2]), dark)
+   end subroutine draw_arm
 
    !> The arrow of the force at a mark, from the second point of the mark; zero if none is drawn.
    pure function arrow_at(symbols, frame, number) result(way)
@@ -363,22 +383,5 @@ contains
          call buffer%line("")
       end associate
    end subroutine add
-
-   !> Colour of a body, the ground's grey; paler: nearer to white.
-   pure integer function body_colour(body, paleness) result(colour)
-      integer, intent(in) :: body          !! the body, 0: ground
-      real(wp), intent(in) :: paleness     !! 0: as it is, 1: white [1]
-
-      integer, parameter :: reds(8) = [31, 46, 123, 201, 23, 140, 90, 60]
-      integer, parameter :: greens(8) = [111, 139, 79, 138, 162, 86, 110, 60]
-      integer, parameter :: blues(8) = [180, 87, 163, 0, 184, 75, 30, 120]
-      integer :: k, parts(3)
-
-      k = modulo(body - 1, 8) + 1
-      parts = [reds(k), greens(k), blues(k)]
-      if (body == 0) parts = 112
-      parts = nint(255.0_wp - (255.0_wp - real(parts, wp))*(1.0_wp - paleness))
-      colour = 65536*parts(1) + 256*parts(2) + parts(3)
-   end function body_colour
 
 end module scene_strokes

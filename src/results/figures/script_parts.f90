@@ -12,14 +12,14 @@ module script_parts
    private
    public :: angle_tics, axes_t, axis_range, edge, edges, find_long_tics, hangs_from_zero, largest, largest_y, long_tics, open_range
    public :: scaled, source, stands_on_zero
-   public :: label_words, path_source, preamble, with_unit
-   public :: colours, ideal_style, key_below
+   public :: label_words, line_source, path_source, preamble, with_unit
+   public :: colours, ideal_colour, ideal_line, key_below
 
    character(*), parameter :: colours(12) = &
       [character(7) :: "#1f6fb4", "#d1495b", "#2e8b57", "#c98a00", "#7b4fa3", "#4d4d4d", &
        "#17a2b8", "#e377c2", "#9acd32", "#8c564b", "#ff7f50", "#a0a0a0"]  !! of curves
-   character(*), &
-        parameter :: ideal_style = " with lines linewidth 1.2 dashtype (12,8) linecolor rgb '#101010' "  !! of the reference run
+   character(*), parameter :: ideal_line = "linewidth 1.2 dashtype (12,8)"  !! of the reference run
+   character(*), parameter :: ideal_colour = "#101010"                       !! the same
    character(*), parameter :: twin_colour = "1f6fb5"  !! the first of them as good as
    integer, parameter :: segment_points = 100           !! of a transparent line that are drawn at once
 
@@ -232,6 +232,45 @@ contains
       s = "'"//curve%path//"' using "//scaled(curve%x, axes%x%factor, axes%less_x)//":"//scaled(curve%y, axes%y%factor, axes%less)
    end function source
 
+   !> A curve as a line, with its title. What joins the sides of a jump of an angle from pi to -pi is transparent, so that the line
+   !> has a gap there; its legend stands for itself, since that of a line of several colours is black.
+   function line_source(curve, axes, on, width, colour, title) result(s)
+      type(curve_t), intent(in) :: curve     !! the curve
+      type(axes_t), intent(in) :: axes       !! scales of the figure
+      character(*), intent(in) :: on         !! axes of gnuplot, or blank
+      character(*), intent(in) :: width      !! width and dashes of the line
+      character(*), intent(in) :: colour     !! its colour, as `#1f6fb4`
+      character(*), intent(in) :: title      !! as `title 'angle'`, or `notitle`
+      character(:), allocatable :: s         !! as `'../slider.dat' using 1:2 with lines linewidth 2 linecolor ...`
+
+      character(:), allocatable :: style
+
+      style = " with lines "//width//" linecolor rgb "
+      s = source(curve, axes)
+      if (.not. any(curve%wraps)) then
+         s = s//on//style//"'"//colour//"' "//title
+      else
+         s = s//":("//jump(1, curve%x)//jump(2, curve%y)//"0x00"//segment(colour, 2)//")"//on//style//"variable notitle, "// &
+             "NaN"//on//style//"'"//colour//"' "//title
+      end if
+
+   contains
+
+      !> Where a column jumps, the colour of what leads there.
+      function jump(axis, column) result(words)
+         integer, intent(in) :: axis               !! 1: abscissa, 2: ordinate
+         integer, intent(in) :: column             !! its number
+         character(:), allocatable :: words        !! part of an expression
+
+         words = ""
+         if (.not. curve%wraps(axis)) return
+         associate (before => "before_"//to_text(axis), gap => "gap_"//to_text(axis), value => "$"//to_text(column))
+            words = gap//" = $0 > 0 && abs("//value//" - "//before//") > pi, "//before//" = "//value//", "//gap//" ? 0xff000000 : "
+         end associate
+      end function jump
+
+   end function line_source
+
    !> File, columns and line of a path, those of the run or what a picture can show of it.
    function path_source(curve, axes, thinned, title) result(s)
       type(curve_t), intent(in) :: curve     !! the path
@@ -243,7 +282,7 @@ contains
       character(:), allocatable :: colour, columns
 
       if (.not. thinned%is_used) then
-         s = source(curve, axes)//" with lines linewidth 1 linecolor rgb '"//colours(1)//"' "//title
+         s = line_source(curve, axes, "", "linewidth 1", colours(1), title)
          return
       end if
       columns = " using "//scaled(1, axes%x%factor, axes%less_x)//":"//scaled(2, axes%y%factor, axes%less)

@@ -6,19 +6,16 @@ module sweep_plots
    use, intrinsic :: ieee_arithmetic, only: ieee_is_nan
    use catalogue, only: catalogue_t
    use channel_names, only: scalar_name
-   use display_units, only: ask_unit, display_unit_t
    use figure_words, only: figure_bifurcation, figure_t
    use kinds, only: not_a_number, wp
-   use numbers, only: number_length
    use plot_table, only: draw_bars, draw_marks, draw_points, panel_t, plot_curve_t, plot_table_t
    use sweep_results, only: case_numbers, n_spread, spread_names, sweep_results_t
+   use sweep_axes, only: axis_of_parameter
    use swept, only: sweep_t
-   use text, only: append_text, segment, text_t, to_text
+   use text, only: append_text, text_t, to_text
    implicit none (type, external)
    private
    public :: sweep_table
-
-   real(wp), parameter :: decade = 10.0_wp  !! span of an axis from which it is logarithmic [1]
 
 contains
 
@@ -42,27 +39,6 @@ contains
       end if
    end subroutine sweep_table
 
-   !> The unit that all values have in the deck; without a symbol if there is none that is shown.
-   function unit_of_values(texts, si) result(unit)
-      type(text_t), intent(in) :: texts(:)   !! (n) values as in the deck, `300rpm`
-      character(*), intent(in) :: si         !! SI unit of their numbers
-      type(display_unit_t) :: unit           !! as rpm
-
-      type(display_unit_t) :: asked
-      character(:), allocatable :: message, name
-      integer :: k
-
-      do k = 1, size(texts)
-         associate (text => texts(k)%s, n => number_length(texts(k)%s))
-            if (k == 1) name = segment(text, n + 1)
-            if (n == 0 .or. segment(text, n + 1) /= name) return
-         end associate
-      end do
-      if (len(name) == 0) return
-      call ask_unit(name, si, asked, message)
-      if (len(message) == 0) unit = asked
-   end function unit_of_values
-
    !> The first parameter as abscissa.
    subroutine set_abscissa(sweep, table)
       type(sweep_t), intent(in) :: sweep                !! the cases
@@ -71,34 +47,16 @@ contains
       table%x_name = "case"
       table%x_unit = "1"
       if (size(sweep%parameters) > 0) then
-         associate (first => sweep%parameters(1))
+         associate (first => axis_of_parameter(sweep%parameters(1)))
             table%x_name = first%name
-            if (first%unit == "") then
-               table%categories = first%texts
-            else
-               table%x_unit = first%unit
-               table%x_shown = unit_of_values(first%texts, first%unit)
-               table%is_log_x = minval(first%numbers) > 0.0_wp .and. maxval(first%numbers) > decade*minval(first%numbers) .and. &
-                                .not. is_even(first%numbers)
-            end if
+            table%x_unit = first%unit
+            table%x_shown = first%shown
+            table%is_log_x = first%is_log
+            table%categories = first%categories
          end associate
       end if
       call append_text(table%labels, table%x_name//"["//table%x_unit//"]")
    end subroutine set_abscissa
-
-   !> Whether values stand at equal distances, as those of a range.
-   pure logical function is_even(x)
-      real(wp), intent(in) :: x(:)       !! (n) values [any]
-
-      real(wp), parameter :: same = 1.0e-6_wp   ! of the whole way [1]
-      integer :: k
-
-      is_even = size(x) > 3
-      do k = 2, size(x) - 1
-         is_even = is_even .and. abs(x(k) - x(1) - (x(size(x)) - x(1))*real(k - 1, wp)/real(size(x) - 1, wp)) <= &
-                   same*abs(x(size(x)) - x(1))
-      end do
-   end function is_even
 
    !> The abscissa of a case.
    pure real(wp) function abscissa(sweep, case_number) result(x)

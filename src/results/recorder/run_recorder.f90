@@ -298,7 +298,7 @@ contains
       call self%keeper%finish()
       associate (outcome => self%outcome, full => self%summary)
          outcome%numbers = self%statistics%numbers(self%items, self%events, full%time_end)
-         call self%extremes%find_noise(self%items)
+         call self%extremes%find_noise(self%items, self%plan%mass)
          do k = 1, size(outcome%numbers)
             outcome%numbers(k)%noise = self%extremes%noise_in(outcome%numbers(k)%unit)
          end do

@@ -9,6 +9,7 @@ submodule(run_recorder) run_recorder_start
    use figure_needs, only: extra_tables, film_requests, scalars_of
    use figure_words, only: append_figure, figure_bifurcation, figure_film, figure_history, figure_orbit, figure_portrait, &
       figure_section, figure_spectrum
+   use forces_table, only: is_ranked, magnitudes_of_forces
    use text_file, only: write_file
    implicit none (type, external)
 
@@ -36,7 +37,7 @@ contains
          if (any(self%figures%kind == figure_film)) self%wants_fields = film_requests(self%figures)
       end if
       if (.not. self%plan%with%histories) call self%selection%clear(catalogue)
-      call self%extremes%start(catalogue, list_scalars(self%selection))
+      call self%extremes%start(catalogue, list_scalars(self%selection), magnitudes_of_forces(self%selection, catalogue))
       if (self%plan%with%hdf5) call self%hdf5%start(self%plan, catalogue, self%selection, error)
       if (allocated(error)) return
       if (.not. self%plan%is_twin()) call self%keeper%start(self%plan%looks%frames, catalogue)
@@ -122,6 +123,7 @@ contains
       wants = self%selection%has_group(group)
       if (wants) wants = self%selection%has_item(self%items, self%items%groups(group)%item_group, item)
       wants = wants .or. self%reader%reads(group) .or. self%keeper%reads(group)
+      wants = wants .or. is_ranked(self%selection, self%items, group, item)
       if (allocated(self%statistics%channels)) wants = wants .or. reads(self%statistics%channels)
       if (allocated(self%statistics%spectra)) wants = wants .or. reads(self%statistics%spectra)
       do k = 1, size(self%figures)

@@ -8,6 +8,7 @@ module run_tables
    use extremes, only: extremes_t, joint_extremes_t
    use extremes_tables, only: channel_extremes, joint_extremes
    use films_table, only: tables_of_films
+   use forces_table, only: largest_forces
    use horizon_table, only: table_of_horizon
    use impacts_table, only: first_impacts
    use kinds, only: wp
@@ -44,7 +45,8 @@ contains
          tables(size(tables))%group = ""  ! in run.h5 since the start
       end if
       tables = [tables, tables_of_statistics(statistics, numbers, catalogue, events, summary%time_end)]
-      tables = [tables, joint_extremes(joints, extremes%has_course()), channel_extremes(extremes, catalogue), first_impacts(events)]
+      tables = [tables, largest_forces(extremes, catalogue), joint_extremes(joints, extremes%has_course()), &
+                channel_extremes(extremes, catalogue), first_impacts(events)]
    end function tables_of_run
 
 end module run_tables

@@ -35,7 +35,8 @@ module extremes
 
    !> What the channels of a run went through.
    type :: extremes_t
-      type(scalar_t), allocatable :: channels(:)       !! (n) the numbers
+      type(scalar_t), allocatable :: channels(:)       !! (n) the numbers, first those that are recorded
+      integer :: n_recorded = 0                        !! how many are; of the others there is no list
       type(extreme_t), allocatable :: of(:)            !! (n) what they went through
       real(wp), allocatable :: noise(:)                !! (n) less is round-off, found by `find_noise` [any]
       type(text_t), allocatable, private :: units(:)   !! (m) units that the numbers have, each once
@@ -115,17 +116,21 @@ module extremes
 contains
 
    !> Start with some numbers.
-   subroutine start_extremes(self, catalogue, channels)
+   subroutine start_extremes(self, catalogue, recorded, further)
       class(extremes_t), intent(inout) :: self       !! what is gathered
       type(catalogue_t), intent(in) :: catalogue     !! what can be recorded
-      type(scalar_t), intent(in) :: channels(:)      !! (n) the numbers
+      type(scalar_t), intent(in) :: recorded(:)      !! (any) numbers that are recorded
+      type(scalar_t), intent(in) :: further(:)       !! (any) others
 
       integer :: k
 
-      self%channels = channels
-      self%place = [(catalogue%place(channels(k)%group, channels(k)%component, channels(k)%item), k=1, size(channels))]
-      if (allocated(self%of)) deallocate (self%of)
-      allocate (self%of(size(channels)))
+      self%channels = [recorded, further]
+      self%n_recorded = size(recorded)
+      associate (channels => self%channels)
+         self%place = [(catalogue%place(channels(k)%group, channels(k)%component, channels(k)%item), k=1, size(channels))]
+         if (allocated(self%of)) deallocate (self%of)
+         allocate (self%of(size(channels)))
+      end associate
       self%n_sample = 0
       self%first_row = huge(1.0_wp)
       self%last_row = -huge(1.0_wp)
@@ -227,9 +232,10 @@ contains
    end function told
 
    !> What is round-off in the channels, once the run has ended.
-   pure subroutine find_noise(self, catalogue)
+   pure subroutine find_noise(self, catalogue, mass)
       class(extremes_t), intent(inout) :: self      !! what was gathered
       type(catalogue_t), intent(in) :: catalogue    !! what can be recorded
+      real(wp), intent(in) :: mass                  !! of the lightest body [kg]
 
       type(text_t), allocatable :: units(:)
       integer :: i, k, n
@@ -243,7 +249,8 @@ contains
          self%with_unit = [self%with_unit, k]
       end do
       self%units = units(self%with_unit)
-      self%noise = noise_of_channels(units, [(self%size_of(k), k=1, n)], max(self%last_row - self%first_row, 0.0_wp))
+      self%noise = noise_of_channels(units, [(self%size_of(k), k=1, n)], max(self%last_row - self%first_row, 0.0_wp), &
+                                     mass)
    end subroutine find_noise
 
    !> What is round-off in numbers of a unit; 0 if none is recorded.

@@ -3,6 +3,7 @@ module extremes_tables
    use catalogue, only: catalogue_t
    use channel_names, only: scalar_name
    use extremes, only: extreme_t, extremes_t, joint_extremes_t
+   use groups_of_catalogue, only: group_clearances, group_contacts
    use kinds, only: wp
    use result_table, only: only_shown, result_table_t
    use text, only: append_text, counted, text_t
@@ -20,14 +21,16 @@ contains
 
       type(text_t), allocatable :: names(:), units(:)
       type(extreme_t), allocatable :: one(:)
+      integer, allocatable :: list(:)
       integer :: k, n
 
-      n = size(extremes%channels)
+      list = forces_first(extremes, catalogue)
+      n = size(list)
       allocate (names(n), units(n), one(n))
       do k = 1, n
-         names(k)%s = scalar_name(catalogue, extremes%channels(k))
-         units(k)%s = catalogue%groups(extremes%channels(k)%group)%channel%unit
-         one(k) = extremes%told(k)
+         names(k)%s = scalar_name(catalogue, extremes%channels(list(k)))
+         units(k)%s = catalogue%groups(extremes%channels(list(k))%group)%channel%unit
+         one(k) = extremes%told(list(k))
       end do
       call table%start("extremes", "extremes/channels", n, title="extremes", &
                        elsewhere="summary.json and in run.h5, /extremes/channels")
@@ -37,13 +40,13 @@ contains
       call table%put("least_time", "s", "time of the first minimum", one%min_time, heading="at", digits=6)
       call table%put("greatest", "list", "maximum, located between rows too", one%maximum, heading="max")
       call table%put("greatest_time", "s", "time of the first maximum", one%max_time, heading="at", digits=6)
-      call table%put("mean", "list", "time average", [(extremes%mean(k), k=1, n)])
-      call table%put("mean", "list", "zero if it is round-off beside the root mean square", [(extremes%shown_mean(k), k=1, n)], &
-                     formats=only_shown, heading="mean")
-      call table%put("rms", "list", "root mean square over time", [(extremes%rms(k), k=1, n)], heading="rms")
+      call table%put("mean", "list", "time average", [(extremes%mean(list(k)), k=1, n)])
+      call table%put("mean", "list", "zero if it is round-off beside the root mean square", &
+                     [(extremes%shown_mean(list(k)), k=1, n)], formats=only_shown, heading="mean")
+      call table%put("rms", "list", "root mean square over time", [(extremes%rms(list(k)), k=1, n)], heading="rms")
       table%units = units
-      table%noise = extremes%noise
-      table%is_minor = [(extremes%is_nothing(k) .or. .not. extremes%has_values(k), k=1, n)]
+      table%noise = extremes%noise(list)
+      table%is_minor = [(extremes%is_nothing(list(k)) .or. .not. extremes%has_values(list(k)), k=1, n)]
       if (.not. extremes%has_course()) then
          table%title = "values"
          table%columns(3)%heading = "value"
@@ -54,8 +57,8 @@ contains
          call append_text(table%notes, "-: no mean of a single output time")
       end if
       if (n == 0) table%group = ""
-      call rest(count([(extremes%is_nothing(k), k=1, n)]), "with zeros or round-off only")
-      call rest(count([(.not. extremes%has_values(k), k=1, n)]), "without values")
+      call rest(count([(extremes%is_nothing(list(k)), k=1, n)]), "with zeros or round-off only")
+      call rest(count([(.not. extremes%has_values(list(k)), k=1, n)]), "without values")
 
    contains
 
@@ -68,6 +71,25 @@ contains
       end subroutine rest
 
    end function channel_extremes
+
+   !> The numbers that are recorded: forces and moments, then what else joints with clearance and contacts have, then the others.
+   pure function forces_first(extremes, catalogue) result(list)
+      type(extremes_t), intent(in) :: extremes      !! what was gathered
+      type(catalogue_t), intent(in) :: catalogue    !! what can be recorded
+      integer, allocatable :: list(:)               !! (n) their numbers
+
+      integer :: k, rank(extremes%n_recorded)
+
+      do k = 1, size(rank)
+         associate (group => catalogue%groups(extremes%channels(k)%group))
+            rank(k) = 3
+            if (any(group%item_group == [group_clearances, group_contacts])) rank(k) = 2
+            if (any(group%channel%unit == ["N  ", "N.m"])) rank(k) = 1
+         end associate
+      end do
+      list = [pack([(k, k=1, size(rank))], rank == 1), pack([(k, k=1, size(rank))], rank == 2), &
+              pack([(k, k=1, size(rank))], rank == 3)]
+   end function forces_first
 
    !> Extremes of the joints with clearance.
    function joint_extremes(joints, has_course) result(table)

@@ -75,6 +75,7 @@ module output_plan
       character(:), allocatable :: title               !! of the scene
       character(:), allocatable :: suffix  !! of text files' names: blank, or `.ideal` for the reference run with ideal joints
       integer :: n_freedom = 0                         !! degrees of freedom at the start, of drivers none
+      real(wp) :: mass = 0.0_wp                        !! of the lightest body [kg]
       integer(i8) :: n_instant = 0                     !! output instants up to the end of the motion
       real(wp) :: moved = 0.0_wp                       !! how far assembly moved a body from where the deck puts it [m]
       type(text_t), allocatable :: channels(:)         !! (n) words of the deck's `channels`; none: everything

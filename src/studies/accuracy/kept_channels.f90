@@ -7,8 +7,8 @@
 !> its film, would act anywhere.
 module kept_channels
    use catalogue, only: catalogue_t
-   use catalogue_groups, only: group_t
-   use groups_of_catalogue, only: group_bodies, group_contacts, group_joints, group_requests
+   use catalogue_groups, only: goes_round, group_t
+   use groups_of_catalogue, only: group_bodies, group_contacts, group_requests
    use errors, only: error_t
    use, intrinsic :: ieee_arithmetic, only: ieee_is_finite
    use kept_run, only: kept_run_t, n_sort, sort_of, sort_positions
@@ -100,11 +100,10 @@ contains
             if (self%kind_of(g) == 0) self%kind_of(g) = n_sort + number_of_kind(self, group, g)
             self%kind(k) = self%kind_of(g)
             self%factor_of(k) = factor_to(self, group, self%asked(3, k))
-            if (group%item_group == group_contacts .and. index(places, " "//group%channel%name//" ") > 0) then
+            if (group%item_group == group_contacts .and. is_place(catalogue, g)) then
                self%state_of(k) = catalogue%find_group(group_contacts, "state")
             end if
-            self%goes_round(k) = (group%item_group == group_contacts .and. group%channel%name == "contact_angle") .or. &
-                                 (group%item_group == group_joints .and. group%channel%name == "angle")
+            self%goes_round(k) = goes_round(group)
          end associate
       end do
       allocate (self%magnitude(n_sort + size(self%further)), source=0.0_wp)
@@ -119,6 +118,17 @@ contains
 
       wants = self%kind_of(group) > 0 .or. any(self%state_of == group) .or. self%kept_run_t%wants(group, item)
    end function wants_channels
+
+   !> Whether a quantity of contacts says where they act, or how far that is.
+   pure logical function is_place(catalogue, g)
+      type(catalogue_t), intent(in) :: catalogue   !! what can be recorded
+      integer, intent(in) :: g                     !! number of the quantity
+
+      integer :: vector
+
+      vector = merge(catalogue%groups(g)%vector, g, catalogue%groups(g)%vector > 0)
+      is_place = index(places, " "//catalogue%groups(vector)%channel%name//" ") > 0
+   end function is_place
 
    !> Number of the further kind of a quantity; a new one is added.
    integer function number_of_kind(self, group, g) result(n)
