@@ -20,7 +20,7 @@ contains
       type(catalogue_t), intent(inout) :: catalogue   !! grows
 
       type(channel_t) :: channel
-      integer :: k, room
+      integer :: item_group, k
 
       do k = 1, catalogue%n_group
          channel = catalogue%groups(k)%channel
@@ -29,8 +29,8 @@ contains
          channel%name = channel%name//"."//word
          channel%frame = "none"
          channel%components = 1
-         room = catalogue%groups(k)%item_group  ! the list of groups may move
-         call catalogue%add_group(room, channel)
+         item_group = catalogue%groups(k)%item_group  ! the list of groups may move
+         call catalogue%add_group(item_group, channel)
          catalogue%groups(catalogue%n_group)%vector = k
       end do
    end subroutine add_magnitudes

@@ -116,8 +116,8 @@ contains
       if (.not. scene%settings%is_spatial) return
       do pass = 1, 2
          do k = 1, size(scene%joints)
-            associate (leaves => scene%joints(k)%info%free)
-               if (merge(leaves /= free_rotation, any(leaves == [free_translation, free_none]), pass == 1)) cycle
+            associate (free => scene%joints(k)%info%free)
+               if (merge(free /= free_rotation, any(free == [free_translation, free_none]), pass == 1)) cycle
             end associate
             do i = 1, size(scene%joints(k)%items)
                if (find_place(scene%joints(k)%items(i), "axis_i") == 0) cycle

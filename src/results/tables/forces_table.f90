@@ -48,7 +48,7 @@ contains
       type(selection_t), intent(in) :: selection          !! what is recorded
       type(catalogue_t), intent(in) :: catalogue          !! what can be recorded
       integer, intent(in) :: group                        !! a quantity
-      integer, intent(in) :: item                         !! number of the item in its room
+      integer, intent(in) :: item                         !! number of the item in its group
 
       is_ranked = .false.
       associate (vector => catalogue%groups(group)%vector)
@@ -132,10 +132,10 @@ contains
       type(catalogue_t), intent(in) :: catalogue    !! what can be recorded
       integer, intent(in) :: group                  !! the quantity
 
-      integer, parameter :: rooms(*) = [group_joints, group_drivers, group_clearances, group_contacts, group_forces]
+      integer, parameter :: lists(*) = [group_joints, group_drivers, group_clearances, group_contacts, group_forces]
 
       associate (this => catalogue%groups(group))
-         is_force = any(this%item_group == rooms) .and. this%channel%unit == "N" .and. this%channel%components == 1
+         is_force = any(this%item_group == lists) .and. this%channel%unit == "N" .and. this%channel%components == 1
       end associate
    end function is_force
 
