@@ -12,8 +12,8 @@ import tempfile
 import threading
 
 BROWSERS = ("chromium", "chromium-browser", "google-chrome")
-OPTIONS = ("--headless", "--no-sandbox", "--hide-scrollbars", "--use-angle=swiftshader", "--enable-unsafe-swiftshader", "--ignore-gpu-blocklist",
-           "--remote-debugging-port=0", "--window-size=1300,850")
+OPTIONS = ("--headless", "--no-sandbox", "--hide-scrollbars", "--disable-gpu", "--use-gl=angle", "--use-angle=swiftshader-webgl", "--enable-unsafe-swiftshader",
+           "--ignore-gpu-blocklist", "--remote-debugging-port=0", "--window-size=1300,850")
 # before the scripts of a page: errors and requests are counted
 BEFORE = """<script>window.found={errors:[],asked:0};window.onerror=(m,u,l,c)=>{found.errors.push(m+' '+l+':'+c)};
 for(const k of['error','warn'])console[k]=(...a)=>found.errors.push(a.join(' '));

@@ -21,10 +21,15 @@ function seek(t) {
   show(N > 1 ? k + (t - times[k]) / (times[k + 1] - times[k]) : 0);
 }
 
-function stop() { playing = false; $('play').textContent = 'play'; }
+function stop() {
+  playing = false;
+  $('play').textContent = 'play';
+  if (renderer) sharpen();
+}
 
 function tick(now) {
   if (playing) {
+    if (renderer) keepPace(now - before);
     const next = at + (now - before) / 1000 * N / seconds * $('speed').value;
     show(next >= N ? 0 : next);
     if (next > N - 1 && next < N) at = next;   // the last position stands as long as every other

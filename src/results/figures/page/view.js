@@ -15,7 +15,7 @@ function startView() {
       'mechanism is not shown. The plots are.</p>');
     return false;
   }
-  renderer.setPixelRatio(Math.min(window.devicePixelRatio || 1, 2));
+  renderer.setPixelRatio(sharpest());
   renderer.setClearColor(0xffffff);
   frame.insertBefore(renderer.domElement, frame.firstChild);
   camera = new THREE.OrthographicCamera(-1, 1, 1, -1, -1e3 * S, 1e3 * S);
@@ -36,6 +36,22 @@ function startView() {
   window.addEventListener('resize', resize);
   buildBodies();
   return true;
+}
+
+// While it plays: fewer pixels where pictures come slower than thirty in a second; all of them again when it stops
+const sharpest = () => Math.min(window.devicePixelRatio || 1, 2);
+let interval = 20;                     // mean time between pictures [ms]
+function keepPace(ms) {
+  interval += 0.15 * (Math.min(ms, 200) - interval);
+  if (interval < 35 || renderer.getPixelRatio() < 0.5) return;
+  renderer.setPixelRatio(0.8 * renderer.getPixelRatio());
+  interval = 20;
+}
+
+function sharpen() {
+  interval = 20;
+  if (renderer.getPixelRatio() < sharpest()) renderer.setPixelRatio(sharpest());
+  needsDraw = true;
 }
 
 function resize() {
