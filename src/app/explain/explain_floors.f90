@@ -73,7 +73,7 @@ contains
             end associate
          end do
       case (for_adaptive)
-         is_needed = index(system%way%words(), "adaptive") > 0
+         is_needed = index(system%stabiliser%words(), "adaptive") > 0
       end select
    end function is_needed
 
