@@ -18,6 +18,7 @@ module verb_compare
    use run_history, only: read_run
    use series, only: history_t
    use source_text, only: line_of, n_line_of, read_source, source_t
+   use sweep_comparison, only: compare_cases
    use text, only: append_text, counted, lower, starts_with, text_t, to_text
    use text_file, only: replace_file
    implicit none (type, external)
@@ -46,6 +47,10 @@ contains
                         new_line("a")//"  = gudgeon compare outputs/NAME legacy.csv --channel ""slider.position.x=2 unit=mm""")
          return
       end if
+      if (any([is_sweep(options%operands(1)%s), is_sweep(options%operands(2)%s)])) then
+         call compare_sweeps(options, error)
+         return
+      end if
       allocate (notes(0))
       first = run_file(options%operands(1)%s)
       second = run_file(options%operands(2)%s)
@@ -71,6 +76,41 @@ contains
       if (.not. allocated(error) .and. found%n_different > 0) call set_error(error, exit_different, "different: "// &
             verdict_text(found))
    end subroutine compare_runs
+
+   !> Whether a path is the directory of a sweep.
+   logical function is_sweep(path)
+      character(*), intent(in) :: path         !! of the command line
+
+      is_sweep = path_exists(path//"/sweep.h5") .and. .not. path_exists(path//"/run.h5")
+   end function is_sweep
+
+   !> Compare the cases of two sweeps and say what differs.
+   subroutine compare_sweeps(options, error)
+      type(options_t), intent(in) :: options               !! the command line
+      type(error_t), allocatable, intent(out) :: error     !! nothing to compare, or a difference
+
+      type(text_t), allocatable :: lines(:)
+      real(wp) :: relative
+      integer :: k, n_different
+
+      associate (first => options%operands(1)%s, second => options%operands(2)%s)
+         if (.not. (is_sweep(first) .and. is_sweep(second))) then
+            call set_error(error, exit_usage, "a sweep can be compared with another sweep only"//new_line("a")// &
+                           "  = give the directories of two sweeps, or of two runs")
+            return
+         end if
+         relative = options%legacy%relative
+         if (relative < 0.0_wp) relative = usual
+         call compare_cases(first, second, options%legacy%absolute, relative, lines, n_different, error)
+      end associate
+      if (allocated(error)) return
+      if (.not. options%is_quiet) then
+         do k = 1, size(lines)
+            call say(lines(k)%s)
+         end do
+      end if
+      if (n_different > 0) call set_error(error, exit_different, "different: "//lines(size(lines))%s)
+   end subroutine compare_sweeps
 
    !> The run.h5 of a directory; a file as it is.
    function run_file(path) result(file)

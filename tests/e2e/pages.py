@@ -1,8 +1,9 @@
-"""Decks and commands of the pages in docs/tutorials and docs/how-to, run as a reader would.
+"""Decks and commands of the pages in docs/tutorials, docs/how-to and docs/reference, run as a reader would.
 
 The first word after a fence says what is in it, the others how it is run:
 
-    deck NAME.deck        a deck: written to NAME.deck in the page's directory
+    deck NAME.deck        a deck: written to NAME.deck in the page's directory, where `inputs` is that of the sources
+    deck                  tables of a deck (pages of the reference): the program must know each table, column and key
     LANGUAGE NAME         any other file, also `text NAME`
     sh [exit=N]           commands, run in that directory, one a line; the last one ends with exit code N (0)
     sh needs=NAME         run where this program or Python package is installed, else listed
@@ -26,6 +27,8 @@ import tempfile
 ROOT = pathlib.Path(__file__).resolve().parent.parent.parent
 FOLDERS = ("docs/tutorials", "docs/how-to")
 PAGES = sorted(page for folder in FOLDERS for page in (ROOT / folder).glob("*.md") if page.name != "index.md")
+REFERENCE = [ROOT / "docs/reference" / f"{name}.md" for name in ("batch", "compare", "deck", "import", "output", "precision", "space")]
+UNKNOWN = re.compile(r"^error: .*(?:unknown (?:table|column|key|section|type|unit)|not a (?:column|key|table)).*", re.M)  # of a fragment
 MOST_WORDS = 25  # of a sentence
 TOLERANCE = 0.02  # of a number in a line of output; digits that change from one processor or compiler to another are shown as `...`
 NUMBER = re.compile(r"(?<![\w.])[-+]?\d+(?:\.\d+)?(?:e[-+]?\d+)?(?!\w|\.\d)", re.I)
@@ -133,9 +136,20 @@ class Failure(AssertionError):
     """What a page says is not what happens."""
 
 
+def check_fragment(fence, directory, surroundings):
+    """What the program says of tables that are no whole deck."""
+    text = fence.text if "deck = 1" in fence.text else f"deck = 1\n{fence.text}"
+    path = directory / f"fragment_{fence.line}.deck"
+    path.write_text(text, encoding="utf-8")
+    done = subprocess.run(["gudgeon", "check", path.name], cwd=directory, env=surroundings, text=True, timeout=60, errors="replace",
+                          stdin=subprocess.DEVNULL, stdout=subprocess.PIPE, stderr=subprocess.STDOUT, check=False)
+    return done.stdout
+
+
 def run_page(page, program, directory, echo=lambda text: None):
     """Write the files of a page and run its commands, in their order; the number of commands."""
     surroundings, said, n = environment(program, directory), None, 0
+    (directory / "inputs").symlink_to(ROOT / "inputs")
     for fence in fences(page.read_text(encoding="utf-8")):
         where = f"{page.name}:{fence.line}"
         if fence.words == ["text"]:
@@ -154,7 +168,12 @@ def run_page(page, program, directory, echo=lambda text: None):
                 echo(f"$ {command}\n{done.stdout}")
                 if done.returncode != expected:
                     raise Failure(f"{where}: exit code {done.returncode}, not {expected}: {command}\n{done.stdout[-3000:]}")
-        else:
+        elif fence.words == ["deck"]:
+            n += 1
+            wrong = UNKNOWN.findall(check_fragment(fence, directory, surroundings))
+            if wrong:
+                raise Failure(f"{where}: {wrong[0]}")
+        elif fence.words:
             path = directory / fence.words[1]
             path.parent.mkdir(exist_ok=True)
             path.write_text(fence.text, encoding="utf-8")

@@ -177,7 +177,7 @@ def test_source_tree(root):
 
 def test_example_of_the_deck_page(gudgeon, root, tmp_path):
     """The example of docs/reference/deck.md is a deck without mistakes."""
-    example = re.search(r"```\n(# [^`]*?deck = 1.*?)```", (root / "docs/reference/deck.md").read_text(), re.S).group(1)
+    example = re.search(r"```deck pushed.deck\n(# [^`]*?deck = 1.*?)```", (root / "docs/reference/deck.md").read_text(), re.S).group(1)
     (tmp_path / "example.deck").write_text(example)
     done = subprocess.run([str(gudgeon), "check", "example.deck"], cwd=tmp_path, capture_output=True, text=True, check=False)
     assert done.returncode == 0, done.stderr
@@ -185,7 +185,7 @@ def test_example_of_the_deck_page(gudgeon, root, tmp_path):
 
 def test_functions_of_the_deck_page(gudgeon, root, tmp_path):
     """The example of functions in docs/reference/deck.md is right once it has the bodies and points that it names."""
-    example = re.search(r"```\n(\[function\.polynomial\].*?)```", (root / "docs/reference/deck.md").read_text(), re.S).group(1)
+    example = re.search(r"```deck\n(\[function\.polynomial\].*?)```", (root / "docs/reference/deck.md").read_text(), re.S).group(1)
     (tmp_path / "pull.txt").write_text("t[s] pull[N]\n0 0\n1 2\n2 1\n3 0\n")
     around = """deck = 1
 [bodies]

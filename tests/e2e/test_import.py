@@ -400,7 +400,7 @@ def test_what_is_left_out_is_named_with_its_line(gudgeon):
     for statement in ("JOINT/11", "FRICTION/1", "CONTACT/1", "ARRAY/1", "SFORCE/7", "SFORCE/8", "MOTION/9", "INTEGRATOR"):
         line = next(k for k, words in enumerate(text, 1) if words.startswith(statement))
         assert f"line {line}, column {len(text[line - 1]) - len(text[line - 1].lstrip()) + 1}: {statement}" in said, statement
-    for reason in ("IMPACT with a damping that starts abruptly", "VM is not supported", "is identified by its x axis, along z of the rack; here neither matches", "its law is not supported"):
+    for reason in ("IMPACT with a damping that starts abruptly", "function VM is not supported", "is identified by its x axis, along z of the rack; here neither matches", "its law is not supported"):
         assert reason in said, reason
 
 

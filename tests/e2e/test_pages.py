@@ -1,4 +1,4 @@
-"""Tutorials and how-to pages: every deck that they show is run, every command gives the output and the exit code that they say."""
+"""Tutorials, how-to pages and pages of the reference that are written by hand: every deck that they show is run, every command gives the output and the exit code that they say."""
 
 import re
 
@@ -37,6 +37,24 @@ def test_page(gudgeon, page):
     for path, run, figure in pages.pictures(page.read_text(encoding="utf-8")):
         assert (page.parent / path).exists(), f"{page.name}: {path} is not there: tests/e2e/pages.py --figures"
         assert (directory / "outputs" / run / "figures" / f"{figure}.png").exists(), f"{page.name}: no command draws {path}"
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize("page", pages.REFERENCE, ids=lambda page: page.stem)
+def test_reference_page(gudgeon, page):
+    """The same of pages of the reference; no command of theirs stands in indented text, where it is not run."""
+    assert pages.run_page(page, gudgeon, scratch()) > 0
+    text = pages.prose(page.read_text(encoding="utf-8"))
+    assert not re.search(r"^    (?:gudgeon|python3|scripts/)", text, re.M), "use a fence"
+
+
+def test_fragment_with_an_unknown_column(gudgeon):
+    """What a fragment must not have is found."""
+    directory = scratch()
+    page = directory / "page.md"
+    page.write_text("```deck\n[points]\nname body xi[m] theta[m]\np ground 0 0\n```\n")
+    with pytest.raises(pages.Failure, match="unknown column 'theta'"):
+        pages.run_page(page, gudgeon, directory)
 
 
 @pytest.mark.parametrize("page", pages.PAGES, ids=IDS)

@@ -134,6 +134,8 @@ def test_explain_tells_what_is_small(gudgeon):
     def said(speed):
         text = DECK.format(mass=1.0, inertia=0.004, x=-0.2, y=0.0, vx=speed, vy=0.0, wall_x=0.0, wall_y=0.0, angle=math.pi,
                            radius=0.1, law="[contact.exact]\nname restitution\nlaw 0.5", end=1.0, method="verner", tolerance=1e-8)
+        text = text.replace("radius[m] material law\n", "radius[m] material law friction\n").replace("steel law\n", "steel law dry\n")
+        text = text.replace("[analysis.dynamic]", "[friction.coulomb]\nname coefficient\ndry 0.1\n[analysis.dynamic]")
         lines = call(gudgeon, "explain", written(scratch(), text)).stdout.splitlines()
         lines = lines[lines.index("numerical thresholds") :]
         return {line.split(":")[0].strip(): float(line.split(":")[1].split()[0]) for line in lines if " m/s (" in line}

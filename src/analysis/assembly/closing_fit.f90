@@ -22,7 +22,7 @@ module closing_fit
    use text, only: real_text, to_text
    implicit none (type, external)
    private
-   public :: fit_loops, misfit_words
+   public :: between, fit_loops, misfit_words
 
    real(wp), parameter :: minimum = 1.0e-7_wp          !! delta to start with [1]
    real(wp), parameter :: most = 0.1_wp              !! delta that is too much [1]
@@ -224,15 +224,17 @@ contains
    end subroutine combine
 
    !> How far joints are open, those with the maximum misfit first.
-   function misfit_words(linkage) result(words)
-      type(linkage_t), intent(in) :: linkage    !! the bodies and their rows, evaluated
+   function misfit_words(linkage, with_bodies) result(words)
+      type(linkage_t), intent(in) :: linkage             !! the bodies and their rows, evaluated
+      logical, intent(in), optional :: with_bodies       !! the bodies of each joint are named too
       character(:), allocatable :: words        !! as "'b2' is off by 0.0022 mm and 0.0001 deg"
 
       real(wp) :: scaled(linkage%rows%n)
-      logical :: is_this(linkage%rows%n)
+      logical :: is_driver(linkage%rows%n), is_this(linkage%rows%n)
       integer :: k, n, row
 
       words = ""
+      is_driver = drives(linkage)
       scaled = abs(linkage%rows%phi)*linkage%solution%row_weight
       do n = 1, most_named
          row = maxloc(scaled, dim=1)
@@ -241,17 +243,49 @@ contains
             is_this(k) = linkage%row_name(k) == linkage%row_name(row)
          end do
          if (n > 1) words = words//", "
-         words = words//"'"//linkage%row_name(row)//"' is off by"
+         words = words//"'"//linkage%row_name(row)//"'"
+         if (present(with_bodies)) words = words//between(linkage, row)
+         words = words//" is off by"
          if (any(is_this .and. .not. linkage%rows%is_angle)) then
             words = words//" "//real_text(1.0e3_wp*norm2(pack(linkage%rows%phi, is_this .and. .not. linkage%rows%is_angle)), 3)// &
                     " mm"
             if (any(is_this .and. linkage%rows%is_angle)) words = words//" and"
          end if
-         if (any(is_this .and. linkage%rows%is_angle)) words = words//" "//real_text(norm2(pack(linkage%rows%phi, is_this .and. &
-                                                               linkage%rows%is_angle))*180.0_wp/pi, 3)//" deg"
+         if (any(is_this .and. linkage%rows%is_angle)) then
+            words = words//" "//real_text(degrees_of(pack(linkage%rows%phi, is_this .and. linkage%rows%is_angle), &
+                                                     allocated(linkage%motion%spatial%p) .and. .not. is_driver(row)), 3)//" deg"
+         end if
          where (is_this) scaled = -1.0_wp
          if (.not. any(scaled >= 0.0_wp)) exit
       end do
    end function misfit_words
+
+   !> The angle that the rows of a joint are off by: in space rows between axes are sines of angles.
+   pure real(wp) function degrees_of(phi, is_sine)
+      real(wp), intent(in) :: phi(:)    !! (any) violations of the angle rows of a joint [rad or 1]
+      logical, intent(in) :: is_sine    !! they are those of a joint in space
+
+      degrees_of = norm2(phi)
+      if (is_sine) degrees_of = asin(min(degrees_of, 1.0_wp))
+      degrees_of = degrees_of*180.0_wp/pi
+   end function degrees_of
+
+   !> The bodies of a row.
+   function between(linkage, row) result(words)
+      type(linkage_t), intent(in) :: linkage    !! the bodies and their rows
+      integer, intent(in) :: row                !! number of the row
+      character(:), allocatable :: words        !! as " between ground and 'rod'"
+
+      integer :: side
+
+      words = " between"
+      do side = 1, 2
+         associate (body => linkage%rows%body(side, row))
+            if (side == 2) words = words//" and"
+            if (body == 0) words = words//" ground"
+            if (body > 0) words = words//" '"//linkage%bodies%names(max(body, 1))%s//"'"
+         end associate
+      end do
+   end function between
 
 end module closing_fit

@@ -8,7 +8,7 @@
 !> Source: Flores et al. (2008), section 2.2, eqs. (2.10), (2.13). Limits: a position near the start
 !> that the deck gives.
 module consistent_start
-   use assembly_report, only: assembly_t
+   use assembly_report, only: assembly_t, largest_t
    use branches, only: check_branches
    use closing_fit, only: fit_loops
    use errors, only: error_t
@@ -65,6 +65,7 @@ contains
       report%residual = maxval(abs(linkage%rows%phi))
       call linkage%coordinates%difference(linkage%bodies%n, q_given, q, correction)
       report%moved = maxval(abs(correction)*coordinate_scale(linkage))
+      call find_moved_bodies()
       if (.not. worst_violation(linkage) <= closed) then
          call position_error(linkage, q_given, v, report%misfit, error)
          return
@@ -107,6 +108,23 @@ contains
          v = v_given
          call find_velocities()
       end subroutine fit_velocities
+
+      !> The bodies that were displaced and rotated most.
+      subroutine find_moved_bodies()
+         real(wp) :: shift, turn
+         integer :: body
+
+         associate (n_v => linkage%coordinates%n_v, n_axis => linkage%coordinates%n_axis)
+            do body = 1, linkage%bodies%n
+               associate (change => correction(n_v*(body - 1) + 1:n_v*body))
+                  shift = norm2(change(:n_axis))
+                  turn = linkage%coordinates%max_turn(1, change)
+               end associate
+               if (shift > report%shift%value) report%shift = largest_t(shift, body)
+               if (turn > report%turn%value) report%turn = largest_t(turn, body)
+            end do
+         end associate
+      end subroutine find_moved_bodies
 
       !> The minimum change of the velocities that makes them consistent.
       subroutine find_velocities()

@@ -6,14 +6,15 @@
 !> Source and limits: `second_order`; rows up to those whose matrices are dense.
 module shaky
    use errors, only: error_t, exit_assembly, set_error
-   use kinds, only: wp
+   use kinds, only: pi, wp
    use linkage, only: linkage_t
-   use mobility, only: drives, joint_names, moving_bodies, split_space
-   use row_corrections, only: evaluate_rows, scaled_jacobian, wants_sparse
+   use mobility, only: drives, find_mobility, joint_names, mobility_t, moving_bodies, split_space
+   use row_corrections, only: evaluate_rows, scaled_jacobian, wants_sparse, worst_violation
    use second_order, only: find_definite, find_forms, most_free
+   use text, only: real_text
    implicit none (type, external)
    private
-   public :: find_shaky, name_dead_centre
+   public :: dead_centre_line, find_dead_centre, find_shaky, name_dead_centre
 
    real(wp), parameter :: dependent = 1.0e-6_wp   !! singular value that counts as none: positions are known to its square [1]
    real(wp), parameter :: takes_part = 1.0e-3_wp  !! minimum part of a row in a self-stress [1]
@@ -71,6 +72,69 @@ contains
       end do
    end subroutine name_dead_centre
 
+   !> Say whether a driver stands at a dead centre, where no velocities satisfy the rows at positions that do.
+   subroutine find_dead_centre(linkage, q, error)
+      type(linkage_t), intent(inout) :: linkage            !! the bodies and their rows; evaluated at rest
+      real(wp), intent(in) :: q(:)                         !! (n_q bodies) positions [any]
+      type(error_t), allocatable, intent(inout) :: error   !! why it cannot start; replaced if it is a dead centre
+
+      type(error_t), allocatable :: dead_centre
+      type(mobility_t) :: mobility
+      real(wp), parameter :: closed = 1.0e-10_wp  ! scaled violation [1]
+
+      if (linkage%rows%n == 0 .or. wants_sparse(linkage)) return
+      call evaluate_rows(linkage, 0.0_wp, q, spread(0.0_wp, 1, size(linkage%mass)))
+      if (.not. worst_violation(linkage) <= closed) return
+      call find_mobility(linkage, mobility)
+      call name_dead_centre(linkage, q, mobility%is_excess, dead_centre)
+      if (allocated(dead_centre)) call move_alloc(dead_centre, error)
+   end subroutine find_dead_centre
+
+   !> The loop that comes nearest to a dead centre, and how its bodies lie; blank if all rows are far from dependent.
+   function dead_centre_line(linkage) result(words)
+      type(linkage_t), intent(in) :: linkage    !! the bodies and their rows, evaluated
+      character(:), allocatable :: words        !! a line of a message
+
+      real(wp), parameter :: near = 0.01_wp     ! singular value, of the maximum, of a loop near a dead centre [1]
+      real(wp), parameter :: shares = 0.05_wp   ! minimum part of a row or body in it, of the maximum [1]
+      real(wp), allocatable :: free(:, :), jac(:, :), left(:, :), part(:)
+      logical, allocatable :: is_driver(:)
+      integer :: rank
+
+      words = ""
+      if (linkage%rows%n == 0 .or. wants_sparse(linkage)) return
+      is_driver = drives(linkage)
+      if (.not. any(is_driver)) return
+      call scaled_jacobian(linkage, jac)
+      call split_space(jac, rank, left, free, near)
+      if (rank == linkage%rows%n) return
+      associate (stress => abs(left(:, linkage%rows%n)))
+         if (.not. any(is_driver .and. stress > shares*maxval(stress))) return
+         part = moved_by(linkage, free)
+         where (part < shares) part = 0.0_wp
+         words = new_line("a")//"  = near a dead centre: the loop of "//joint_names(linkage, stress > shares*maxval(stress) .and. &
+                 .not. is_driver)//" can hardly be moved there by driver "// &
+                 joint_names(linkage, stress > shares*maxval(stress) .and. is_driver)//angles(linkage, part)
+      end associate
+   end function dead_centre_line
+
+   !> Angles of bodies that take part in a motion, those of the plane.
+   function angles(linkage, part) result(words)
+      type(linkage_t), intent(in) :: linkage    !! the bodies, placed
+      real(wp), intent(in) :: part(:)           !! (bodies) how much each moves [1]
+      character(:), allocatable :: words        !! as `; angles: 'crank' 0 deg, 'rod' 0 deg`; blank in space
+
+      integer :: k
+
+      words = ""
+      if (allocated(linkage%motion%spatial%p)) return
+      do k = 1, size(part)
+         if (.not. part(k) > 0.0_wp) cycle
+         words = words//trim(merge("; angles:", ",        ", words == ""))//" '"//linkage%bodies%names(k)%s//"' "// &
+                 real_text(atan2(linkage%motion%rot(2, 1, k), linkage%motion%rot(1, 1, k))*180.0_wp/pi, 4)//" deg"
+      end do
+   end function angles
+
    !> Free motions and self-stresses at a position.
    subroutine find_spaces(linkage, q, with_drivers, free, stress)
       type(linkage_t), intent(inout) :: linkage             !! the bodies and their rows; evaluated at rest
@@ -126,8 +190,9 @@ contains
 
       call set_error(error, exit_assembly, "the mechanism is at a dead centre of driver "//joint_names(linkage, is_driver)// &
                      " at t = 0 s"//new_line("a")//"  = rows of "//joint_names(linkage, is_in .and. .not. is_driver)// &
-                     " block the driver here, but "//moving_bodies(linkage, part)//" can move without it" &
-                     //new_line("a")//"  = start away from the dead centre, or drive another joint")
+                     " block the driver here, but "//moving_bodies(linkage, part)//" can move without it"//angles(linkage, part) &
+                     //new_line("a")//"  = start some degrees away from the dead centre (initial angles in [bodies], driver to "// &
+                     "match), or drive another joint of the loop")
    end subroutine refuse_dead_centre
 
 end module shaky

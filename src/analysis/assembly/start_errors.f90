@@ -1,11 +1,12 @@
 !> What is said of a mechanism that cannot be assembled: where, by how much, and what may be the matter.
 module start_errors
    use assembly_report, only: assembly_t
-   use closing_fit, only: misfit_words
+   use closing_fit, only: between, misfit_words
    use errors, only: error_t, exit_assembly, set_error
    use, intrinsic :: ieee_arithmetic, only: ieee_is_finite
    use kinds, only: pi, wp
    use linkage, only: linkage_t
+   use mobility, only: drives
    use row_corrections, only: evaluate_rows
    use text, only: real_text, to_text
    implicit none (type, external)
@@ -23,30 +24,61 @@ contains
       character(*), intent(in) :: misfit                 !! misfit in least squares; blank: not known
       type(error_t), allocatable, intent(out) :: error   !! the message
 
-      character(:), allocatable :: hint, place
+      character(:), allocatable :: given, hint, place
       real(wp) :: open
       integer :: dead, row
+      logical :: is_alone
 
       row = maxloc(abs(linkage%rows%phi)*linkage%solution%row_weight, dim=1)
       open = abs(linkage%rows%phi(row))
       place = "has a residual of "
       call evaluate_rows(linkage, 0.0_wp, q, v)
+      call find_open_joints(linkage, is_alone, given)
       dead = dead_row(linkage)
       if (dead > 0) then
          row = dead
          open = abs(linkage%rows%phi(row))
          place = "has, at the given positions of the bodies, a residual of "
-         hint = "its axes are perpendicular but must be parallel, or vice versa, so the direction "// &
-                "of rotation is undetermined"//new_line("a")//"  = give other axes, or rotate one of its bodies in the deck"
+         hint = "its axes"//between(linkage, row)//" are perpendicular but must be parallel, or vice versa: 90 deg off, so the "// &
+                "direction of rotation is undetermined"//new_line("a")//"  = give other axes, or rotate one of its bodies in "// &
+                "the deck"
+      else if (is_alone) then
+         call set_error(error, exit_assembly, "the mechanism cannot be assembled: at the given positions of the bodies "//given// &
+                        ", all other joints are closed, and no positions nearby close all"//new_line("a")//"  = "//misfit// &
+                        new_line("a")//"  = correct the axes of this joint, or the initial angles of its bodies")
+         return
       else
          hint = "assembly moved the bodies as little as possible from the given positions and did not converge"//new_line("a")// &
                 "  = check the points of this joint, the lengths of the loop, and the initial positions"
       end if
-      if (misfit /= "") hint = misfit//new_line("a")//"  = "//hint
+      if (dead == 0) hint = "at the given positions of the bodies "//given//new_line("a")//"  = "//hint
+      if (misfit /= "" .and. dead == 0) hint = misfit//new_line("a")//"  = "//hint
       call set_error(error, exit_assembly, "the mechanism cannot be assembled: joint '"//linkage%row_name(row)// &
                      "' "//place//real_text(open, 4)// &
                      trim(merge(" rad", " m  ", linkage%rows%is_angle(row)))//new_line("a")//"  = "//hint)
    end subroutine position_error
+
+   !> Joints that are open at the positions where rows were evaluated, and by how much the first of them.
+   subroutine find_open_joints(linkage, is_alone, words)
+      type(linkage_t), intent(in) :: linkage                !! the system, rows evaluated
+      logical, intent(out) :: is_alone                      !! one joint is open, no driver, by an angle between its axes
+      character(:), allocatable, intent(out) :: words       !! as "'q' between 'a' and 'b' is off by 0 mm and 0.573 deg"
+
+      real(wp), parameter :: closed = 1.0e-9_wp  ! scaled violation [1]
+      logical, dimension(linkage%rows%n) :: is_driver, is_open
+      integer :: k, row
+
+      is_driver = drives(linkage)
+      is_open = abs(linkage%rows%phi)*linkage%solution%row_weight > closed
+      row = findloc(is_open, .true., dim=1)
+      is_alone = row > 0
+      do k = 1, linkage%rows%n
+         if (.not. is_open(k)) cycle
+         is_alone = is_alone .and. linkage%rows%is_angle(k) .and. .not. is_driver(k) .and. &
+                    linkage%row_name(k) == linkage%row_name(row)
+      end do
+      words = misfit_words(linkage, with_bodies=.true.)
+   end subroutine find_open_joints
 
    !> Say by how much joints are off at positions of the minimum misfit.
    subroutine name_misfit(linkage, q, report)

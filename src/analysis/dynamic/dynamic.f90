@@ -115,7 +115,7 @@ contains
       call sum_up(run%whole, run%sampler, run%tally, run%stop, method, limits, summary, error)
       if (run%is_stopped .and. .not. allocated(error)) then
          summary%status = status_stopped
-         summary%message = stopped_words(run%whole%t, run%saved_at, size(run%whole%parts))
+         summary%message = stopped_words(run%whole%t, recorder%stopped_by, run%saved_at, size(run%whole%parts))
       end if
       summary%cpu_seconds = run%cpu_before + cpu_1 - cpu_0 - aside
       summary%wall_seconds = real(clock_1 - clock_0, wp)/real(ticks, wp)

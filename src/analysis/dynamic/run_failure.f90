@@ -9,6 +9,7 @@ module run_failure
    use mechanism, only: mechanism_t
    use motion, only: loads_t
    use readings, only: wanted_rows_t
+   use shaky, only: dead_centre_line
    use text, only: real_text, to_text
    implicit none (type, external)
    private
@@ -26,6 +27,7 @@ module run_failure
 contains
 
    !> Say when, where and why the integration cannot continue, and what to try.
+   !> Length: a line of the message after the other.
    subroutine describe_failure(system, method, status, error, reason)
       type(mechanism_t), intent(inout) :: system      !! the system
       class(integrator_t), intent(inout) :: method        !! the integrator; fixed steps: its last step is lost
@@ -80,6 +82,8 @@ contains
             "violated by "// &
                    real_text(abs(system%linkage%rows%phi(row)), 3)//trim(merge(" rad", " m  ", system%linkage%rows%is_angle(row)))
       end if
+      if (all(status /= [advance_too_many_steps, advance_too_many_evaluations, advance_no_memory, time_used_up, guard_reached, &
+                         film_ended])) message = message//dead_centre_line(system%linkage)
       message = message//wedged_joint(system)//deepest_contact(system, method)//new_line("a")// &
                 "  = results up to the last output time are saved; "
       call blame_step(system, method, status, message)
@@ -247,13 +251,14 @@ contains
    end function advice
 
    !> That a run was ended from outside, and whether it can continue.
-   function stopped_words(t, saved_at, n_part) result(words)
+   function stopped_words(t, stopped_by, saved_at, n_part) result(words)
       real(wp), intent(in) :: t              !! where it was stopped [s]
+      character(*), intent(in) :: stopped_by !! by what, as `a signal`
       real(wp), intent(in) :: saved_at       !! time of its last checkpoint, negative: none [s]
       integer, intent(in) :: n_part          !! parts with steps of their own
       character(:), allocatable :: words     !! one line
 
-      words = "interrupted by a signal at t = "//real_text(t, 9)//" s"
+      words = "stopped by "//trim(stopped_by)//" at t = "//real_text(t, 9)//" s"
       if (saved_at >= 0.0_wp) then
          words = words//"; saved at t = "//real_text(saved_at, 9)//" s; --resume continues from there"
       else

@@ -13,7 +13,7 @@ module start_state
    use perturbation, only: shift_t
    use mechanism, only: mechanism_t
    use scene, only: scene_t
-   use shaky, only: find_shaky
+   use shaky, only: find_dead_centre, find_shaky
    use shared_friction, only: find_shared_friction
    use static, only: equilibrium_t, find_equilibrium
    use text, only: to_text
@@ -72,6 +72,7 @@ contains
          call new_system(scene, at_start, twin, is_for_start=.true.)
          call assemble(twin%linkage, q, v, report, error)
          if (allocated(error)) then
+            call find_dead_centre(twin%linkage, q, error)
             call system%linkage%deck_state(q, v)
             call name_conflict(scene, at_start, q, v, error)
             return

@@ -18,7 +18,7 @@ module velocity_jumps
    use mechanism_energy, only: mechanical_energy
    use mechanism, only: mechanism_t
    use archive, only: archive_t
-   use text, only: append_text, real_text, text_t, to_text
+   use text, only: append_text, counted, real_text, text_t
    implicit none (type, external)
    private
    public :: velocity_jumps_t
@@ -106,8 +106,7 @@ contains
       type(text_t), allocatable, intent(inout) :: warnings(:) !! the line is added
 
       if (self%n == 0) return
-      call append_text(warnings, "driver velocities jump at "//to_text(self%n)//trim(merge(" instant ", " instants", &
-                                                                                                 self%n == 1))// &
+      call append_text(warnings, "driver velocities jump at "//counted(self%n, "time point", "time points")// &
                        ", the largest at '"//system%linkage%row_name(self%row)//"', by "//real_text(self%jump, 3)// &
                        trim(merge(" rad/s", " m/s  ", system%linkage%rows%is_angle(self%row)))//" at t = "//real_text(self%t, 6)// &
                        " s; the bodies follow instantaneously and take "//real_text(self%work, 3)//" J from the drivers")

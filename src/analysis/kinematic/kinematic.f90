@@ -28,6 +28,7 @@ module kinematic
    use row_corrections, only: evaluate_rows
    use saved_run, only: action_stop
    use text, only: append_text, real_text
+   use shaky, only: dead_centre_line
    use step_follower, only: find_off_branch, follow_motion, must_follow
    use time_plan, only: instant, last_instant, time_plan_t
    implicit none (type, external)
@@ -141,7 +142,7 @@ contains
          if (mod(k, progress_every) == 0_i8) call recorder%progress(state%t/plan%end)
          if (recorder%requested_action(.false.) == action_stop .and. k < last_instant(plan)) then
             summary%status = status_stopped
-            call set_error(error, exit_integration, "interrupted by a signal at t = "//real_text(state%t, 9)// &
+            call set_error(error, exit_integration, "stopped by "//trim(recorder%stopped_by)//" at t = "//real_text(state%t, 9)// &
                            " s; the results written so far are readable")
             return
          end if
@@ -380,7 +381,7 @@ contains
       call find_mobility(system%linkage, mobility)
       driver = system%linkage%row_name(stiffest_driver(mobility))
       call set_error(error, exit_integration, "the mechanism cannot follow driver '"//driver//"' beyond t = "// &
-                     real_text(state%t, 9)//" s"//message//new_line("a")// &
+                     real_text(state%t, 9)//" s"//message//dead_centre_line(system%linkage)//new_line("a")// &
                      "  = results up to the last output time are saved; end the run earlier, reverse the driver "// &
                      "earlier, drive another joint, or shift the output times away from the dead centre")
    end subroutine describe_failure

@@ -92,7 +92,7 @@ module command_words
    character(*), parameter :: exit_meanings(size(exit_codes)) = [character(60) :: &
       "done", "comparison found differences", "invalid command line", "invalid deck", &
       "assembly failed: open loop, shaky, or at a dead centre", "integration failed", &
-      "energy error, constraint violation or accuracy over limit", "interrupted by a signal; results saved", &
+      "energy error, constraint violation or accuracy over limit", "stopped by a signal or --walltime; results saved", &
       "some runs of a sweep failed", "file, disk or memory error", &
       "internal error of the program"]
       !! what they mean

@@ -2,8 +2,9 @@
 module explain_floors
    use channel_noise, only: noise_words
    use console, only: say
-   use floors, only: all_floors, floor_t, of_acceleration, of_contact, of_mobility, of_pace, of_run, of_speed, of_step, of_time, &
-      of_tolerance
+   use friction_law, only: memory_slip
+   use floors, only: all_floors, floor_t, for_adaptive, for_contacts, for_sticking, of_acceleration, of_contact, of_mobility, &
+      of_pace, of_run, of_speed, of_step, of_time, of_tolerance
    use kinds, only: wp
    use mechanism, only: mechanism_t
    use text, only: real_text
@@ -34,6 +35,7 @@ contains
       list = all_floors()
       own_speed = system%linkage%scales%pace*system%linkage%scales%length
       do k = 1, size(list)
+         if (.not. is_needed(system, list(k)%needed)) cycle
          select case (list(k)%of)
          case (of_speed)
             call say(trim(list(k)%meaning)//": "//real_text(list(k)%part*own_speed, 3)//" m/s ("// &
@@ -50,6 +52,30 @@ contains
       end do
       call say(noise_words(), 2)
    end subroutine floors_of_scene
+
+   !> Whether a system has what a threshold is for.
+   logical function is_needed(system, needed)
+      type(mechanism_t), intent(in) :: system   !! the system
+      integer, intent(in) :: needed             !! as in `floors`
+
+      integer :: k
+
+      is_needed = .true.
+      select case (needed)
+      case (for_contacts)
+         is_needed = system%clearance_joints%n_contact > 0
+      case (for_sticking)
+         is_needed = .false.
+         do k = 1, size(system%clearance_joints%sets)
+            associate (laws => system%clearance_joints%sets(k)%set%laws)
+               if (.not. allocated(laws%friction)) cycle
+               is_needed = is_needed .or. laws%friction%memory == memory_slip
+            end associate
+         end do
+      case (for_adaptive)
+         is_needed = index(system%stabiliser%words(), "adaptive") > 0
+      end select
+   end function is_needed
 
    !> For the manual: all of them, and what they are parts of.
    subroutine floors_manual()

@@ -60,9 +60,15 @@ contains
       type(guards_t), intent(in) :: guards            !! the guards
 
       integer :: i, k, m
+      logical :: has_contacts, is_film_alone
 
+      has_contacts = .false.
       do k = 1, size(system%clearance_joints%sets)
          associate (set => system%clearance_joints%sets(k)%set)
+            is_film_alone = .false.
+            if (allocated(set%laws%films)) is_film_alone = set%laws%films%is_alone
+            if (is_film_alone) cycle
+            has_contacts = .true.
             do i = 1, set%n
                m = set%before%contacts + (i - 1)*set%n_contact_item + 1
                associate (limit => guards%limit(:, m), name => set%names(i)%s)
@@ -82,7 +88,7 @@ contains
             end do
          end associate
       end do
-      if (system%clearance_joints%n_contact == 0) return
+      if (.not. has_contacts) return
       call say(verb_of(scene, "law_range")//" if a penetration leaves the valid range of its law (law_range)", 2)
       call say(verb_of(scene, "impact_speed")// &
                " if elastic waves take more than 10 % of the impact energy (impact_speed)", 2)

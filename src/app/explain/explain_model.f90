@@ -9,12 +9,13 @@ module explain_model
    use load, only: loaded_t
    use mechanism, only: mechanism_t
    use mobility, only: find_mobility, mobility_t
+   use plausibility, only: find_notes
    use scene, only: analysis_dynamic, analysis_kinematic, scene_t
    use start_state, only: redundancy_text
    use text, only: counted, real_text, text_t, to_text
    implicit none (type, external)
    private
-   public :: explain_size, explain_start
+   public :: explain_notes, explain_size, explain_start
 
 contains
 
@@ -113,6 +114,24 @@ contains
       end if
    end subroutine explain_start
 
+   !> Values of the deck that are possible but unusual.
+   subroutine explain_notes(scene, system, assembly)
+      type(scene_t), intent(in) :: scene            !! the scene
+      type(mechanism_t), intent(in) :: system       !! its system
+      type(assembly_t), intent(in) :: assembly      !! how the start was found
+
+      type(text_t), allocatable :: notes(:)
+      integer :: k
+
+      call find_notes(scene, system, assembly, notes)
+      if (size(notes) == 0) return
+      call say("")
+      call say("unusual values (the run is not affected)")
+      do k = 1, size(notes)
+         call say(notes(k)%s, 2)
+      end do
+   end subroutine explain_notes
+
    !> How many items a kind has.
    subroutine count_kind(info, items)
       type(kind_info_t), intent(in) :: info   !! the kind
@@ -120,7 +139,8 @@ contains
 
       if (size(items) == 0) return
       if (info%n_row > 0) then
-         call say(to_text(size(items))//" "//info%name//", "//counted(info%n_row*size(items), "row", "rows")// &
+         call say(to_text(size(items))//" "//info%name//", "// &
+                  counted(info%n_row*size(items), "constraint row", "constraint rows")// &
                   trim(merge(" initially only   ", "                  ", info%is_start_only)), 2)
       else
          call say(to_text(size(items))//" "//info%name, 2)

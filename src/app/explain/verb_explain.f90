@@ -14,7 +14,7 @@ module verb_explain
    use explain_output_times, only: explain_output_times_of
    use explain_clearances, only: explain_clearance_joints
    use explain_method, only: explain_method_and_times
-   use explain_model, only: explain_size, explain_start
+   use explain_model, only: explain_notes, explain_size, explain_start
    use imsl_names, only: is_imsl_name
    use integration_settings, only: start_static
    use item, only: item_t, place_of
@@ -129,6 +129,7 @@ contains
       call explain_size(loaded%scene, loaded%system, twin)
       call explain_start(loaded, assembly, allocated(start_error))
       if (allocated(start_error) .and. allocated(y)) deallocate (y)
+      if (.not. allocated(start_error)) call explain_notes(loaded%scene, loaded%system, assembly)
       call explain_rubbing_joints(loaded%scene, loaded%system)
       call explain_clearance_joints(loaded, y)
       if (options%legacy%with_adams) call explain_adams_parameters(loaded)

@@ -18,6 +18,7 @@ module run_plan
    use options, only: options_t
    use output_directory, only: output_directory_t
    use output_plan, only: output_plan_t, show_json, show_nothing
+   use plausibility, only: find_notes
    use row_plan, only: contact_rows_text, has_contact_rows
    use scene, only: analysis_dynamic, analysis_names, analysis_static
    use scene_drawing, only: drawing_of_scene
@@ -66,6 +67,7 @@ contains
       end if
       if (loaded%system%linkage%solution%is_redundant) call append_text(plan%warnings, redundancy_text(loaded%system, assembly))
       call find_doubts(loaded%system%linkage, plan%warnings)
+      call find_notes(loaded%scene, loaded%system, assembly, plan%notes)
       plan%with%contact_rows = has_contact_rows(loaded%scene, loaded%system)
       plan%contact_rows = contact_rows_text(loaded%scene, loaded%system)
       plan%with%hdf5 = options%write /= "nothing"

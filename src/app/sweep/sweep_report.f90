@@ -17,10 +17,12 @@ module sweep_report
    use recorder, only: status_complete, status_failed, status_stopped
    use sweep_map, only: write_sweep_map
    use sweep_plots, only: sweep_table
+   use sweep_tables, only: shown_cases
    use sweep_work, only: failure_text, sweep_work_t
-   use text, only: append_text, real_text, text_t, to_text
+   use text, only: append_text, counted, real_text, text_t, to_text
    use text_buffer, only: buffer_t
    use text_file, only: replace_file
+   use text_of_table, only: add_table
    use text_table, only: file_heading
    use version, only: program_version
    implicit none (type, external)
@@ -73,7 +75,24 @@ contains
       call draw_figures(folder, names, pictures, warnings)
    end subroutine make_sweep_figures
 
+   !> Numbers that figures of the sweep draw over its cases, each between commas: `statistics(NUMBER,...)`.
+   function drawn_numbers(loaded) result(list)
+      type(loaded_t), intent(in) :: loaded     !! the deck
+      character(:), allocatable :: list        !! as `,motor.moment.peak,motor.moment.rms,`
+
+      integer :: k
+
+      list = ","
+      do k = 1, size(loaded%figures)
+         associate (word => loaded%figures(k)%word)
+            if (index(word, "statistics(") == 1) list = list//word(index(word, "(") + 1:len(word) - 1)//","
+         end associate
+      end do
+   end function drawn_numbers
+
    !> The summaries, and the error if part of the runs failed.
+   !>
+   !> Length: a line of the summary after the other.
    subroutine report_sweep(options, loaded, work, pictures, warnings, error)
       type(options_t), intent(in) :: options               !! the command line
       type(loaded_t), intent(in) :: loaded                 !! the deck
@@ -91,14 +110,14 @@ contains
       if (work%n_failed() > 0) state = status_failed
       if (work%n_missing() > 0) state = status_stopped
       call lines%line(loaded%scene%title)
-      call lines%line(to_text(loaded%sweep%n_cases())//" cases of "//to_text(work%results%n_member)// &
-                      trim(merge(" run: ", " runs:", work%results%n_member == 1))//" "// &
+      call lines%line(counted(loaded%sweep%n_cases(), "case", "cases")//" of "// &
+                      counted(work%results%n_member, "run", "runs")//": "// &
                       to_text(count(work%results%runs%exit_code == 0))//" done, "//to_text(work%n_failed())//" failed"// &
                       missing_text())
       if (work%shard > 0) call lines%line("part "//to_text(work%shard)//" of "//to_text(work%n_shards)//": "// &
-                                          to_text(work%n_mine())//" runs")
+                                          counted(work%n_mine(), "run", "runs"))
       if (work%n_made > 0) then
-         call lines%line(to_text(work%n_made)//" runs made now; CPU time "//real_text(cpu_of_all(), 4)//" s, of that "// &
+         call lines%line(counted(work%n_made, "run", "runs")//" made now; CPU time "//real_text(cpu_of_all(), 4)//" s, of that "// &
                          real_text(work%cpu_made, 4)//" s in integration and output")
       else if (work%n_missing() == 0) then
          call lines%line("all runs were complete already")
@@ -110,6 +129,7 @@ contains
          call lines%line("  run "//to_text(k)//": exit code "//to_text(work%results%runs(k)%exit_code)//", "// &
                          work%results%runs(k)%message)
       end do
+      if (work%shard == 0 .and. loaded%sweep%n_cases() > 1) call add_table(lines, shown_cases(work%results, drawn_numbers(loaded)))
       call lines%line("output     "//work%plan%directory//"/")
       if (work%shard == 0) call lines%line("           sweep.h5, sweep.csv (runs), cases.csv (means and standard deviations)")
       do k = 1, size(pictures)

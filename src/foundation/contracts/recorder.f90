@@ -107,6 +107,7 @@ module recorder
    type, abstract :: recorder_t
       logical :: wants_contact_rows = .false.      !! whether `further_row` is to be called at contacts
       type(field_request_t), allocatable :: wants_fields(:)  !! (any) films that `field` is to be called with; unallocated: none
+      character(32) :: stopped_by = "a signal"     !! what an action that ends the run was requested by
       type(located_t) :: located                   !! numbers whose extremes between rows `between` is to be called with
    contains
       procedure(start_interface), deferred :: start

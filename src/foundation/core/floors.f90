@@ -9,6 +9,7 @@ module floors
    implicit none (type, external)
    private
    public :: all_floors, floor_t
+   public :: for_adaptive, for_all, for_contacts, for_sticking
    public :: of_acceleration, of_contact, of_mobility, of_pace, of_run, of_speed, of_step, of_time, of_tolerance
    public :: at_rest, captured, chatter_time, contact_lever, gentle, idle_part, late, min_band, min_stabilisation, min_mobility, &
       look_ahead, no_acceleration, remembered, settling, shortest_difference, standstill, torn, widest_band
@@ -22,6 +23,11 @@ module floors
    integer, parameter :: of_run = 7           !! of size and duration of the run
    integer, parameter :: of_time = 8          !! of the spacing of numbers at the present time
    integer, parameter :: of_tolerance = 9     !! of the tolerance times the mechanism's own speed
+
+   integer, parameter :: for_all = 0          !! any model needs it
+   integer, parameter :: for_contacts = 1     !! joints with clearance
+   integer, parameter :: for_sticking = 2     !! contacts whose friction law sticks
+   integer, parameter :: for_adaptive = 3     !! stabilise = baumgarte_adaptive
 
    ! contacts
    real(wp), parameter :: gentle = 0.1_wp                 !! impact speed in damping terms at least, of the speed of the depth [1]
@@ -50,6 +56,7 @@ module floors
    type :: floor_t
       real(wp) :: part = 0.0_wp             !! the number [1]
       integer :: of = 0                     !! of what, one of the above
+      integer :: needed = for_all           !! by what, one of the above
       character(96) :: meaning = ""         !! what it is for
    end type floor_t
 
@@ -59,27 +66,29 @@ contains
    pure function all_floors() result(list)
       type(floor_t), allocatable :: list(:)  !! (floors) in the order of the groups
 
-      list = [floor_t(gentle, of_contact, "minimum impact speed in damping terms, over sqrt(F_N penetration/m)"), &
-              floor_t(remembered, of_speed, "minimum speed that velocity errors are relative to, in slow motion"), &
-              floor_t(late, of_run, "minimum speed that velocity errors are relative to, from rest"), &
-              floor_t(idle_part, of_run, "characteristic speed of a mechanism that never moves"), &
-              floor_t(min_stabilisation, of_pace, "minimum gain of stabilise = baumgarte_adaptive"), &
-              floor_t(at_rest, of_speed, "negligible sliding speed, at onset and where drivers prescribe it"), &
-              floor_t(standstill, of_speed, "sliding speed at the slip-to-stick transition"), &
-              floor_t(captured, of_tolerance, "sliding speed at the slip-to-stick transition, in space"), &
-              floor_t(contact_lever, of_contact, "lever arm of spin without friction torque, in space, over the penetration"), &
-              floor_t(torn, of_speed, "drift speed of a sticking contact at which sticking ends"), &
-              floor_t(min_band, of_speed, "tolerated speed of slip against its direction, after stick-slip chatter, initial"), &
-              floor_t(widest_band, of_speed, &
+      list = [floor_t(gentle, of_contact, for_contacts, "minimum impact speed in damping terms, over sqrt(F_N penetration/m)"), &
+              floor_t(remembered, of_speed, for_all, "minimum speed that velocity errors are relative to, in slow motion"), &
+              floor_t(late, of_run, for_all, "minimum speed that velocity errors are relative to, from rest"), &
+              floor_t(idle_part, of_run, for_all, "characteristic speed of a mechanism that never moves"), &
+              floor_t(min_stabilisation, of_pace, for_adaptive, "minimum gain of stabilise = baumgarte_adaptive"), &
+              floor_t(at_rest, of_speed, for_sticking, "negligible sliding speed, at onset and where drivers prescribe it"), &
+              floor_t(standstill, of_speed, for_sticking, "sliding speed at the slip-to-stick transition"), &
+              floor_t(captured, of_tolerance, for_sticking, "sliding speed at the slip-to-stick transition, in space"), &
+              floor_t(contact_lever, of_contact, for_contacts, &
+                      "lever arm of spin without friction torque, in space, over the penetration"), &
+              floor_t(torn, of_speed, for_sticking, "drift speed of a sticking contact at which sticking ends"), &
+              floor_t(min_band, of_speed, for_sticking, &
+                      "tolerated speed of slip against its direction, after stick-slip chatter, initial"), &
+              floor_t(widest_band, of_speed, for_sticking, &
                       "tolerated speed of slip against its direction, final; in space also speed of slow slip"), &
-              floor_t(settling, of_pace, &
+              floor_t(settling, of_pace, for_sticking, &
                       "decay rate of residual sliding while sticking; in space at least sqrt(F_N/(penetration m))"), &
-              floor_t(chatter_time, of_contact, &
+              floor_t(chatter_time, of_contact, for_sticking, &
                       "stick-slip interval that counts as chatter, over sqrt(penetration m/F_N)"), &
-              floor_t(look_ahead, of_step, "look-ahead time for the motion that drivers give a contact at rest"), &
-              floor_t(no_acceleration, of_acceleration, "negligible sliding acceleration"), &
-              floor_t(min_mobility, of_mobility, "mobility of a contact that counts as immovable"), &
-              floor_t(shortest_difference, of_time, "time difference for the rates of event functions")]
+              floor_t(look_ahead, of_step, for_sticking, "look-ahead time for the motion that drivers give a contact at rest"), &
+              floor_t(no_acceleration, of_acceleration, for_sticking, "negligible sliding acceleration"), &
+              floor_t(min_mobility, of_mobility, for_sticking, "mobility of a contact that counts as immovable"), &
+              floor_t(shortest_difference, of_time, for_contacts, "time difference for the rates of event functions")]
    end function all_floors
 
 end module floors

@@ -18,6 +18,7 @@ module expression_compile
    use expression_words, only: parse_word
    use kind_info, only: dim_none, dim_t, dim_time, same_dimension
    use kinds, only: wp
+   use numbers, only: number_length
    implicit none (type, external)
    private
    public :: channel_finder_t, compile_expression, dimension_agrees, evaluate_safely, fault_t, function_names, is_reserved
@@ -135,7 +136,7 @@ contains
 
       if (.not. same_dimension(exponent%dimension, dim_none)) then
          call fail(parser, exponent%first, exponent%last, "an exponent must be dimensionless, got " &
-                 & //dimension_name(exponent%dimension))
+                 & //dimension_name(exponent%dimension), power_with_unit(parser%source, base, exponent))
       else if (exponent%is_constant) then
          call raise_to_constant(parser, base, exponent)
       else if (same_dimension(base%dimension, dim_none)) then
@@ -145,6 +146,23 @@ contains
          call fail(parser, base%first, base%last, "a variable exponent needs a dimensionless base")
       end if
    end subroutine raise
+
+   !> How to give a power of a number a unit; blank if it is not what the deck tried.
+   pure function power_with_unit(source, base, exponent) result(help)
+      character(*), intent(in) :: source      !! the expression
+      type(term_t), intent(in) :: base        !! the base
+      type(term_t), intent(in) :: exponent    !! the exponent, which has a dimension
+      character(:), allocatable :: help       !! as `write 10^4.5 * 1 N/m^1.5`
+
+      integer :: at, n
+
+      help = ""
+      at = scan(source(:exponent%first), "^", back=.true.)
+      n = number_length(source(exponent%first:exponent%last))
+      if (n == 0 .or. .not. same_dimension(base%dimension, dim_none)) return
+      help = "a unit after an exponent belongs to the exponent; write "//source(base%first:at)// &
+             source(exponent%first:exponent%first + n - 1)//" * 1 "//trim(adjustl(source(exponent%first + n:exponent%last)))
+   end function power_with_unit
 
    !> A power with a constant exponent, which is evaluated and taken from the program.
    subroutine raise_to_constant(parser, base, exponent)

@@ -8,7 +8,7 @@ module expression_leaves
    use expression_symbols, only: symbol_function, symbol_number, symbol_word
    use kinds, only: pi, wp
    use numbers, only: number_length
-   use text, only: to_text
+   use text, only: join, to_text
    use units, only: exponent_length, largest_quantity, parse_unit, read_quantity, unit_t
    implicit none (type, external)
    private
@@ -45,11 +45,29 @@ contains
       else if (function_operation(name) > 0) then
          call fail(parser, term%first, last, "the function '"//name//"' needs its argument in parentheses")
       else
-         call fail(parser, term%first, last, "unknown parameter '"//name//"'", &
-                 & suggestion(name, parser%symbols%names_of(functions=.false.), &
-                 & "define the parameter in [parameters], before its use"))
+         call refuse_name(parser, name, term%first, last)
       end if
    end subroutine parse_name
+
+   !> A name that nothing has: the variables of the place, or the nearest parameter.
+   subroutine refuse_name(parser, name, first, last)
+      class(parser_t), intent(inout) :: parser !! the reader, after the name
+      character(*), intent(in) :: name         !! the name
+      integer, intent(in) :: first             !! its first character
+      integer, intent(in) :: last              !! its last character
+
+      character(:), allocatable :: message, otherwise, variables
+
+      message = "unknown parameter '"//name//"'"
+      otherwise = "define the parameter in [parameters], before its use"
+      variables = join(parser%variables, ", ")
+      if (len(variables) > 0 .and. variables /= "t") then
+         message = "unknown variable or parameter '"//name//"'"
+         otherwise = "variables here: "//variables//"; or "//otherwise
+      end if
+      call fail(parser, first, last, message, suggestion(name, [parser%symbols%names_of(functions=.false.), parser%variables], &
+                                                         otherwise))
+   end subroutine refuse_name
 
    !> The value of a parameter.
    subroutine use_symbol(parser, i, term, last)

@@ -60,7 +60,8 @@ module units
 
    character(*), parameter :: spelt_out = "sec:s second:s seconds:s meter:m metre:m newton:N degree:deg degrees:deg " &
       & //"radian:rad radians:rad celsius:degC C:degC kelvin:K kilogram:kg gram:g minute:min hour:h hr:h turn:rev " &
-      & //"turns:rev revolution:rev pascal:Pa joule:J watt:W hertz:Hz msec:ms poise:P micron:um"
+      & //"turns:rev revolution:rev pascal:Pa joule:J watt:W hertz:Hz msec:ms poise:P micron:um " &
+      & //"rps:rev/s rads:rad/s degs:deg/s mps:m/s mms:mm/s kmh:km/h kph:km/h"
 
 contains
 
@@ -250,6 +251,7 @@ contains
    end subroutine find_unit
 
    !> The message about an unknown unit, with the nearest one that is known; of units equally near, one that fits its place.
+   !> Length: one rule after the other, each of which can be the answer.
    recursive function unknown_unit(name, before, behind, wanted) result(message)
       character(*), intent(in) :: name                 !! as written
       character(*), intent(in), optional :: before     !! what stands before it
@@ -279,14 +281,18 @@ contains
          message = message//": did you mean '"//spelt_out(k:k + scan(spelt_out(k:)//" ", " ") - 2)//"'?"
          return
       end if
+      do i = 2, len(name)  ! a letter typed twice, as in rpmm
+         if (name(i:i) /= name(i - 1:i - 1)) cycle
+         call find_unit(name(1:i - 1)//name(i + 1:), unit, has_first)
+         if (.not. has_first) cycle
+         message = message//": did you mean '"//name(1:i - 1)//name(i + 1:)//"'?"
+         return
+      end do
       do i = 1, len(name) - 1
          call find_unit(name(1:i), left, has_first)
          call find_unit(name(i + 1:), right, has_second)
          if (.not. (has_first .and. has_second)) cycle
-         if (same_dimension(left%dimension, right%dimension)) then  ! too many letters, as in mmm
-            message = message//": did you mean '"//name(i + 1:)//"'?"
-            return
-         else if (name(1:i) /= "K") then
+         if (.not. same_dimension(left%dimension, right%dimension) .and. name(1:i) /= "K") then
             message = message//": did you mean '"//name(1:i)//"."//name(i + 1:)//"'?"
             return
          end if

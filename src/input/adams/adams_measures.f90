@@ -40,7 +40,8 @@ contains
       do k = 1, tree%n       ! before any row goes to the deck
          if (tree%nodes(k)%kind /= node_call) cycle
          if (.not. is_measure(tree%nodes(k)%name)) cycle
-         if (index(measures, " "//tree%nodes(k)%name//" ") == 0) message = tree%nodes(k)%name//" is not supported"
+         if (index(measures, " "//tree%nodes(k)%name//" ") == 0) message = "function "//tree%nodes(k)%name// &
+            " is not supported (measures of motion that are:"//trim(measures)//")"
          if (message /= "") return
       end do
       do k = 1, tree%n

@@ -282,23 +282,39 @@ contains
       call add_joints(scene, directory)
    end subroutine list_names
 
-   !> Names and kinds of all joints and drivers.
+   !> Names and kinds of all joints and drivers, joints with clearance last.
    subroutine add_joints(scene, directory)
       type(scene_t), intent(in) :: scene              !! tables
       type(directory_t), intent(inout) :: directory   !! joints are set
 
-      integer :: i, k, n
+      integer :: k, n
 
       n = sum([(size(scene%joints(k)%items), k=1, n_joint_kinds())])
+      n = n + sum([(size(scene%clearances(k)%items), k=1, n_clearance_kinds())])
       allocate (directory%joints(n), directory%kinds(n))
       n = 0
       do k = 1, n_joint_kinds()
-         do i = 1, size(scene%joints(k)%items)
-            n = n + 1
-            directory%joints(n)%s = scene%joints(k)%items(i)%name
-            directory%kinds(n)%s = scene%joints(k)%info%name
-         end do
+         call add_table(scene%joints(k))
       end do
+      do k = 1, n_clearance_kinds()
+         call add_table(scene%clearances(k))
+      end do
+
+   contains
+
+      !> Those of one kind.
+      subroutine add_table(table)
+         type(table_t), intent(in) :: table   !! the kind and its rows
+
+         integer :: i
+
+         do i = 1, size(table%items)
+            n = n + 1
+            directory%joints(n)%s = table%items(i)%name
+            directory%kinds(n)%s = table%info%name
+         end do
+      end subroutine add_table
+
    end subroutine add_joints
 
    !> Look up the references of all tables.

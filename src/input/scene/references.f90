@@ -15,7 +15,8 @@ module references
       type(text_t), allocatable :: bodies(:)      !! bodies, without the ground
       type(text_t), allocatable :: points(:)      !! points
       type(text_t), allocatable :: materials(:)   !! materials
-      type(text_t), allocatable :: joints(:)      !! joints and drivers, kind by kind in the order of the registry
+      type(text_t), allocatable :: joints(:)      !! joints and drivers, kind by kind in the order of the registry, then joints
+                                                  !! with clearance, which other rows do not refer to
       type(text_t), allocatable :: kinds(:)       !! their kinds
       type(text_t), allocatable :: laws(:)        !! normal laws
       type(text_t), allocatable :: frictions(:)   !! friction laws
@@ -127,7 +128,7 @@ contains
          character(*), intent(in) :: many        !! what they are called together
          logical, intent(in) :: with_ground      !! whether `ground` is one of them
 
-         character(:), allocatable :: hint, near, word
+         character(:), allocatable :: hint, kind, near, word
 
          items(k)%values(c)%index = 0
          if (.not. allocated(items(k)%values(c)%text)) return
@@ -137,6 +138,12 @@ contains
          if (word == "none" .and. has_none(info%columns(c))) return
          items(k)%values(c)%index = table%find(word)
          if (items(k)%values(c)%index > 0) return
+         kind = kind_of(directory, word)
+         if (one == "joint" .and. kind /= "") then
+            call diagnostics%add(items(k)%values(c)%location, "'"//word//"' in column "//info%columns(c)%name//" of "// &
+                                 info%name//" is a "//kind, "this column takes "//many, hint_of_kind(kind, many))
+            return
+         end if
          near = nearest_word(word, names)
          hint = ""
          if (near /= "") hint = "did you mean '"//near//"'? "
@@ -147,6 +154,32 @@ contains
       end subroutine look_up
 
    end subroutine resolve
+
+   !> Kind of the first joint, driver or joint with clearance of some name; blank: there is none.
+   function kind_of(directory, name) result(kind)
+      type(directory_t), intent(in) :: directory   !! names known
+      character(*), intent(in) :: name             !! any name
+      character(:), allocatable :: kind            !! as `joint.translational`
+
+      integer :: k
+
+      kind = ""
+      do k = 1, size(directory%joints)
+         if (directory%joints(k)%s == name) kind = directory%kinds(k)%s
+         if (kind /= "") return
+      end do
+   end function kind_of
+
+   !> What to do about a joint of another kind.
+   pure function hint_of_kind(kind, many) result(hint)
+      character(*), intent(in) :: kind     !! of the joint that the deck names
+      character(*), intent(in) :: many     !! what joints that are allowed are called
+      character(:), allocatable :: hint    !! line of help
+
+      hint = "name one of the "//many//" of the deck; 'gudgeon list' shows the tables for other joints"
+      if (index(kind, "clearance.") == 1) hint = "a joint with clearance leaves its bodies free, so it cannot be driven: drive "// &
+         "the body at an ideal joint, load it by force.torque or force.point, or use an ideal joint here"
+   end function hint_of_kind
 
    !> Whether a kind is one of some.
    pure logical function is_among(kind, kinds)

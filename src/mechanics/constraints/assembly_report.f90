@@ -3,13 +3,21 @@ module assembly_report
    use kinds, only: wp
    implicit none (type, external)
    private
-   public :: assembly_t
+   public :: assembly_t, largest_t
+
+   !> A maximum over the bodies.
+   type :: largest_t
+      real(wp) :: value = 0.0_wp   !! the maximum [any]
+      integer :: body = 0          !! the body it belongs to; 0: none
+   end type largest_t
 
    !> How an assembly went.
    type :: assembly_t
       integer :: rank = 0                        !! independent constraint rows
       integer :: corrections = 0                 !! Newton corrections made
       real(wp) :: moved = 0.0_wp                 !! maximum change of a coordinate, angles times the size of the bodies [m]
+      type(largest_t) :: shift                   !! maximum displacement of a centre of mass [m]
+      type(largest_t) :: turn                    !! maximum rotation of a body [rad]
       real(wp) :: residual = 0.0_wp              !! maximum violation left [m or rad]
       real(wp) :: rate_changed = 0.0_wp          !! maximum change of a given velocity, angles times the size of the bodies [m/s]
       integer :: changed_body = 0                !! the body it belongs to

@@ -176,7 +176,7 @@ contains
       character(:), allocatable :: words                   !! for `gudgeon explain`
 
       words = "valid for penetration up to "//real_text(1.0e3_wp*parameters(3), 6)//" mm"
-      if (self%hysteresis > 0.0_wp) words = words//", damping factor "//real_text(self%hysteresis, 6)
+      if (self%hysteresis > 0.0_wp) words = words//", damping factor h = "//real_text(self%hysteresis, 6)//" in 1 + h rate/v0"
    end function family_description
 
    !> Elastic force, its derivative and its potential; zero where delta is not positive.

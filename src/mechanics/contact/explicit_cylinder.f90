@@ -156,7 +156,7 @@ contains
       if (parameters(parameter_deepest) < huge(1.0_wp)) then
          words = "valid for penetration up to "//real_text(1.0e3_wp*parameters(parameter_deepest), 6)//" mm"
       end if
-      if (self%hysteresis > 0.0_wp) words = words//", damping factor "//real_text(self%hysteresis, 6)
+      if (self%hysteresis > 0.0_wp) words = words//", damping factor h = "//real_text(self%hysteresis, 6)//" in 1 + h rate/v0"
    end function explicit_description
 
 end module explicit_cylinder

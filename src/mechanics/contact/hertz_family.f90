@@ -134,7 +134,7 @@ contains
       character(:), allocatable :: words                   !! for `gudgeon explain`
 
       words = "stiffness "//real_text(parameters(1), 6)//" N/m^1.5"
-      if (self%hertz_damping > 0.0_wp) words = words//", damping factor "//real_text(self%hertz_damping, 6)
+      if (self%hertz_damping > 0.0_wp) words = words//", damping factor h = "//real_text(self%hertz_damping, 6)//" in 1 + h rate/v0"
    end function family_description
 
    include "hertz_force.inc"

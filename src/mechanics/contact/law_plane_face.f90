@@ -123,7 +123,7 @@ contains
       character(:), allocatable :: words                   !! for `gudgeon explain`
 
       words = "stiffness "//real_text(parameters(1), 6)//" N/m"
-      if (self%hysteresis > 0.0_wp) words = words//", damping factor "//real_text(self%hysteresis, 6)
+      if (self%hysteresis > 0.0_wp) words = words//", damping factor h = "//real_text(self%hysteresis, 6)//" in 1 + h rate/v0"
    end function plane_face_description
 
 end module law_plane_face

@@ -24,6 +24,7 @@ contains
          if (.not. life%is_saved) return
          if (asked_by() /= 0 .or. self%last_time >= life%stop_at) then
             requested_action = action_stop
+            self%stopped_by = "a signal"
             return
          end if
          pace%n_step = pace%n_step + 1
@@ -53,6 +54,7 @@ contains
          left = nint(1000.0_wp*life%walltime, i8) - (now - life%begun)
          if (life%walltime > 0.0_wp .and. left <= gap + 2*pace%cost + min(second, nint(50.0_wp*life%walltime, i8))) then
             requested_action = action_stop
+            self%stopped_by = "the time limit of --walltime"
          else if (can_save .and. now - pace%saved_at >= ms_between) then
             requested_action = action_checkpoint
          end if

@@ -32,7 +32,7 @@ contains
       call lines%line("compared   "//counted(size(study%tol_sweeps), "setting", "settings")//" on a motion of "// &
                       real_text(study%end, 6)// &
                       " s"//trim(merge(" with a stop condition", "                      ", study%is_stopped))//", at "// &
-                      to_text(study%output_times)//" instants"//window_text(study))
+                      counted(study%output_times, "output time", "output times")//window_text(study))
       call lines%line("machine    "//study%machine%processor//"; "//study%machine%compiler)
       call lines%line("           "//flags_of(study%machine%flags))
       call add_reference(lines, study)
@@ -204,13 +204,21 @@ contains
       if (growth%is_exponential) then
          words = "neighbouring trajectories diverge as exp("//real_text(growth%rate, 4)//" t/s), +-"// &
                  real_text(growth%rate_interval, 2)//", fitted from "//real_text(growth%fit_begin, 3)//" to "// &
-                 real_text(growth%fit_end, 3)//" s by "//to_text(growth%n_twin)//" twins"
+                 real_text(growth%fit_end, 3)//" s by "//trajectories(growth)
       else
          words = "neighbouring trajectories diverge as a power of time, t^"//rounded(growth%power)//" +-"// &
-                 rounded(growth%power_interval)//", by "//to_text(growth%n_twin)//" twins: "// &
+                 rounded(growth%power_interval)//", by "//trajectories(growth)//": "// &
                  trim(merge("regular motion               ", "faster than regular motion   ", growth%is_regular))
       end if
    end function growth_words
+
+   !> How many neighbouring trajectories a growth was found by.
+   function trajectories(growth) result(words)
+      type(growth_t), intent(in) :: growth        !! what reference runs report
+      character(:), allocatable :: words          !! as `3 neighbouring trajectories`
+
+      words = counted(growth%n_twin, "neighbouring trajectory", "neighbouring trajectories")
+   end function trajectories
 
    !> An exponent with a digit behind the point.
    function rounded(x) result(word)

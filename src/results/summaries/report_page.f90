@@ -45,14 +45,8 @@ contains
       call lines%line("<p class=""status "//escaped(summary%status, .true.)//""">"//escaped(headline(summary), .true.)//"</p>")
       if (len_trim(summary%message) > 0) call lines%line("<p>"//escaped(summary%message, .true.)//"</p>")
       if (len_trim(summary%equilibrium) > 0) call lines%line("<p>equilibrium: "//escaped(summary%equilibrium, .true.)//"</p>")
-      if (size(outcome%warnings) > 0) then
-         call head(lines, "warnings", "Warnings")
-         call lines%line("<ul>")
-         do k = 1, size(outcome%warnings)
-            call lines%line("<li>"//escaped(outcome%warnings(k)%s, .true.)//"</li>")
-         end do
-         call lines%line("</ul>")
-      end if
+      call add_list(lines, "warnings", "Warnings", outcome%warnings)
+      call add_list(lines, "notes", "Unusual values of the deck", plan%notes)
       call add_figures(lines, plan%directory, outcome%pictures, figures)
       do k = 1, size(outcome%tables)
          call add_section(lines, outcome%tables(k))
@@ -70,6 +64,24 @@ contains
       call lines%line("</pre></details></body></html>")
       page = lines%get()
    end function report_text
+
+   !> A list with its heading, if there is something on it.
+   subroutine add_list(lines, anchor, title, list)
+      type(buffer_t), intent(inout) :: lines       !! the page
+      character(*), intent(in) :: anchor           !! of the heading
+      character(*), intent(in) :: title            !! heading
+      type(text_t), intent(in) :: list(:)          !! (n) what is on it
+
+      integer :: k
+
+      if (size(list) == 0) return
+      call head(lines, anchor, title)
+      call lines%line("<ul>")
+      do k = 1, size(list)
+         call lines%line("<li>"//escaped(list(k)%s, .true.)//"</li>")
+      end do
+      call lines%line("</ul>")
+   end subroutine add_list
 
    !> What the run is called.
    function name_of(plan) result(name)

@@ -15,7 +15,7 @@ module summary_writer
    use result_table, only: result_table_t
    use statistics, only: number_t
    use summary_table, only: relative_residual, seconds_per_rhs
-   use text, only: real_text, text_t, to_text
+   use text, only: counted, real_text, text_t, to_text
    use text_buffer, only: buffer_t
    use text_of_table, only: add_table
    use text_table, only: one_line
@@ -90,14 +90,20 @@ contains
       call lines%line("")
       call lines%line("output     "//plan%directory//"/")
       if (plan%with%hdf5) call lines%line("           run.h5")
-      call lines%line("           "//to_text(size(outcome%files))//" time histories (.dat), events.dat")
-      if (plan%with%csv) call lines%line("           "//to_text(size(outcome%csv))//" comma-separated files (.csv)")
+      if (plan%with%motion) call lines%line("           motion.vtkhdf")
+      call lines%line("           "//counted(size(outcome%files), "time history", "time histories")//" (.dat), events.dat")
+      if (plan%with%csv) then
+         call lines%line("           "//counted(size(outcome%csv), "comma-separated file", "comma-separated files")//" (.csv)")
+      end if
       do k = 1, size(outcome%pictures)
          call lines%line("           "//outcome%pictures(k)%s)
       end do
       if (plan%with%report) call lines%line("           report.html")
       do k = 1, size(outcome%warnings)
          call lines%line("warning: "//outcome%warnings(k)%s)
+      end do
+      do k = 1, size(plan%notes)
+         call lines%line("note: "//plan%notes(k)%s)
       end do
       text = lines%get()
    end function summary_lines
@@ -179,6 +185,7 @@ contains
       if (plan%with%csv) call json%put_list("csv", outcome%csv)
       call json%put_list("figures", outcome%pictures)
       call json%put_list("warnings", outcome%warnings)
+      call json%put_list("notes", plan%notes)
       text = json%get()//new_line("a")
    end function summary_json
 

@@ -80,6 +80,7 @@ module output_plan
       real(wp) :: moved = 0.0_wp                       !! how far assembly moved a body from where the deck puts it [m]
       type(text_t), allocatable :: channels(:)         !! (n) words of the deck's `channels`; none: everything
       type(text_t), allocatable :: warnings(:)         !! (n) what was noticed before the run
+      type(text_t), allocatable :: notes(:)            !! (m) values of the deck that are possible but unusual
       type(statistics_plan_t) :: statistics            !! numbers of the motion after its transient
       type(accuracy_t) :: accuracy                     !! what is known of the errors, if an accuracy was asked for
       type(looks_t) :: looks                           !! what drawings of the mechanism need
@@ -119,6 +120,7 @@ contains
       call fill_list(self%origin%parameter_texts)
       call fill_list(self%channels)
       call fill_list(self%warnings)
+      call fill_list(self%notes)
    end subroutine complete_plan
 
    !> A string if there is none.

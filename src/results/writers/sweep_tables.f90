@@ -4,10 +4,10 @@ module sweep_tables
    use result_table, only: in_hdf5, in_text_files, result_table_t
    use swept, only: sweep_t
    use sweep_results, only: case_numbers, n_spread, spread_names, sweep_results_t
-   use text, only: join, text_t
+   use text, only: append_text, counted, join, text_t
    implicit none (type, external)
    private
-   public :: table_of_cases, table_of_runs
+   public :: shown_cases, table_of_cases, table_of_runs
 
    character(*), parameter :: spread_help(n_spread) = [character(40) :: "mean over the runs of a case", &
       "standard deviation over these runs", "minimum of these runs", "maximum of these runs"]
@@ -77,6 +77,46 @@ contains
       call table%put("numbers", join([units], " "), "numbers over the runs of the case", [spreads], &
                      shape=shape(names), parts=[names], formats=in_text_files)
    end function table_of_cases
+
+   !> The cases for people: parameters as the deck writes them, and a few numbers, the means over the runs of a case.
+   function shown_cases(results, preferred) result(table)
+      type(sweep_results_t), intent(in) :: results      !! the runs
+      character(*), intent(in) :: preferred             !! names of numbers to show, each between commas; none: the first ones
+      type(result_table_t) :: table                     !! a row for each case
+
+      integer, parameter :: most_rows = 20     ! cases shown
+      integer, parameter :: most_columns = 5   ! numbers shown
+      integer, allocatable :: at(:), chosen(:)
+      real(wp) :: mean(results%sweep%n_cases()), spread(n_spread)
+      integer :: done(results%sweep%n_cases()), i, k, n_with_number
+
+      call table%start("cases", "", size(done), title="case", elsewhere="cases.csv")
+      table%most = most_rows
+      call table%put("case", "1", "", integers=[(k, k=1, size(done))], heading="case")
+      if (allocated(results%sweep%parameters)) then
+         do i = 1, size(results%sweep%parameters)
+            associate (parameter => results%sweep%parameters(i))
+               at = [(results%sweep%value_number(i, k), k=1, size(done))]
+               call table%put(parameter%name, "1", "", texts=parameter%texts(at), heading=parameter%name)
+            end associate
+         end do
+      end if
+      done = [(count(results%runs((k - 1)*results%n_member + 1:k*results%n_member)%exit_code == 0), k=1, size(done))]
+      if (results%n_member > 1 .or. any(done == 0)) call table%put("runs", "1", "", integers=done, heading="runs done")
+      chosen = pack([(i, i=1, size(results%names))], &
+                    [(index(preferred, ","//results%names(i)%s//",") > 0, i=1, size(results%names))])
+      if (size(chosen) == 0) chosen = [(i, i=1, size(results%names))]
+      do i = 1, min(size(chosen), most_columns)
+         do k = 1, size(done)
+            call case_numbers(results, k, chosen(i), n_with_number, spread)
+            mean(k) = spread(1)
+         end do
+         call table%put(results%names(chosen(i))%s, results%units(chosen(i))%s, "", mean, heading=results%names(chosen(i))%s)
+      end do
+      if (size(chosen) > most_columns .or. size(results%names) > size(chosen)) then
+         call append_text(table%notes, counted(size(results%names), "number", "numbers")//" of each case in cases.csv")
+      end if
+   end function shown_cases
 
    !> Add the parameters, numbers in SI.
    subroutine put_parameters(table, sweep, cases)
