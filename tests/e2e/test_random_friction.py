@@ -4,6 +4,7 @@ And scenes whose first contact begins without sliding, where the normal force is
 more than round-off says.
 """
 
+import re
 import sys
 
 import numpy as np
@@ -11,7 +12,7 @@ import pytest
 from support import ROOT, Run, call, scratch, written
 
 sys.path.insert(0, str(ROOT / "tests" / "stability"))
-from friction_runs import GIVEN, differences, disagreement, mistakes_of, run, work_within  # noqa: E402
+from friction_runs import GIVEN, differences, disagreement, faults_of, mistakes_of, run, work_within  # noqa: E402
 from random_friction import KINDS, METHODS, draw  # noqa: E402
 
 EACH = 2  # scenes of a kind
@@ -19,6 +20,7 @@ ENDLESS = (  # slow slip in space against its direction, and slip at a vanishing
     ("block", 38, "radau"), ("disc", 28, "bdf"), ("disc", 75, "adams"), ("bushing", 40, "bdf"), ("block", 92, "bdf"),
     ("block", 38, "bdf"), ("socket", 43, "dop853"))
 REGULAR = [("disc", seed) for seed in (12, 18, 65, 67, 79, 83, 98)] + [("socket", 25), ("socket", 99)]  # few contacts
+TOGETHER = (3, 17, 96)  # blocks whose corners on one face begin to slip together
 CREEPING = (("block", 11), ("block", 18))  # corners on one face slide against one another as the block turns
 HELD = (20, 24, 28, 43, 53, 81, 98)  # sockets: two contacts stick, the third one is at its limit and next to rest
 
@@ -125,6 +127,32 @@ def test_no_events_or_steps_without_end(gudgeon, kind, seed, method):
     """After a decision no event function of a slip is beyond its end."""
     mistakes = mistakes_of(gudgeon, draw(kind, seed), method, scratch())
     assert not mistakes, "; ".join(mistakes)
+
+
+@pytest.mark.parametrize("law", ["constant", "constant_dry"])
+@pytest.mark.parametrize("method", ["verner", "bdf"])
+def test_constant_friction_where_it_holds_the_normal_force_at_zero(gudgeon, method, law):
+    """Friction of one pin presses the surfaces together, and without it they part: a force that jumps there makes steps without end."""
+    scene, directory = draw("pin", 0), scratch()
+    result = run(gudgeon, scene, method, law, directory)
+    assert not isinstance(result, str), result
+    assert not faults_of(result, scene, method, lambda: run(gudgeon, scene, method, "smooth", directory))
+
+
+@pytest.mark.parametrize("seed", TOGETHER)
+def test_round_off_does_not_choose_what_slips(gudgeon, seed):
+    """Two corners on one face share friction; with a mass that differs in its last digits the same contacts slip and stick, in the same order."""
+    scene = draw("block", seed)
+    mass = re.search(r"^b (\S+)", scene.text, re.MULTILINE)[1]
+    orders = []
+    for k in range(4):
+        text = scene.text.replace(f"\nb {mass} ", f"\nb {float(mass)*(1.0 + 1e-13*k)!r} ")
+        directory = scratch()
+        call(gudgeon, "run", written(directory, text), "--method", "verner", "--out", directory / "out", "--quiet")
+        rows = (line.split() for line in (directory / "out" / "events.dat").read_text().splitlines() if line.strip() and line[0] != "#")
+        orders.append([(row[1], *row[3:6]) for row in rows])
+    assert any(row[0] == "slip" for row in orders[0])
+    assert orders[1:] == orders[:1]*3
 
 
 @pytest.mark.parametrize("kind", KINDS)

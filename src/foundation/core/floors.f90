@@ -42,7 +42,7 @@ module floors
    real(wp), parameter :: at_rest = 1.0e-9_wp             !! sliding velocity that is none, of the speed [1]
    real(wp), parameter :: standstill = 1.0e-15_wp         !! sliding velocity at which slip ends, of the speed [1]
    real(wp), parameter :: captured = 2.0_wp               !! in space: the same, of the tolerance times the speed [1]
-   real(wp), parameter :: contact_lever = 2.0_wp          !! in space: lever within a contact, of its penetration [1]
+   real(wp), parameter :: contact_lever = 2.0_wp          !! lever within a contact, of its penetration [1]
    real(wp), parameter :: torn = 1.0e-4_wp                !! sliding velocity that ends sticking, of the speed [1]
    real(wp), parameter :: min_band = 1.0e-12_wp         !! first velocity the wrong way after a chatter, of the speed [1]
    real(wp), parameter :: widest_band = 1.0e-5_wp         !! last one; in space also slip that is slow, of the speed [1]
@@ -75,7 +75,7 @@ contains
               floor_t(standstill, of_speed, for_sticking, "sliding speed at the slip-to-stick transition"), &
               floor_t(captured, of_tolerance, for_sticking, "sliding speed at the slip-to-stick transition, in space"), &
               floor_t(contact_lever, of_contact, for_contacts, &
-                      "lever arm of spin without friction torque, in space, over the penetration"), &
+                      "lever arm of a turn that friction does not hold, over the penetration"), &
               floor_t(torn, of_speed, for_sticking, "drift speed of a sticking contact at which sticking ends"), &
               floor_t(min_band, of_speed, for_sticking, &
                       "tolerated speed of slip against its direction, after stick-slip chatter, initial"), &

@@ -178,7 +178,6 @@ contains
 
       associate (filter => self%filter)
          filter%t = self%step%t0
-         filter%size = state_size(self)
          filter%n_evaluation = 0
          filter%scale(:) = self%scale(:self%n)
          filter%y(:) = self%step%y0
@@ -197,24 +196,11 @@ contains
          self%stage%h = h
          self%stage%n_evaluation = 0
          self%stage%scale(:) = self%scale(:n)
-         self%stage%size = state_size(self)
          self%weight(:n) = self%scale(:n)
          self%weight(n + 1:2*n) = self%scale(:n)
          self%weight(2*n + 1:) = self%scale(:n)
       end associate
    end subroutine begin_stages
-
-   !> The state at the start over the scales, at least one.
-   pure real(wp) function state_size(self)
-      class(radau_t), intent(in) :: self   !! the integrator, scales set
-
-      integer :: i
-
-      state_size = 1.0_wp
-      do i = 1, self%n
-         state_size = max(state_size, abs(self%step%y0(i))/self%scale(i))
-      end do
-   end function state_size
 
    !> The right-hand side at the stages.
    module procedure evaluate_stages

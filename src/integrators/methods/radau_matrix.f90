@@ -18,7 +18,7 @@
 !> Source: E. Hairer and G. Wanner, Solving Ordinary Differential Equations II, 2nd ed. (1996), section IV.8.
 !> Limits: `most_columns` directions, `most_rates` rates; else `is_known` stays false.
 module radau_matrix
-   use kinds, only: eps, wp
+   use kinds, only: wp
    use archive, only: archive_t
    use ode_system, only: ode_system_t
    use radau_products, only: filter_product_t
@@ -225,7 +225,7 @@ contains
          self%local(:) = 0.0_wp
          self%local(i) = 1.0_wp
          call system%from_local(difference%y, self%local, self%change)
-         step = sqrt(eps)*difference%size/norm2(self%change/difference%scale)
+         step = difference%distance(difference%y, self%change)
          self%moved(:, 1) = difference%y
          self%moved(:difference%n, 1) = difference%y(:difference%n) + step*self%change
          call system%evaluate_unheld(difference%t, self%moved(:, 1), difference%rate, difference%status)

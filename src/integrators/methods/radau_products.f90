@@ -29,12 +29,12 @@ module radau_products
       integer :: n_evaluation = 0                       !! evaluations made
       real(wp) :: t = 0.0_wp                            !! start of the step [s]
       real(wp) :: h = 0.0_wp                            !! its length [s]
-      real(wp) :: size = 1.0_wp                         !! of the state over the scales, at least one [1]
       real(wp), allocatable :: scale(:)                 !! (n) error scales [any]
       real(wp), allocatable :: moved(:)                 !! (all) workspace [any]
       real(wp), allocatable :: rate(:)                  !! (all) workspace [any]
    contains
       procedure :: derivative
+      procedure :: distance
    end type difference_t
 
    !> Of Newton's equations, for (v_1, v_2, v_3) in one row.
@@ -88,17 +88,14 @@ contains
       real(wp), intent(in) :: v(:)                    !! (n) direction [any]
       real(wp), intent(out) :: jv(:)                  !! (n) J v [any]
 
-      real(wp) :: length, step
+      real(wp) :: step
       integer :: i, n
 
       n = self%n
-      length = 0.0_wp
-      do i = 1, n
-         length = length + (v(i)/self%scale(i))**2
-      end do
       jv = 0.0_wp
-      if (self%status /= 0 .or. length <= 0.0_wp) return
-      step = sqrt(eps/length)*self%size
+      if (self%status /= 0) return
+      step = self%distance(y, v)
+      if (step <= 0.0_wp) return
       self%moved(:) = y
       do i = 1, n
          self%moved(i) = y(i) + step*v(i)
@@ -109,6 +106,32 @@ contains
          jv(i) = (self%rate(i) - f(i))/step
       end do
    end subroutine derivative
+
+   !> Factor of a direction for a difference: sqrt(epsilon) s over its norm in the scales, with s the maximum of the entries over
+   !> their scales, at least one. Where films act, entries that the difference does not move do not count: the velocity that
+   !> squeezes a film may be the small difference of large ones, and the angle of a shaft that turns on and on must not make
+   !> differences longer than it. Elsewhere they count: a long difference is a secant across the onset of a contact.
+   pure real(wp) function distance(self, y, v) result(step)
+      class(difference_t), intent(in) :: self         !! the product
+      real(wp), intent(in) :: y(:)                    !! (all) state [any]
+      real(wp), intent(in) :: v(:)                    !! (n) direction [any]
+
+      real(wp) :: size, unit
+      integer :: i
+
+      step = 0.0_wp
+      do i = 1, self%n
+         step = step + (v(i)/self%scale(i))**2
+      end do
+      if (step <= 0.0_wp) return
+      unit = sqrt(eps/step)
+      size = 1.0_wp
+      do i = 1, self%n
+         if (self%system%traits%has_films .and. .not. unit*abs(v(i)) > eps*abs(y(i))) cycle
+         size = max(size, abs(y(i))/self%scale(i))
+      end do
+      step = unit*size
+   end function distance
 
    !> P v.
    subroutine stage_apply(self, v, z)

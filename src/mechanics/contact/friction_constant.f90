@@ -1,17 +1,17 @@
 !> Friction of constant magnitude, whatever the normal force.
 !>
-!> F_T = c_c min(v/v1, 1) while there is a normal force
+!> F_T = min(c_c, mu_max F_N) min(v/v1, 1)
 !>
 !> Signs: against the sliding velocity. Source: Flores et al. (2008), eq. (3.12), after Dubowsky, Journal of Engineering for
 !> Industry 96 (1974), 317-323. As printed the force jumps from -c_c to c_c where the sliding turns; the ramp up to v1 is
-!> there so that an integration can pass that place. With v1 = 0, as printed, surfaces stick where that takes at most c_c, by
-!> located events as of `friction_coulomb`.
-!> Limits: no sticking with a ramp; the force jumps where a contact starts or ends, and where its normal force falls to zero; a
-!> jump that holds the motion makes steps without end.
+!> there so that an integration can pass that place. With v1 = 0, as printed, surfaces stick where that takes at most that force, by
+!> located events as of `friction_coulomb`. As printed the force jumps from 0 to c_c with the normal force; where a jump drives the
+!> contact back to F_N = 0 from both sides the equations have no solution. mu_max, a coefficient that no surfaces have, makes it
+!> continuous. Limits: no sticking with a ramp.
 module friction_constant
    use friction_law, only: friction_law_t, memory_slip
    use item, only: item_t
-   use kind_info, only: add_number, dim_force, dim_speed, kind_info_t
+   use kind_info, only: add_number, dim_force, dim_none, dim_speed, kind_info_t
    use kinds, only: wp
    implicit none (type, external)
    private
@@ -21,6 +21,7 @@ module friction_constant
    type, extends(friction_law_t) :: friction_constant_t
       real(wp) :: constant = 0.0_wp  !! c_c [N]
       real(wp) :: v1 = 0.0_wp        !! speed above which the force is full [m/s]
+      real(wp) :: max_coefficient = 0.0_wp  !! force over the normal force at most [1]
    contains
       procedure, nopass :: info => constant_info
       procedure :: prepare => constant_prepare
@@ -42,6 +43,9 @@ contains
       call add_number(info, "v1", dim_speed, "sliding speed of full friction, linear ramp below; 0: sticks, with stick-slip "// &
          "events", &
                       default="1 mm/s", lower=0.0_wp)
+      call add_number(info, "max_coefficient", dim_none, &
+                      "friction force over normal force, at most; friction falls with a normal force below force/max_coefficient", &
+                      default="100", lower=0.0_wp, open_lower=.true.)
    end function constant_info
 
    !> Take the parameters.
@@ -52,6 +56,7 @@ contains
       self%name = item%name
       self%constant = item%number("force")
       self%v1 = item%number("v1")
+      self%max_coefficient = item%number("max_coefficient")
       if (.not. self%v1 > 0.0_wp) self%memory = memory_slip
    end subroutine constant_prepare
 
@@ -73,7 +78,7 @@ contains
       integer :: k
 
       do k = 1, n
-         f(k) = merge(self%constant, 0.0_wp, normal_force(k) > 0.0_wp)
+         f(k) = min(self%constant, self%max_coefficient*max(normal_force(k), 0.0_wp))
          if (speed(k) < self%v1) f(k) = f(k)*(speed(k)/self%v1)
       end do
    end subroutine constant_force
@@ -83,7 +88,7 @@ contains
       class(friction_constant_t), intent(in) :: self  !! the law
       real(wp), intent(in) :: normal_force            !! normal force [N]
 
-      f = merge(self%constant, 0.0_wp, normal_force > 0.0_wp)
+      f = min(self%constant, self%max_coefficient*max(normal_force, 0.0_wp))
    end function constant_stick_limit
 
 end module friction_constant

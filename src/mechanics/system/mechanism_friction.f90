@@ -118,14 +118,14 @@ contains
       nothing = 0.0_wp
       associate (stick_slips => self%friction%stick_slips, n => self%linkage%rows%n_solve)
          do c = 1, m
-            associate (tangent => &
+            associate (at => stick_slips%at(c), law => self%clearance_joints%sets(stick_slips%at(c)%slot)%set%laws%friction, &
+                       tangent => &
                        self%clearance_joints%sets(stick_slips%at(c)%slot)%set%stick_slip%tangent(stick_slips%at(c)%contact))
-               stick_slips%root(c) = sqrt(max(tangent%f_n, tiny(1.0_wp)))
-               if (stick_slips%at(c)%axis == 1) decay = decay_rate(self, stick_slips%at(c)%slot, stick_slips%at(c)%contact)
-               stick_slips%force(c) = -(sliding_acceleration(self, c, .true.) + tangent%drift(stick_slips%at(c)%axis) &
-                                  + decay*tangent%v(stick_slips%at(c)%axis))
+               stick_slips%root(c) = sqrt(max(law%stick_limit(tangent%f_n), tiny(1.0_wp)))
+               if (at%axis == 1) decay = decay_rate(self, at%slot, at%contact)
+               stick_slips%force(c) = -(sliding_acceleration(self, c, .true.) + tangent%drift(at%axis) + decay*tangent%v(at%axis))
                stick_slips%mobility(c) = mobility_of(self, c)
-               nothing = nothing + abs(tangent%drift(stick_slips%at(c)%axis)) + decay*abs(tangent%v(stick_slips%at(c)%axis))
+               nothing = nothing + abs(tangent%drift(at%axis)) + decay*abs(tangent%v(at%axis))
             end associate
          end do
          nothing = nothing + sqrt(minimum)*maxval(abs(stick_slips%force(:m)))
@@ -181,8 +181,8 @@ contains
       if (compliance > 0.0_wp .and. delta > 0.0_wp) time = sqrt(delta/compliance)
    end function own_time
 
-   !> Mobility taken as zero, of that of free bodies. A contact in space acts anywhere within its penetration: no friction
-   !> force holds a combination of tangents that moves only as the bodies turn about that lever, as corners of one face have.
+   !> Mobility taken as zero, of that of free bodies. A contact acts anywhere within its penetration: no friction force holds a
+   !> combination of tangents that moves only as the bodies turn about that lever, as corners of one face have.
    real(wp) function mobility_of_depth(self, m) result(minimum)
       class(mechanism_t), intent(in) :: self   !! the system
       integer, intent(in) :: m                 !! tangents on the list
@@ -193,13 +193,13 @@ contains
       minimum = min_mobility
       do c = 1, m
          associate (at => self%friction%stick_slips%at(c))
-            associate (set => self%clearance_joints%sets(at%slot)%set, n => self%linkage%coordinates%n_v)
-               if (at%axis == 1) cycle
+            associate (set => self%clearance_joints%sets(at%slot)%set)
+               if (m == 1 .or. at%axis < set%stick_slip%n_tangent) cycle
                call set%gaps(self%linkage%motion, delta, rate)
                turned = 0.0_wp
                do side = 1, 2
                   body = set%items%body(side, set%item_of(at%contact))
-                  turned = turned + maxval(self%linkage%inverse_mass(4:n, body))
+                  turned = turned + maxval(self%linkage%inverse_mass(:, body), self%linkage%coordinates%is_turn)
                end do
                minimum = max(minimum, (contact_lever*delta(set%before%contacts + at%contact))**2*turned &
                                   /max(mobility_of(self, c), tiny(1.0_wp)))
@@ -285,7 +285,7 @@ contains
             first = c - stick_slips%at(c)%axis + 1
             is_driven = all(stick_slips%is_fixed(first:first + set%stick_slip%n_tangent - 1)) &
                         .or. any(abs(stick_slips%left(first:c)) > nothing &
-                                 + no_acceleration*stick_slips%mobility(first:c)*stick_slips%root(c)**2)
+                                 + no_acceleration*stick_slips%mobility(first:c)*tangent%f_n)
             force = tangent%f_t
             force(stick_slips%at(c)%axis) = force(stick_slips%at(c)%axis) + stick_slips%force(c)
             call set%stick_with(k, force, is_driven)

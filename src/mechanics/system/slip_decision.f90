@@ -4,8 +4,8 @@
 !> or a contact started, those that slide slower than its speed of rest. Their friction forces are the solution of one
 !> complementarity problem (`friction_limits`), L_c = c_s F_N: contacts within their limits stick, the others slip against their
 !> forces. These have the force of sliding then, L_c = c_f F_N, and the problem is solved again, until no further contact slips. A
-!> contact that gives way slips, whatever the last digits of the forces say. While all hold, contacts that share a load take the
-!> same part of what each can hold (`solve_stick_slips`).
+!> contact that gives way slips, whatever the last digits of the forces say, and so does each other one at its limit. While all
+!> hold, contacts that share a load take the same part of what each can hold (`solve_stick_slips`).
 !>
 !> Contacts that drivers move are decided before, each for itself: see `mechanism_friction`.
 !>
@@ -20,6 +20,7 @@ submodule(mechanism:mechanism_friction) slip_decision
    implicit none (type, external)
 
    real(wp), parameter :: at_limit = 1.0e-9_wp   !! less of its limit: a force is at it [1]
+   real(wp), parameter :: together = 1.0e-6_wp   !! the same where another contact gives way, well above round-off [1]
    real(wp), parameter :: less_of_speed = 0.5_wp  !! of a slow slip, at which it ends [1]
    real(wp), parameter :: more_of_speed = 1.5_wp  !! of one against its way [1]
    real(wp), parameter :: against_way = 0.1_wp    !! of the widest band: what it may be, for friction gives energy to it [1]
@@ -274,6 +275,12 @@ contains
                slips((c - 1)/n_tangent + 1) = self%clearance_joints%sets(at%slot)%set%stick_slip%was(at%contact) == gives_way
             end associate
          end do
+         if (any(slips)) then
+            do c = 1, n
+               slips(c) = slips(c) .or. norm2(force(n_tangent*(c - 1) + 1:n_tangent*c)) &
+                          >= (1.0_wp - together)*limit_of_listed(self, stick_slips%at(n_tangent*c), .false.)
+            end do
+         end if
          call find_mobilities(self, m, mobility_of_depth(self, m), nothing, status)
          if (status /= 0) return
          r = matmul(stick_slips%matrix(:m, :m), force)  ! what no force can change is omitted
@@ -377,16 +384,13 @@ contains
       end associate
    end subroutine go_with_drivers
 
-   !> Whether a contact slides slower than its speed of rest.
+   !> Whether a contact that slides is slower than its speed of rest.
    logical function slides_slowly(self, slot, k) result(is_slow)
       class(mechanism_t), intent(in) :: self   !! the system, its contacts laid
       integer, intent(in) :: slot              !! set of the contact
       integer, intent(in) :: k                 !! contact of the set
 
-      is_slow = .false.
       associate (set => self%clearance_joints%sets(slot)%set)
-         if (set%stick_slip%memory /= memory_slip) return
-         if (.not. set%contact(k)%is_touching .or. abs(set%stick_slip%slip(k)) /= 1) return
          is_slow = size_of(set%stick_slip%tangent(k)%v) < merge(0.5_wp, 1.0_wp, set%stick_slip%n_tangent == 1) &
                    *rest_speed(self, slot, k)
       end associate

@@ -6,7 +6,7 @@ module stick_slip_forces
    private
    public :: stick_slip_forces_t, gripped_t, new_stick_slip_forces, share_of_stick_slips, solve_stick_slips, unit_load_t
 
-   real(wp), parameter :: started = 1.0e-3_wp   !! root of a normal force at least, of the greatest one [1]
+   real(wp), parameter :: started = 1.0e-3_wp   !! root of what a contact can hold at least, of the greatest one [1]
 
    !> Loads of a unit force, and storage for what they are solved in place of.
    type :: unit_load_t
@@ -39,7 +39,7 @@ module stick_slip_forces
       real(wp), allocatable :: mobility(:)       !! (n_force) its diagonal if the bodies were free [1/kg]
       logical, allocatable :: is_fixed(:)        !! (n_force) whether no force of its own moves it
       real(wp), allocatable :: left(:)           !! (n_force) sliding acceleration that no force can change [m/s^2]
-      real(wp), allocatable :: root(:)           !! (n_force) roots of the normal forces [N^0.5]
+      real(wp), allocatable :: root(:)           !! (n_force) roots of what the contacts can hold [N^0.5]
       real(wp), allocatable :: eigenvalue(:)     !! (n_force) of the scaled matrix [1/kg]
       real(wp), allocatable :: work(:)           !! (any) scratch [any]
       type(unit_load_t) :: load                  !! of a unit force
@@ -73,7 +73,7 @@ contains
    end subroutine new_stick_slip_forces
 
    !> Forces x with A x = r, A symmetric and positive semidefinite; where contacts share a load, the solution that uses each
-   !> to the same part of what its normal force lets it hold: minimum sum of x^2 / F_N. A contact that starts has no normal force
+   !> to the same part of what it can hold: minimum sum of x^2/L_c, L_c = c_s F_N. A contact that starts has no normal force
    !> yet, but it counts (`started`). What no force can change of r is left: where drivers prescribe the sliding.
    subroutine solve_stick_slips(n, lead, matrix, mobility, minimum, root, force, left, eigenvalue, work)
       integer, intent(in) :: n                      !! contacts
@@ -81,7 +81,7 @@ contains
       real(wp), intent(inout) :: matrix(lead, n)    !! (lead, n) A, destroyed [1/kg]
       real(wp), intent(in) :: mobility(n)           !! (n) diagonal of A if the bodies were free [1/kg]
       real(wp), intent(in) :: minimum                 !! mobility taken as zero, of that [1]
-      real(wp), intent(in) :: root(n)               !! (n) roots of the normal forces, positive [N^0.5]
+      real(wp), intent(in) :: root(n)               !! (n) roots of L_c, positive [N^0.5]
       real(wp), intent(inout) :: force(n)           !! (n) r [m/s^2], then x [N]
       real(wp), intent(out) :: left(n)              !! (n) r - A x [m/s^2]
       real(wp), intent(out) :: eigenvalue(n)        !! (n) scratch [1/kg]
@@ -124,7 +124,7 @@ contains
 
    !> What a contact counts for.
    elemental real(wp) function weight(root, maximum)
-      real(wp), intent(in) :: root      !! root of its normal force [N^0.5]
+      real(wp), intent(in) :: root      !! root of what it can hold [N^0.5]
       real(wp), intent(in) :: maximum   !! the greatest one, positive [N^0.5]
 
       weight = max(root/maximum, started)
