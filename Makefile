@@ -23,7 +23,6 @@ JOBS ?= $(shell nproc 2>/dev/null || echo 1)
 SUNDIALS_DIR ?=
 HDF5_DIR ?=
 SUITESPARSE_DIR ?=
-FFTW_DIR ?=
 THREE_DIR ?= /usr/share/javascript/three
 LAPACK ?=
 ifeq ($(origin ARCH),undefined)
@@ -34,7 +33,7 @@ endif
 endif
 ARCH := $(strip $(ARCH))
 
-export FC PYTHON SUNDIALS_DIR HDF5_DIR SUITESPARSE_DIR FFTW_DIR THREE_DIR LAPACK
+export FC PYTHON SUNDIALS_DIR HDF5_DIR SUITESPARSE_DIR THREE_DIR LAPACK
 export OPENBLAS_NUM_THREADS := 1
 export PYTHONDONTWRITEBYTECODE := 1
 
@@ -242,7 +241,7 @@ help:
 	@echo "make -j objects compile all sources without linking (-k: continue after errors)"
 	@echo
 	@echo "Variables: MODE=release|debug  ARCH=x86-64-v3 (ARCH= for the compiler's default)  BUILD=build  JOBS=$(JOBS)"
-	@echo "           SUNDIALS_DIR= HDF5_DIR= SUITESPARSE_DIR= FFTW_DIR= (prefixes)  THREE_DIR= (three.js)  LAPACK='-L... -l...'  FC=gfortran  PYTHON=/usr/bin/python3"
+	@echo "           SUNDIALS_DIR= HDF5_DIR= SUITESPARSE_DIR= (prefixes)  THREE_DIR= (three.js)  LAPACK='-L... -l...'  FC=gfortran  PYTHON=/usr/bin/python3"
 	@echo "           LINK=static|shared (libraries within the program, where Debian's archives are there; a path above means shared)"
 	@echo "           PREFIX=/usr/local DESTDIR= (before every path installed)"
 	@echo "           PYTEST='-k expression' (options for make test)  STABILITY='--required A02' (options for make stability)"
@@ -343,17 +342,13 @@ ifneq ($(SUITESPARSE_DIR),)
 SUITESPARSE_PATH := $(foreach d,$(wildcard $(SUITESPARSE_DIR)/lib $(SUITESPARSE_DIR)/lib64),-L$(d) -Wl,-rpath,$(d))
 endif
 
-ifneq ($(FFTW_DIR),)
-FFTW_PATH := $(foreach d,$(wildcard $(FFTW_DIR)/lib $(FFTW_DIR)/lib64),-L$(d) -Wl,-rpath,$(d))
-endif
-
 # Debian's archives where all are there and no other place is named: a program that has its libraries in it begins in 2 ms; loading
-# some sixty, of which HDF5 and MPI need most, takes it ten. OpenBLAS without threads, whose sums are the same on all machines.
+# some sixty, of which HDF5 and MPI need most, takes it ten. OpenBLAS without threads, whose sums are the same on all machines. KLU, its
+# BTF and libquadmath are loaded, from libexec/gudgeon beside bin first: their licence, the LGPL, asks that users can replace them.
 OPENBLAS := $(firstword $(wildcard /usr/lib/*/openblas-serial/libopenblas.a))
 ARCHIVES := $(and $(OPENBLAS),$(wildcard /usr/lib/*/libsundials_fcvode_mod.a),$(wildcard /usr/lib/*/libhdf5_serial_fortran.a), \
-  $(wildcard /usr/lib/*/libsz.a),$(wildcard /usr/lib/*/libaec.a),$(wildcard /usr/lib/*/libz.a),$(wildcard /usr/lib/*/libklu.a), \
-  $(wildcard /usr/lib/*/libfftw3.a))
-LINK ?= $(if $(SUNDIALS_DIR)$(HDF5_DIR)$(SUITESPARSE_DIR)$(FFTW_DIR)$(LAPACK),shared,$(if $(ARCHIVES),static,shared))
+  $(wildcard /usr/lib/*/libsz.a),$(wildcard /usr/lib/*/libaec.a),$(wildcard /usr/lib/*/libz.a),$(wildcard /usr/lib/*/libklu.so))
+LINK ?= $(if $(SUNDIALS_DIR)$(HDF5_DIR)$(SUITESPARSE_DIR)$(LAPACK),shared,$(if $(ARCHIVES),static,shared))
 ifeq ($(LINK),static)
 # Archives that want no others: those of SUNDIALS 7 want MPI, that of HDF5 after 1.10 curl and OpenSSL; these are loaded. What
 # blas_threads looks up at run time stays visible.
@@ -362,14 +357,14 @@ HDF5_ARCHIVES := $(if $(filter 10,$(HDF5_MINOR)),-lhdf5_serial_fortran -lhdf5_se
 SUNDIALS_ARCHIVES := $(if $(filter 6,$(SUNDIALS_VERSION)),-Wl$(comma)--start-group $(SUNDIALS_LIBRARIES) -Wl$(comma)--end-group)
 # gfortran's own too, but where a library that is loaded brings it along, and in the sanitized build, whose tools want it loaded.
 RUN_TIME := $(if $(and $(HDF5_ARCHIVES),$(SUNDIALS_ARCHIVES),$(filter-out sanitize,$(MODE))), \
-  $(wildcard $(foreach l,gfortran quadmath,$(shell $(FC) -print-file-name=lib$(l).a))) -static-libgcc)
+  $(wildcard $(shell $(FC) -print-file-name=libgfortran.a)) -static-libgcc)
 LIBRARIES := -Wl,--as-needed $(if $(SUNDIALS_ARCHIVES),,$(SUNDIALS_LIBRARIES)) $(if $(HDF5_ARCHIVES),,$(HDF5_LIBRARIES)) \
-  -Wl,-Bstatic $(SUNDIALS_ARCHIVES) $(HDF5_ARCHIVES) -lklu -lbtf -lamd -lcolamd -lsuitesparseconfig -lfftw3 \
+  -Wl,-Bstatic $(SUNDIALS_ARCHIVES) $(HDF5_ARCHIVES) \
   $(foreach f,openblas_set_num_threads blas_memory_alloc blas_memory_free,-Wl$(comma)-u$(comma)$(f) -Wl$(comma)--export-dynamic-symbol=$(f)) \
-  $(OPENBLAS) $(RUN_TIME) -Wl,-Bdynamic -lgomp -lpthread -ldl -lm
+  $(OPENBLAS) $(RUN_TIME) -Wl,-Bdynamic -lklu -lpthread -ldl -lm -Wl,--disable-new-dtags -Wl,-rpath,'$$ORIGIN/../libexec/gudgeon'
 else ifeq ($(LINK),shared)
 LIBRARIES := -Wl,--as-needed $(SUNDIALS_LIBRARIES) $(HDF5_LIBRARIES) $(SUITESPARSE_PATH) -lklu \
-  $(FFTW_PATH) -lfftw3 $(or $(LAPACK),-llapack -lblas) -lm
+  $(or $(LAPACK),-llapack -lblas) -lm
 else
 $(error LINK=$(LINK): static or shared)
 endif
@@ -443,9 +438,10 @@ bench_programs: $(BENCH_PROGRAMS)
 film_programs: $(FILM_PROGRAMS)
 fuzz_program: $(B)/tests/many_decks
 
+# gudgeon.linked lists every file that the linker read: scripts/notices has the licences of those that are in the program.
 $(B)/gudgeon: $(MAIN_OBJECT) $(OBJECTS) $(B)/objects
 	@echo "  LD $@"
-	@$(LINK_PROGRAM)
+	@$(LINK_PROGRAM) -Wl,--trace > $@.linked
 
 $(B)/tests/run_tests: $(TEST_OBJECTS) $(OBJECTS) $(B)/objects
 	@echo "  LD $@"

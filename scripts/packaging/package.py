@@ -17,7 +17,6 @@ class Gudgeon(MakefilePackage):
     depends_on("hdf5+fortran+hl~mpi")
     depends_on("sundials@6:+fortran+klu+ida+cvode+arkode+kinsol~mpi")
     depends_on("suite-sparse")
-    depends_on("fftw~mpi")
     depends_on("lapack")
     depends_on("gnuplot", type="run")
 
@@ -27,7 +26,6 @@ class Gudgeon(MakefilePackage):
         env["SUNDIALS_DIR"] = spec["sundials"].prefix
         env["HDF5_DIR"] = spec["hdf5"].prefix
         env["SUITESPARSE_DIR"] = spec["suite-sparse"].prefix
-        env["FFTW_DIR"] = spec["fftw"].prefix
         # three.js: set THREE_DIR to the unpacked npm package three@0.111 before the installation
         env["LAPACK"] = spec["lapack"].libs.ld_flags
 

@@ -3,6 +3,7 @@
 import importlib.resources
 import pathlib
 import re
+import sys
 
 from docutils import nodes
 from latex2mathml.converter import convert
@@ -11,7 +12,11 @@ from pygments.lexers import TextLexer
 from pygments.token import Comment, Keyword, String, Text
 from sphinx.highlighting import lexers
 
+sys.path.insert(0, str(pathlib.Path(__file__).resolve().parent))
+from notebook import page_of  # noqa: E402
+
 project = "gudgeon"
+source_suffix = {".md": "markdown", ".ipynb": "markdown"}
 html_title = "gudgeon"
 html_theme = "furo"
 html_show_copyright = html_show_sphinx = html_copy_source = False
@@ -43,8 +48,8 @@ PARTS = ("tutorials", "how-to", "reference", "theory", "developer")
 def pages_below(folder):
     """Pages of a folder: those that its index links to in that order, then the others by name; folders by their index."""
     index = folder / "index.md"
-    linked = [(folder / target).resolve() for target in re.findall(r"\]\(([^)#\s]+\.md)", index.read_text(encoding="utf-8"))]
-    there = [page for page in sorted(folder.glob("*.md")) + sorted(folder.glob("*/index.md")) if page != index]
+    linked = [(folder / target).resolve() for target in re.findall(r"\]\(([^)#\s]+\.(?:md|ipynb))", index.read_text(encoding="utf-8"))]
+    there = [page for page in sorted(folder.glob("*.md")) + sorted(folder.glob("*.ipynb")) + sorted(folder.glob("*/index.md")) if page != index]
     first = [page for page in dict.fromkeys(linked) if page in there]
     return first, [page for page in there if page not in first]
 
@@ -52,7 +57,9 @@ def pages_below(folder):
 def add_navigation(app, docname, source):
     """The list of pages of a part, at the end of its index: hidden for those that the index links to."""
     top = pathlib.Path(app.srcdir).resolve()
-    page = top / f"{docname}.md"
+    page = pathlib.Path(app.env.doc2path(docname))
+    if page.suffix == ".ipynb":
+        source[0] = page_of(source[0])
 
     def within_site(link):
         """A link to a page beside docs/, which is not part of the site, becomes its name."""
@@ -67,7 +74,7 @@ def add_navigation(app, docname, source):
         named, others = [top / part / "index.md" for part in PARTS], []
     for pages, option in ((named, ":hidden:\n"), (others, "")):
         if pages:
-            names = "\n".join(f"/{str(other.relative_to(top)).removesuffix('.md')}" for other in pages)
+            names = "\n".join(f"/{other.relative_to(top).with_suffix('')}" for other in pages)
             source[0] += f"\n\n```{{toctree}}\n:maxdepth: 1\n{option}\n{names}\n```\n"
 
 

@@ -29,7 +29,7 @@ import random_decks  # noqa: E402
 sys.path.insert(0, str(HERE.parent / "e2e"))
 import h5py  # noqa: E402
 import numpy as np  # noqa: E402
-from support import changed, plain  # noqa: E402
+from support import changed, is_history, plain  # noqa: E402
 
 os.environ.setdefault("OPENBLAS_NUM_THREADS", "1")
 ROOT = HERE.parent.parent
@@ -85,7 +85,7 @@ class History:
     def take(self, file, room, items):
         """The quantities of a room."""
         for name, data in file[room].items():
-            if not isinstance(data, h5py.Dataset) or "DIMENSION_LIST" not in data.attrs:
+            if not isinstance(data, h5py.Dataset) or not is_history(data):
                 continue
             values = data[()]
             for k, item in enumerate(items):

@@ -125,12 +125,16 @@ def plain(value):
     return value
 
 
+def is_history(dataset):
+    """Whether the first dimension of a dataset is /time."""
+    return dataset.ndim > 0 and len(dataset.dims[0]) > 0 and dataset.dims[0][0].name == "/time"
+
+
 def at_instants(file, path):
     """A dataset of run.h5; of a time history, the rows that are output instants. The time grows last: what a killed run left beyond it is
     no row."""
     dataset = file[path]
-    is_history = path in ("time", "row_kind") or "DIMENSION_LIST" in dataset.attrs
-    if not is_history:
+    if path != "time" and not is_history(dataset):
         return dataset[()]
     n = len(file["time"])
     return dataset[:n][file["row_kind"][:n] == 0]

@@ -143,6 +143,9 @@ def test_site(gudgeon, root, tmp_path):
         ), page.name
         assert html.count("<math") >= len(re.findall(r"^\$\$$", text, re.M)) // 2, page.name
     assert "joint.revolute" in (tmp_path / "site/searchindex.js").read_text(encoding="utf-8")
+    for notebook in (root / "docs/tutorials").glob("*.ipynb"):
+        html = (tmp_path / "site/tutorials" / f"{notebook.stem}.html").read_text(encoding="utf-8")
+        assert "import" in html and html.count("<img") == 1 and "<math" in html, notebook.name
 
 
 def test_words_of_the_field(root):

@@ -84,7 +84,7 @@ def test_layout_describes_itself(gudgeon):
     run = finished(gudgeon, changes=(("output", "channels", None),))
     with h5py.File(run.directory / "run.h5", "r") as file:
         assert plain(file.attrs["filetype"]) == "gudgeon run"
-        assert list(file.attrs["format_version"]) == [2, 1]
+        assert list(file.attrs["format_version"]) == [2, 2]
         assert plain(file.attrs["status"]) == "complete"
         for key in ("program_version", "git_sha1", "compiler", "libraries", "status_message"):
             assert key in file.attrs, key

@@ -58,6 +58,44 @@ def test_what_is_installed(root, installed):
     assert len(decks) > 20 and decks <= there
 
 
+def test_licences_are_installed(installed, gudgeon):
+    """Of every archive that the linker read: the notice of its package and the licences that this names; no library under the GPL."""
+    if not shutil.which("dpkg-query"):
+        pytest.skip("dpkg is not there")
+    licences = installed / "share/doc/gudgeon/licences"
+    table = [line.split(" | ") for line in (licences / "README").read_text().splitlines() if " | " in line][1:]
+    linked = open(f"{gudgeon}.linked", encoding="utf-8").read()
+    archives = {os.path.basename(os.path.realpath(path)) for path in re.findall(r"^\(?(/\S*?\.a)\b", linked, re.M)}
+    assert archives <= {row[0] for row in table} and ("libhdf5_serial.a" not in linked or len(archives) > 8)
+    assert not {"libfftw3.a", "libklu.a", "libbtf.a", "libquadmath.a"} & archives
+    for name, package, *_ in table:
+        assert (licences / f"{package}.copyright").stat().st_size > 300, name
+    named = set(re.findall(r"/usr/share/common-licenses/([\w.+-]*\w)", "".join(p.read_text(encoding="utf-8") for p in licences.glob("*.copyright"))))
+    assert named & {path.name for path in licences.iterdir()} == {name for name in named if os.path.exists(f"/usr/share/common-licenses/{name}")}
+
+
+def test_a_missing_notice_is_told(root, tmp_path):
+    """A library that belongs to no package: an error names it, and install says that licences are missing."""
+    (tmp_path / "made").mkdir()
+    (tmp_path / "libmine.a").write_bytes(b"")
+    (tmp_path / "made/gudgeon.linked").write_text(f"obj/main.o\n({tmp_path}/libmine.a)mine.o\n")
+    done = subprocess.run([root / "scripts/notices", tmp_path / "made/gudgeon.linked", tmp_path / "licences"], capture_output=True, text=True)
+    assert done.returncode == 1 and ("libmine.a" in done.stderr or "dpkg" in done.stderr)
+
+
+def test_module_file(installed, tmp_path):
+    """As Environment Modules and Lmod read it: the program, its page and the package are found."""
+    (path,) = (installed / "share/modulefiles/gudgeon").iterdir()
+    text = path.read_text(encoding="utf-8")
+    assert text.startswith("#%Module") and "@" not in text and 'set prefix "/opt/mine"' in text
+    command = shutil.which("modulecmd") or next((p for p in ("/usr/lib/modulecmd.tcl", "/usr/share/lmod/lmod/libexec/lmod") if os.path.exists(p)), None)
+    if command is None:
+        pytest.skip("neither Environment Modules nor Lmod is there")
+    told = call([command, "sh", "load", "gudgeon"], env={"PATH": "/usr/bin:/bin", "HOME": str(tmp_path), "MODULEPATH": str(path.parents[1])})
+    said = call(["sh", "-c", f'{told}\necho "$PATH|$MANPATH|$PYTHONPATH|$GUDGEON"'], env={"PATH": "/usr/bin:/bin"}).strip().split("|")
+    assert [word.split(":")[0] for word in said] == ["/opt/mine/bin", "/opt/mine/share/man", "/opt/mine/share/gudgeon/python", "/opt/mine/bin/gudgeon"]
+
+
 def test_the_installed_program_works_from_anywhere(installed, tmp_path):
     program = installed / "bin/gudgeon"
     elsewhere = tmp_path / "else where"

@@ -8,7 +8,7 @@ import time
 import h5py
 import numpy as np
 import pytest
-from support import WrittenRun, plain, plain_deck
+from support import WrittenRun, is_history, plain, plain_deck
 
 
 def histories(path):
@@ -19,7 +19,7 @@ def histories(path):
         dict(node.attrs)
         if isinstance(node, h5py.Dataset):
             values = node[()]
-            if "DIMENSION_LIST" in node.attrs or name in ("time", "events"):
+            if is_history(node) or name in ("time", "events"):
                 found[name] = values
 
     with h5py.File(path, "r") as file:

@@ -3,6 +3,7 @@
 import csv
 import importlib.util
 import os
+import re
 import shutil
 import subprocess
 import sys
@@ -224,9 +225,20 @@ def test_wheel_has_the_program(root, gudgeon, tmp_path):
         tags = archive.read(next(n for n in archive.namelist() if n.endswith("/WHEEL"))).decode()
     assert {f"gudgeon/{path.name}" for path in (root / "scripts/python/gudgeon").iterdir() if path.is_file()} <= {row[0] for row in record}
     assert f"Tag: {wheel.stem.split('-', 2)[2]}\n" in tags
+    names = {row[0] for row in record}
+    told = subprocess.run(["objdump", "-p", gudgeon], capture_output=True, text=True, check=True).stdout
+    if "$ORIGIN/../libexec/gudgeon" in told:  # libraries linked into the program: those under the LGPL lie beside it
+        shipped = {name.rpartition("/")[2] for name in names if ".data/data/libexec/gudgeon/" in name}
+        assert {"libklu.so", "libbtf.so", "libamd.so", "libcolamd.so", "libquadmath.so"} <= {name.rpartition(".")[0] for name in shipped}
+        notices = {name.rpartition("/")[2] for name in names if "/licences/" in name}
+        assert {"README", "LGPL-2.1", "GPL-3", "libklu1.copyright", "libhdf5-dev.copyright", "libsundials-dev.copyright"} <= notices
+        assert not re.search(r"fftw|LGPL", told, re.I) and not any("fftw" in name for name in names)
     if importlib.util.find_spec("pip") is None:
         pytest.skip("pip is not there")
     call(sys.executable, "-m", "pip", "install", "--quiet", "--no-deps", "--no-index", "--target", tmp_path / "there", wheel)
     program = tmp_path / "there/bin/gudgeon"
     assert python("import gudgeon; print(gudgeon.program())", PYTHONPATH=str(tmp_path / "there")) == str(program)
     assert call(program, "version").stdout == call(gudgeon, "version").stdout
+    loaded = subprocess.run(["ldd", program], capture_output=True, text=True, check=True).stdout
+    for name in (tmp_path / "there/libexec/gudgeon").glob("*"):
+        assert f"{name.name} => {tmp_path / 'there'}" in loaded, "the program takes the libraries of the wheel"

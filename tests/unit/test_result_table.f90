@@ -6,7 +6,7 @@ module test_result_table
    use hdf5, only: h5fclose_f, hid_t
    use hdf5_calls, only: new_file, open_library
    use hdf5_read, only: has_dataset, read_reals, read_texts
-   use hdf5_table, only: write_table
+   use hdf5_table, only: write_tables
    use html_table, only: add_section
    use json_table, only: put_tables
    use json_text, only: json_object_t
@@ -127,7 +127,7 @@ contains
       status = 0
       call open_library(status)
       call new_file(path//"/table.h5", file, status)
-      call write_table(file, table, status)
+      call write_tables(file, [table], status)
       call check_equal(error, status, 0, "status of the writer")
       call read_texts(file, "extremes/joints/name", names, status)
       call check_equal(error, names(2)%s, "a ""slot""", "a text")

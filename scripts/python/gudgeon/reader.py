@@ -95,7 +95,7 @@ class Run(dict[str, np.ndarray]):
                     if name in self.extremes and np.isfinite(extremes.least):
                         self.extremes[name] = extremes
 
-    def _put(self, name, data, values):
+    def _put(self, name: str, data: h5py.Dataset, values: np.ndarray) -> None:
         """Keep a channel; one without any number was not recorded of its item."""
         if values.dtype.kind == "f" and len(values) and np.isnan(values).all():
             return
@@ -108,11 +108,11 @@ class Run(dict[str, np.ndarray]):
         self.units[name] = plain(data.attrs["units"])
         self.help[name] = plain(data.attrs["long_name"])
 
-    def _take_room(self, group, names):
+    def _take_room(self, group: h5py.Group, names: list[str]) -> None:
         """The histories of a room: (rows, items) or (rows, items, components)."""
         n = len(self._rows)
         for quantity, data in group.items():
-            if not isinstance(data, h5py.Dataset) or "DIMENSION_LIST" not in data.attrs:
+            if not is_history(data):
                 continue
             values = data[:n]
             for item, name in enumerate(names):
@@ -133,7 +133,7 @@ class Run(dict[str, np.ndarray]):
         """A pandas.DataFrame with the time as index; units are in `attrs["units"]`."""
         import pandas
 
-        frame = pandas.DataFrame({name: values for name, values in self.items() if name != "time"}, index=self["time"])
+        frame: pandas.DataFrame = pandas.DataFrame({name: values for name, values in self.items() if name != "time"}, index=self["time"])
         frame.index.name = "time"
         frame.attrs["units"] = dict(self.units)
         return frame
@@ -142,7 +142,7 @@ class Run(dict[str, np.ndarray]):
         """An xarray.Dataset over the time, each variable with its units."""
         import xarray
 
-        def variable(name):
+        def variable(name: str) -> tuple[str, np.ndarray, dict[str, str]]:
             return ("time", self[name], {"units": self.units[name], "long_name": self.help[name]})
 
         return xarray.Dataset(
@@ -155,6 +155,13 @@ def read(path: str | os.PathLike[str], rows: str = "instants") -> Run:
     return Run(path, rows)
 
 
+def is_history(data: Any) -> bool:
+    """Whether the first dimension of what a group holds is the time of the file."""
+    if not isinstance(data, h5py.Dataset) or not data.ndim or not len(data.dims[0]):
+        return False
+    return bool(data.dims[0][0].name == "/time")
+
+
 def plain(value: Any) -> Any:
     """Strings of HDF5 as strings, numbers and arrays as they are."""
     if isinstance(value, bytes):
@@ -162,7 +169,7 @@ def plain(value: Any) -> Any:
     return value
 
 
-def main():
+def main() -> None:
     parser = argparse.ArgumentParser(description="Channels of a run of gudgeon, or some of them as CSV.")
     parser.add_argument("run", help="directory of a run, or its run.h5")
     parser.add_argument("channels", nargs="*", help="channels to write, or items and quantities: all of theirs")

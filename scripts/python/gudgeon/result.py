@@ -37,7 +37,8 @@ class Run:
         """summary.json (docs/reference/output.md); of a run that has not ended, what run.h5 has so far."""
         path = self.directory / "summary.json"
         if path.exists():
-            return json.loads(path.read_text(encoding="utf-8"))
+            summary: dict[str, Any] = json.loads(path.read_text(encoding="utf-8"))
+            return summary
         of = self.arrays()
         return {**of.summary, "status": of.attributes["status"], "message": of.attributes["status_message"],
                 "warnings": of.warnings, "figures": [], "loose_joints": []}
@@ -45,12 +46,12 @@ class Run:
     @property
     def status(self) -> str:
         """`complete`, `stopped`, `failed` or `running`."""
-        return self.summary["status"]
+        return str(self.summary["status"])
 
     @property
     def warnings(self) -> list[str]:
         """What the run warned of."""
-        return self.summary["warnings"]
+        return list(self.summary["warnings"])
 
     @property
     def figures(self) -> list[pathlib.Path]:
@@ -90,7 +91,8 @@ class Run:
             group = file.get("extremes/channels", {})
             data = {name: group[name].asstr()[()] if name in ("unit", "name") else group[name][()] for name in group}
         index = needed("pandas", "a table").Index(data.pop("name", []), name="channel")
-        return needed("pandas", "a table").DataFrame(data, index=index, columns=columns)
+        frame: pandas.DataFrame = needed("pandas", "a table").DataFrame(data, index=index, columns=columns)
+        return frame
 
     @functools.cached_property
     def events(self) -> pandas.DataFrame:
@@ -99,19 +101,21 @@ class Run:
             rows, units = file["events"][()], file["events"].attrs["units"].split()
         names = rows.dtype.names
         data = {name: [word.decode() for word in rows[name]] if rows.dtype[name].kind == "S" else rows[name] for name in names}
-        frame = needed("pandas", "a table").DataFrame(data)
+        frame: pandas.DataFrame = needed("pandas", "a table").DataFrame(data)
         frame.attrs["units"] = dict(zip(names, units))
         return frame
 
     @property
     def contacts(self) -> pandas.DataFrame:
         """Those of the events that are contacts: onset, impact speed, peak force, duration, energy lost."""
-        return self.events[self.events["kind"] == "contact"].reset_index(drop=True)
+        contacts: pandas.DataFrame = self.events[self.events["kind"] == "contact"].reset_index(drop=True)
+        return contacts
 
     @property
     def joints(self) -> pandas.DataFrame:
         """Joints with clearance: impacts, contact fraction, greatest speed, force and penetration."""
-        return needed("pandas", "a table").DataFrame(self.summary["loose_joints"])
+        frame: pandas.DataFrame = needed("pandas", "a table").DataFrame(self.summary["loose_joints"])
+        return frame
 
     def __repr__(self) -> str:
         return f"<gudgeon run {self.directory}: {self.status}, {len(self.warnings)} warnings>"

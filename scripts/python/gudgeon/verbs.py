@@ -78,7 +78,7 @@ def table(summary: dict[str, Any], name: str) -> pandas.DataFrame:
     """A file of comma-separated values, its headings without units."""
     path = pathlib.Path(summary["directory"], name)
     texts = dict.fromkeys(("message", "warnings", "reason"), str)
-    frame = needed("pandas", "a table").read_csv(
+    frame: pandas.DataFrame = needed("pandas", "a table").read_csv(
         path, float_precision="round_trip", keep_default_na=False, na_values=[""], converters=texts)
     pairs = (re.findall(r"^(.*?)(?: \[(.*)\])?$", heading)[0] for heading in frame.columns)
     units = {name: unit or "1" for name, unit in pairs}

@@ -7,13 +7,14 @@ module hdf5_attributes
    use hdf5, only: h5aclose_f, h5acreate_f, h5aopen_f, h5aexists_f, h5awrite_f, h5sclose_f, h5screate_f, h5screate_simple_f
    use hdf5, only: h5tclose_f, h5tcopy_f, h5tset_cset_f, h5tset_size_f, h5tset_strpad_f
    use hdf5, only: hid_t, hsize_t, size_t, h5s_scalar_f, h5t_c_s1, h5t_cset_utf8_f, h5t_native_double, h5t_native_integer
-   use hdf5, only: h5t_std_i32le, h5t_std_i64le, h5t_ieee_f64le, h5t_str_nullpad_f, h5t_string, h5kind_to_type
+   use hdf5, only: h5t_std_i32le, h5t_std_i64le, h5t_ieee_f64le, h5t_str_nullpad_f, h5t_str_nullterm_f, h5t_string, h5kind_to_type
    use hdf5, only: h5_integer_kind
    use, intrinsic :: iso_c_binding, only: c_char, c_loc, c_null_char, c_ptr
    use kinds, only: i8, wp
    implicit none (type, external)
    private
-   public :: integer_attribute, long_attribute, real_attribute, string_type, text_attribute, word_attribute, word_type
+   public :: fixed_string_type, integer_attribute, long_attribute, real_attribute, string_type, text_attribute, word_attribute
+   public :: word_type
 
    integer(hid_t) :: text_id = -1   !! the type of strings, once an attribute was one
    integer(hid_t) :: scalar_id = -1 !! the space of one value, once there was one
@@ -30,6 +31,21 @@ contains
       call h5tcopy_f(h5t_string, type_id, status)
       if (status >= 0) call h5tset_cset_f(type_id, h5t_cset_utf8_f, status)
    end subroutine string_type
+
+   !> The type of strings of fixed length that end with a null character. Octave reads no others, and those of ASCII alone.
+   subroutine fixed_string_type(width, is_ascii, type_id, status)
+      integer, intent(in) :: width            !! bytes of the longest one, with the null character
+      logical, intent(in) :: is_ascii         !! no string has other characters; else they are UTF-8
+      integer(hid_t), intent(out) :: type_id  !! to be closed by the caller
+      integer, intent(inout) :: status        !! negative: failed
+
+      type_id = -1
+      if (status < 0) return
+      call h5tcopy_f(h5t_c_s1, type_id, status)
+      if (status >= 0) call h5tset_size_f(type_id, int(width, size_t), status)
+      if (status >= 0) call h5tset_strpad_f(type_id, h5t_str_nullterm_f, status)
+      if (status >= 0 .and. .not. is_ascii) call h5tset_cset_f(type_id, h5t_cset_utf8_f, status)
+   end subroutine fixed_string_type
 
    !> The type of words of fixed length, shorter ones padded with null characters.
    subroutine word_type(width, type_id, status)

@@ -2,10 +2,10 @@
 !>
 !> As in `hdf5_calls`, every procedure does nothing once `status` is negative, and shapes are given in Fortran's order.
 module hdf5_datasets
-   use hdf5, only: h5dclose_f, h5dwrite_f, h5p_dataset_xfer_f, h5pcreate_f, h5pset_buffer_f, h5tclose_f
+   use hdf5, only: h5dclose_f, h5dwrite_f, h5tclose_f
    use hdf5, only: hid_t, hsize_t, h5t_native_double, h5t_native_integer, h5t_std_i32le, h5t_ieee_f64le
-   use, intrinsic :: iso_c_binding, only: c_char, c_loc, c_null_char, c_ptr
-   use hdf5_attributes, only: string_type, text_attribute
+   use, intrinsic :: iso_c_binding, only: c_char, c_loc, c_null_char
+   use hdf5_attributes, only: fixed_string_type, text_attribute
    use hdf5_calls, only: new_dataset
    use kinds, only: wp
    use text, only: text_t
@@ -13,10 +13,7 @@ module hdf5_datasets
    private
    public :: describe, integer_dataset, real_dataset, text_dataset
 
-   integer(hsize_t), parameter :: conversion = 65536_hsize_t  !! bytes in which strings get the form of the file; 1 MB is usual
-   integer(hsize_t), parameter :: bytes_of_string = 64_hsize_t  !! more than one takes there: its length and where its heap has it
-
-   integer(hid_t) :: transfer = -1  !! properties of writing strings, once some were written
+   integer, parameter :: shortest_string = 2  !! bytes; readers of netCDF take lists of single bytes for one string
 
 contains
 
@@ -42,34 +39,26 @@ contains
       character(*), intent(in) :: long_name     !! what they are
       integer, intent(inout) :: status          !! negative: failed
 
-      type(c_ptr), target :: pointers(max(size(list), 1))
       character(kind=c_char, len=:), allocatable, target :: store
       integer(hid_t) :: dataset, type_id
-      integer :: at, closed, k, total
+      integer :: closed, k, width
 
-      call string_type(type_id, status)
+      width = shortest_string
+      do k = 1, size(list)
+         width = max(width, len(list(k)%s) + 1)
+      end do
+      allocate (character(width*size(list)) :: store)
+      do k = 1, size(list)
+         store((k - 1)*width + 1:k*width) = list(k)%s//repeat(c_null_char, width - len(list(k)%s))
+      end do
+      call fixed_string_type(width, all([(iachar(store(k:k)) < 128, k=1, len(store))]), type_id, status)
       if (status < 0) return
-      total = 1
-      do k = 1, size(list)
-         total = total + len(list(k)%s) + 1
-      end do
-      allocate (character(total) :: store)
-      at = 1
-      do k = 1, size(list)
-         store(at:at + len(list(k)%s)) = list(k)%s//c_null_char
-         pointers(k) = c_loc(store(at:at))
-         at = at + len(list(k)%s) + 1
-      end do
       if (is_scalar) then
          call new_dataset(file, path, type_id, [integer(hsize_t) ::], dataset, status)
       else
          call new_dataset(file, path, type_id, [size(list, kind=hsize_t)], dataset, status)
       end if
-      if (status >= 0 .and. size(list) > 0) then
-         if (transfer < 0) call h5pcreate_f(h5p_dataset_xfer_f, transfer, status)
-         if (status >= 0) call h5pset_buffer_f(transfer, min(conversion, bytes_of_string*size(list, kind=hsize_t)), status)
-         if (status >= 0) call h5dwrite_f(dataset, type_id, c_loc(pointers), status, xfer_prp=transfer)
-      end if
+      if (status >= 0 .and. size(list) > 0) call h5dwrite_f(dataset, type_id, c_loc(store), status)
       call describe(dataset, "1", long_name, "none", status)
       if (dataset >= 0) call h5dclose_f(dataset, closed)
       call h5tclose_f(type_id, closed)

@@ -1,14 +1,13 @@
-!> Whether two files of HDF5 hold the same in their datasets, bit for bit. Limits: attributes are not compared.
+!> Whether two files of HDF5 hold the same in their datasets, bit for bit. Limits: attributes are not compared; no strings of
+!> variable length.
 module hdf5_equal
    use hdf5, only: h5dclose_f, h5dget_space_f, h5dget_type_f, h5dopen_f, h5dread_f, h5gget_obj_info_idx_f, h5gn_members_f
    use hdf5, only: h5fclose_f, h5g_dataset_f, h5g_group_f, h5sclose_f, h5sget_simple_extent_dims_f, h5sget_simple_extent_ndims_f
-   use hdf5, only: h5tclose_f, h5tget_size_f, h5tis_variable_str_f, hid_t, hsize_t, size_t
+   use hdf5, only: h5tclose_f, h5tget_size_f, hid_t, hsize_t, size_t
    use hdf5_calls, only: open_file
-   use hdf5_read, only: read_texts
    use, intrinsic :: iso_c_binding, only: c_loc, c_ptr
    use, intrinsic :: iso_fortran_env, only: int8
    use kinds, only: i8
-   use text, only: text_t
    implicit none (type, external)
    private
    public :: compare_files
@@ -79,34 +78,23 @@ contains
       character(:), allocatable, intent(inout) :: difference   !! path of what differs; blank: nothing does
 
       integer(int8), allocatable :: bytes(:), bytes_there(:)
-      type(text_t), allocatable :: texts(:), texts_there(:)
-      integer :: k, status
-      logical :: are_texts
+      integer :: status
 
       status = 0
-      call read_bytes(a, path, bytes, are_texts, n, status)
-      call read_bytes(b, path, bytes_there, are_texts, n, status)
-      if (are_texts) then
-         call read_texts(a, path, texts, status)
-         call read_texts(b, path, texts_there, status)
-         if (status < 0 .or. size(texts) /= size(texts_there)) then
-            difference = path
-         else
-            if (.not. all([(texts(k)%s == texts_there(k)%s, k=1, size(texts))])) difference = path
-         end if
-      else if (status < 0 .or. size(bytes) /= size(bytes_there)) then
+      call read_bytes(a, path, bytes, n, status)
+      call read_bytes(b, path, bytes_there, n, status)
+      if (status < 0 .or. size(bytes) /= size(bytes_there)) then
          difference = path
       else if (any(bytes /= bytes_there)) then
          difference = path
       end if
    end subroutine compare_dataset
 
-   !> All bytes of a dataset of numbers or records.
-   subroutine read_bytes(file, path, bytes, are_texts, n, status)
+   !> All bytes of a dataset.
+   subroutine read_bytes(file, path, bytes, n, status)
       integer(hid_t), intent(in) :: file                            !! the file
       character(*), intent(in) :: path                              !! of the dataset
-      integer(int8), allocatable, target, intent(out) :: bytes(:)   !! (any) its bytes; none of texts
-      logical, intent(out) :: are_texts                             !! it holds texts of variable length
+      integer(int8), allocatable, target, intent(out) :: bytes(:)   !! (any) its bytes
       integer(i8), intent(inout) :: n                               !! numbers and texts so far
       integer, intent(inout) :: status                              !! negative: failed
 
@@ -117,13 +105,11 @@ contains
       integer(size_t) :: width
       integer :: closed, rank
 
-      are_texts = .false.
       allocate (bytes(0))
       if (status < 0) return
       call h5dopen_f(file, path, dataset, status)
       if (status < 0) return
       call h5dget_type_f(dataset, kind, status)
-      if (status >= 0) call h5tis_variable_str_f(kind, are_texts, status)
       if (status >= 0) call h5dget_space_f(dataset, space, status)
       if (status >= 0) call h5sget_simple_extent_ndims_f(space, rank, status)
       if (status < 0) return
@@ -133,7 +119,7 @@ contains
       if (status >= 0) call h5tget_size_f(kind, width, status)
       if (status < 0) return
       n = n + points
-      if (.not. are_texts .and. points > 0) then
+      if (points > 0) then
          deallocate (bytes)
          allocate (bytes(points*width))
          memory = c_loc(bytes)

@@ -9,7 +9,8 @@ module hdf5_events
    use hdf5, only: h5t_ieee_f64le, h5t_native_double, hid_t, hsize_t, size_t
    use hdf5_attributes, only: word_type
    use hdf5_calls, only: new_dataset
-   use hdf5_datasets, only: describe
+   use hdf5_datasets, only: describe, integer_dataset
+   use hdf5_scales, only: add_scale, scales_t, take_scales
    use, intrinsic :: iso_c_binding, only: c_char, c_loc, c_null_char
    use kinds, only: i8, wp
    implicit none (type, external)
@@ -33,6 +34,7 @@ module hdf5_events
       procedure :: bytes => bytes_to_come
       procedure :: append => append_records
       procedure :: sort => sort_table
+      procedure :: number => number_records
       procedure :: close => close_table
    end type event_table_t
 
@@ -159,6 +161,20 @@ contains
       if (status < 0 .or. self%written == 0) return
       call write_records(self, events, events%order_by_onset(), 0, status)
    end subroutine sort_table
+
+   !> Number the records, at the end: /event is the scale of their dimension.
+   subroutine number_records(self, file, scales, status)
+      class(event_table_t), intent(in) :: self     !! the table
+      integer(hid_t), intent(in) :: file           !! the file
+      type(scales_t), intent(inout) :: scales      !! gets it
+      integer, intent(inout) :: status             !! negative: failed
+
+      integer :: k
+
+      call integer_dataset(file, "event", [self%written], [(k, k=1, self%written)], "number of the event, from 1", status)
+      call add_scale(scales, file, "event", status)
+      call take_scales(scales, file, self%id, "events", ["event"], status)
+   end subroutine number_records
 
    !> Write records into a table that is long enough.
    subroutine write_records(self, events, list, offset, status)

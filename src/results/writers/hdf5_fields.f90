@@ -3,7 +3,8 @@ module hdf5_fields
    use film_fields, only: film_field_t, moment_end, moment_min
    use hdf5, only: hid_t
    use hdf5_datasets, only: real_dataset
-   use hdf5_table, only: write_table
+   use hdf5_scales, only: add_scale, close_scales, scales_t, take_scales_of_path
+   use hdf5_table, only: write_tables
    use kinds, only: i8, wp
    use result_table, only: result_table_t
    implicit none (type, external)
@@ -46,7 +47,9 @@ contains
       type(film_field_t), intent(in) :: field    !! the film
       integer, intent(inout) :: status           !! negative: failed
 
+      character(len(path) + 6) :: dimensions(2)
       type(result_table_t) :: table
+      type(scales_t) :: scales
       integer :: peak(2)
 
       peak = maxloc(field%pressure)
@@ -66,7 +69,7 @@ contains
       call table%fact("pressure_max", field%pressure(peak(1), peak(2)))
       call table%fact("pressure_max_angle", field%theta(peak(2)))
       call table%fact("gap_min", minval(field%gap))
-      call write_table(file, table, status)
+      call write_tables(file, [table], status)
       associate (m => size(field%y), n => size(field%theta))
          call real_dataset(file, path//"/theta", [n], field%theta, "rad", "angle around the bearing, frame of its body", status)
          call real_dataset(file, path//"/y", [m], field%y, "m", "axial position, from the middle", status)
@@ -74,6 +77,12 @@ contains
                            "film pressure relative to that at the ends", status)
          call real_dataset(file, path//"/gap", [m, n], reshape(field%gap, [m*n]), "m", "film thickness", status)
       end associate
+      dimensions = [character(len(path) + 6) :: path//"/theta", path//"/y"]
+      call add_scale(scales, file, dimensions(1), status)
+      call add_scale(scales, file, dimensions(2), status)
+      call take_scales_of_path(scales, file, path//"/pressure", dimensions, status)
+      call take_scales_of_path(scales, file, path//"/gap", dimensions, status)
+      call close_scales(scales, file, status)
    end subroutine write_field
 
 end module hdf5_fields

@@ -1,4 +1,4 @@
-!> The layout of run.h5, format 2.1: root attributes, deck, names, one growing dataset per quantity.
+!> The layout of run.h5, format 2.2: root attributes, deck, names, one growing dataset per quantity.
 !>
 !> A group appears if some item of it has a chosen channel, with all such items; a quantity appears
 !> if it is chosen for some item, and its dataset then holds all items of the group that appear.
@@ -11,7 +11,7 @@ module hdf5_layout
    use hdf5_attributes, only: integer_attribute, text_attribute, word_attribute
    use hdf5_calls, only: new_dataset, new_group
    use hdf5_datasets, only: describe, text_dataset
-   use hdf5_scales, only: add_scale, close_scales, scales_t, take_scales
+   use hdf5_scales, only: add_scale, close_scales, has_scale, scales_t, take_scales, take_scales_of_path
    use kinds, only: i8, wp
    use output_plan, only: output_plan_t
    use recorder, only: row_kinds, status_complete, status_failed, status_running, status_stopped
@@ -20,7 +20,7 @@ module hdf5_layout
    private
    public :: dataset_t, make_quantities, make_root, make_row_kind, make_time, rows_of_block, write_status
 
-   integer, parameter :: format_version(2) = [2, 1]  !! major, minor: a reader must know the major number
+   integer, parameter :: format_version(2) = [2, 2]  !! major, minor: a reader must know the major number
    integer, parameter :: most_rows = 512, fewest_rows = 8      !! of a block
    integer(i8), parameter :: rows_of_few = 128_i8              !! of a block of a short motion
    integer(i8), parameter :: bytes_of_block = 2097152_i8       !! of the widest dataset, from which the rows follow
@@ -208,12 +208,15 @@ contains
          end select
          if (all(item_group /= [group_energy, group_requests])) &
             call add_scale(scales, file, scale_of(catalogue, item_group), status)
+         if (item_group == group_contacts) call take_scales_of_path(scales, file, "clearances/contact_joint", &
+                                                                    [scale_of(catalogue, item_group)], status)
          if (item_group /= group_clearances) return
          call new_dataset(file, this%name//"/clearance", h5t_ieee_f64le, [size(items, kind=hsize_t)], radius, status)
          if (status >= 0) call h5dwrite_f(radius, h5t_native_double, this%radius(items), &
                                           [size(items, kind=hsize_t)], status)
          call describe(radius, "m", "radial clearance of the joint", "none", status)
          if (radius >= 0) call h5dclose_f(radius, closed)
+         call take_scales_of_path(scales, file, this%name//"/clearance", [scale_of(catalogue, item_group)], status)
       end associate
    end subroutine make_storage
 
@@ -240,7 +243,7 @@ contains
 
       path = "component"
       if (n == size(parameter_names)) path = "parameter"
-      if (any([(scales%list(k)%path == path, k=1, size(scales%list))])) return
+      if (has_scale(scales, trim(path))) return
       allocate (names(0))
       do k = 1, n
          if (n == size(parameter_names)) call append_text(names, parameter_names(k))

@@ -2,9 +2,10 @@
 !>
 !> Every procedure does nothing once `status` is negative, and leaves an empty list.
 module hdf5_read
-   use hdf5, only: h5dclose_f, h5dget_space_f, h5dopen_f, h5dread_f, h5dvlen_reclaim_f, h5lexists_f
-   use hdf5, only: h5sclose_f, h5sget_simple_extent_dims_f, h5sget_simple_extent_ndims_f, h5tclose_f
-   use hdf5, only: h5p_default_f, h5t_native_double, hid_t, hsize_t
+   use hdf5, only: h5dclose_f, h5dget_space_f, h5dget_type_f, h5dopen_f, h5dread_f, h5dvlen_reclaim_f, h5lexists_f
+   use hdf5, only: h5sclose_f, h5sget_simple_extent_dims_f, h5sget_simple_extent_ndims_f, h5tclose_f, h5tget_size_f
+   use hdf5, only: h5tis_variable_str_f
+   use hdf5, only: h5p_default_f, h5t_native_double, hid_t, hsize_t, size_t
    use hdf5_attributes, only: string_type
    use, intrinsic :: iso_c_binding, only: c_associated, c_char, c_f_pointer, c_loc, c_null_char, c_ptr, c_size_t
    use kinds, only: wp
@@ -81,7 +82,7 @@ contains
       if (dataset >= 0) call h5dclose_f(dataset, closed)
    end subroutine read_reals
 
-   !> All strings of a dataset.
+   !> All strings of a dataset, of fixed length, or of variable length as run.h5 had them before format 2.2.
    subroutine read_texts(file, path, list, status)
       integer(hid_t), intent(in) :: file                   !! the file
       character(*), intent(in) :: path                     !! path within it
@@ -93,9 +94,20 @@ contains
       character(kind=c_char), pointer :: characters(:)
       integer(hid_t) :: dataset, space, type_id
       integer :: closed, i, k, n
+      logical :: has_lengths
 
       call open_dataset(file, path, dataset, n, status)
       allocate (list(n), pointers(max(n, 1)))
+      if (status >= 0) call h5dget_type_f(dataset, type_id, status)
+      if (status >= 0) call h5tis_variable_str_f(type_id, has_lengths, status)
+      if (status < 0) return
+      if (.not. has_lengths) then
+         call read_fixed(dataset, type_id, list, status)
+         call h5tclose_f(type_id, closed)
+         call h5dclose_f(dataset, closed)
+         return
+      end if
+      call h5tclose_f(type_id, closed)
       call string_type(type_id, status)
       memory = c_loc(pointers)
       if (status >= 0 .and. n > 0) call h5dread_f(dataset, type_id, memory, status)
@@ -117,5 +129,30 @@ contains
       call h5tclose_f(type_id, closed)
       call h5dclose_f(dataset, closed)
    end subroutine read_texts
+
+   !> Strings of fixed length, which end at a null character.
+   subroutine read_fixed(dataset, type_id, list, status)
+      integer(hid_t), intent(in) :: dataset        !! the open dataset
+      integer(hid_t), intent(in) :: type_id        !! its type
+      type(text_t), intent(inout) :: list(:)       !! (n) the strings
+      integer, intent(inout) :: status             !! negative: failed
+
+      character(kind=c_char, len=:), allocatable, target :: store
+      type(c_ptr) :: memory
+      integer(size_t) :: width
+      integer :: k
+
+      call h5tget_size_f(type_id, width, status)
+      if (status < 0) return
+      allocate (character(width*size(list)) :: store)
+      memory = c_loc(store)
+      if (size(list) > 0) call h5dread_f(dataset, type_id, memory, status)
+      if (status < 0) return
+      do k = 1, size(list)
+         associate (padded => store((k - 1)*width + 1:k*width))
+            list(k)%s = padded(:index(padded//c_null_char, c_null_char) - 1)
+         end associate
+      end do
+   end subroutine read_fixed
 
 end module hdf5_read

@@ -1,7 +1,7 @@
 !> Names for the dimensions of datasets: HDF5's dimension scales, which xarray and netCDF readers look up.
 !>
-!> A scale is a dataset of one dimension. Every dimension of a history gets one, so that no reader meets named and nameless
-!> ones side by side. The lists are written here, each in one piece: the library's own way rewrites that of a scale for every
+!> A scale is a dataset of one dimension. Every dimension in run.h5 gets one: readers refuse groups with dimensions that have
+!> none. The lists are written here, each in one piece: the library's own way rewrites that of a scale for every
 !> dataset that takes it. As in `hdf5_calls`, every procedure does nothing once `status` is negative.
 !>
 !> Source: HDF5 dimension scale specification (The HDF Group), for names and types of the lists. Limits: a dimension has one scale.
@@ -12,7 +12,7 @@ module hdf5_scales
    use, intrinsic :: iso_c_binding, only: c_char, c_int, c_int64_t, c_loc, c_null_char, c_ptr, c_size_t
    implicit none (type, external)
    private
-   public :: add_scale, close_scales, scales_t, take_scales
+   public :: add_scale, close_scales, has_scale, scales_t, take_scales, take_scales_of_path
 
    integer(size_t), parameter :: reference_bytes = 8   !! of a reference to an object
    integer(size_t), parameter :: use_bytes = 16        !! of an entry in a scale's list, as C aligns it
@@ -64,8 +64,8 @@ contains
       integer(hid_t) :: dataset
       integer :: closed
 
-      if (status < 0) return
       if (.not. allocated(scales%list)) allocate (scales%list(0))
+      if (status < 0) return
       scale%path = trim(path)
       allocate (scale%uses(0))
       call find_reference(file, path, scale%reference, status)
@@ -75,6 +75,37 @@ contains
       call h5dclose_f(dataset, closed)
       scales%list = [scales%list, scale]
    end subroutine add_scale
+
+   !> Whether a dataset is one of the scales.
+   pure logical function has_scale(scales, path)
+      type(scales_t), intent(in) :: scales      !! all scales
+      character(*), intent(in) :: path          !! of the dataset
+
+      integer :: k
+
+      has_scale = .false.
+      if (.not. allocated(scales%list)) return
+      do k = 1, size(scales%list)
+         if (scales%list(k)%path == path) has_scale = .true.
+      end do
+   end function has_scale
+
+   !> Give the dimensions of a dataset that is not open their scales.
+   subroutine take_scales_of_path(scales, file, path, names, status)
+      type(scales_t), intent(inout) :: scales   !! all scales
+      integer(hid_t), intent(in) :: file        !! the file
+      character(*), intent(in) :: path          !! of the dataset
+      character(*), intent(in) :: names(:)      !! (rank) paths of the scales, in C's order
+      integer, intent(inout) :: status          !! negative: failed
+
+      integer(hid_t) :: dataset
+      integer :: closed
+
+      if (status < 0) return
+      call h5dopen_f(file, path, dataset, status)
+      call take_scales(scales, file, dataset, path, names, status)
+      call h5dclose_f(dataset, closed)
+   end subroutine take_scales_of_path
 
    !> Give the dimensions of a dataset their scales.
    subroutine take_scales(scales, file, dataset, path, names, status)
@@ -119,7 +150,7 @@ contains
       integer(hid_t) :: attribute, dataset, space, type_id
       integer :: closed, k
 
-      if (status < 0) return
+      if (status < 0 .or. .not. allocated(scales%list)) return
       call h5tcreate_f(h5t_compound_f, use_bytes, type_id, status)
       call h5tinsert_f(type_id, "dataset", 0_size_t, h5t_std_ref_obj, status)
       call h5tinsert_f(type_id, "dimension", reference_bytes, h5t_native_integer, status)

@@ -22,7 +22,8 @@ module hdf5_writer
    use hdf5_layout, only: dataset_t, make_quantities, make_root, make_row_kind, make_time, rows_of_block, write_status
    use hdf5_probe, only: file_can_be_read, row_sums_t
    use hdf5_rows, only: write_rows, write_states
-   use hdf5_table, only: bytes_of_table, write_table
+   use hdf5_scales, only: add_scale, close_scales, scales_t
+   use hdf5_table, only: bytes_of_table, write_tables
    use horizon_table, only: table_of_digits, table_of_horizon
    use kinds, only: i8, wp
    use output_marker, only: enter_file, note_files
@@ -108,8 +109,7 @@ contains
       if (status >= 0) call h5gclose_f(group, closed)
       call make_provenance(self%file, plan, status)
       if (allocated(plan%horizon%t)) then
-         call write_table(self%file, table_of_horizon(plan%horizon), status)
-         call write_table(self%file, table_of_digits(plan%horizon), status)
+         call write_tables(self%file, [table_of_horizon(plan%horizon), table_of_digits(plan%horizon)], status)
       end if
       if (status >= 0) call flush_file(self, status)
       call note_files()
@@ -325,6 +325,7 @@ contains
       type(text_t), intent(in) :: warnings(:)            !! (any) what a careful reader should know
       type(error_t), allocatable, intent(out) :: error   !! it cannot be written
 
+      type(scales_t) :: scales
       integer :: k, status
 
       if (self%file < 0) return
@@ -339,11 +340,12 @@ contains
          call write_status(self%file, status_failed, status)
       else
          call self%events%sort(events, status)
-         do k = 1, size(tables)
-            call write_table(self%file, tables(k), status)
-         end do
+         call write_tables(self%file, tables, status)
          call write_fields(self%file, fields, status)
          call text_dataset(self%file, "warnings", warnings, .false., "warnings", status)
+         call add_scale(scales, self%file, "warnings", status)
+         call self%events%number(self%file, scales, status)
+         call close_scales(scales, self%file, status)
          call text_attribute(self%file, "status_message", summary%message, status)
          call write_status(self%file, summary%status, status)
       end if

@@ -9,7 +9,7 @@ module precision_file
    use hdf5_datasets, only: integer_dataset, real_dataset, text_dataset
    use hdf5_layout, only: write_status
    use provenance, only: make_provenance
-   use hdf5_table, only: write_table
+   use hdf5_table, only: write_tables
    use horizon_table, only: table_of_digits, table_of_horizon
    use kinds, only: wp
    use output_plan, only: output_plan_t
@@ -42,14 +42,13 @@ contains
       if (status >= 0) then
          call text_attribute(file, "machine", study%machine%processor, status)
          call text_attribute(file, "compile_flags", study%machine%flags, status)
-         call write_table(file, table_of_settings(study), status)
+         call write_tables(file, [table_of_settings(study)], status)
          call write_tol_runs(file, study, status)
          call write_reference(file, study, status)
          call write_statistics(file, study, status)
          call write_growth(file, study, status)
          if (allocated(study%horizon%t)) then
-            call write_table(file, table_of_horizon(study%horizon), status)
-            call write_table(file, table_of_digits(study%horizon), status)
+            call write_tables(file, [table_of_horizon(study%horizon), table_of_digits(study%horizon)], status)
          end if
          call write_choice(file, study, status)
          call make_provenance(file, plan, status)
@@ -76,7 +75,7 @@ contains
       call text_dataset(file, "errors/names", names, .false., "types of error", status)
       call text_dataset(file, "errors/units", units, .false., "their units", status)
       call text_dataset(file, "errors/long_names", words, .false., "descriptions", status)
-      call write_table(file, table_of_tol_runs(study), status)
+      call write_tables(file, [table_of_tol_runs(study)], status)
    end subroutine write_tol_runs
 
    !> The reference.
@@ -92,7 +91,7 @@ contains
       call table%fact("confirmed_by", study%reference%confirmation)
       call table%fact("window", study%reference%window)
       call table%fact("end", study%end)
-      call write_table(file, table, status)
+      call write_tables(file, [table], status)
       call real_dataset(file, "reference/error", [n_compared], study%reference%bar, "list", &
                         "difference from the confirming run: the first types of error", status)
       call real_dataset(file, "reference/agrees_until", [n_digit], study%reference%agreed, "s", &
@@ -114,7 +113,7 @@ contains
          call table%start("statistics", "statistics", 0)
          call table%fact("from", reference%from)
          call table%fact("until", study%end)
-         call write_table(file, table, status)
+         call write_tables(file, [table], status)
          allocate (names(0), units(0), words(0))
          do s = 1, n_statistic
             call append_text(names, trim(statistic_names(s)))
@@ -180,7 +179,7 @@ contains
             call table%fact("fit_begin", growth%fit_begin)
             call table%fact("fit_end", growth%fit_end)
          end if
-         call write_table(file, table, status)
+         call write_tables(file, [table], status)
          call real_dataset(file, "twins/horizon", [n_digit], growth%horizon, "s", &
                            "time up to which a trajectory has 1, 2, ... digits; NaN: beyond the run", status)
          if (size(growth%t) == 0) return
@@ -214,7 +213,7 @@ contains
       else
          call table%fact("setting", "")
       end if
-      call write_table(file, table, status)
+      call write_tables(file, [table], status)
    end subroutine write_choice
 
 end module precision_file

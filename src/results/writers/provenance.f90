@@ -5,6 +5,7 @@ module provenance
    use hdf5_attributes, only: real_attribute, text_attribute
    use hdf5_calls, only: new_group
    use hdf5_datasets, only: text_dataset
+   use hdf5_scales, only: add_scale, close_scales, scales_t, take_scales_of_path
    use output_plan, only: output_plan_t
    use posix, only: host_name, utc_time
    use processor, only: processor_name
@@ -27,6 +28,7 @@ contains
       type(output_plan_t), intent(in) :: plan  !! what it says of the run
       integer, intent(inout) :: status         !! negative: failed
 
+      type(scales_t) :: scales
       type(text_t), allocatable :: digests(:), names(:)
       integer(hid_t) :: group
       integer :: closed, k
@@ -55,6 +57,11 @@ contains
          call text_dataset(group, "parameters/names", origin%parameter_names, .false., "parameters of the deck", status)
          call text_dataset(group, "parameters/values", origin%parameter_texts, .false., "values used, as written", status)
       end associate
+      call add_scale(scales, group, "files/names", status)
+      call add_scale(scales, group, "parameters/names", status)
+      call take_scales_of_path(scales, group, "files/sha256", ["files/names"], status)
+      call take_scales_of_path(scales, group, "parameters/values", ["parameters/names"], status)
+      call close_scales(scales, group, status)
       if (group >= 0) call h5gclose_f(group, closed)
    end subroutine make_provenance
 

@@ -10,7 +10,7 @@ module sweep_file
    use hdf5_calls, only: new_group
    use hdf5_datasets, only: integer_dataset, real_dataset, text_dataset
    use hdf5_layout, only: write_status
-   use hdf5_table, only: write_table
+   use hdf5_table, only: write_tables
    use provenance, only: make_provenance
    use kinds, only: wp
    use output_plan, only: output_plan_t
@@ -44,7 +44,7 @@ contains
       if (status >= 0) then
          call write_parameters(file, results, status)
          call write_runs(file, results, status)
-         call write_table(file, table_of_cases(results), status)
+         call write_tables(file, [table_of_cases(results)], status)
          call make_provenance(file, plan, status)
          call write_cost(file, results, status)
          if (size(run_directories) > 0) call copy_channels(file, results, run_directories, status)
@@ -99,7 +99,7 @@ contains
       integer, allocatable :: owners(:)
       integer :: k, m
 
-      call write_table(file, table_of_runs(results), status)
+      call write_tables(file, [table_of_runs(results)], status)
       call text_dataset(file, "runs/names", results%names, .false., "names of the statistics", status)
       call text_dataset(file, "runs/units", results%units, .false., "their units", status)
       m = sum([(size(results%runs(k)%poincare_times), k=1, size(results%runs))])
