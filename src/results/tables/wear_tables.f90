@@ -39,8 +39,8 @@ contains
       call table%put("joint", "1", "joint of each surface", texts=joints, heading="joint")
       call table%put("surface", "1", "bearing or journal", texts=sides, heading="surface")
       call table%put("volume", "m^3", "worn volume", [(sum(worn(k)%volume), k=1, size(worn))], heading="volume")
-      call table%put("depth_max", "m", "maximum depth of the worn profile", depth, heading="depth")
-      call table%put("depth_angle", "rad", "where that is, in the frame of the body that carries the surface", angle, &
+      call table%put("depth_max", "m", "maximum depth of a cell", depth, heading="depth")
+      call table%put("depth_angle", "rad", "middle of that cell, in the frame of the body that carries the surface", angle, &
                      heading="at angle")
       call table%put("arc", "rad", "angle of all cells that have lost something", [(worn(k)%arc(), k=1, size(worn))], &
                      heading="worn arc")
@@ -70,7 +70,7 @@ contains
       call table%put("surface", "1", "bearing or journal", texts=sides, formats=in_hdf5)
       call table%put("angle", "rad", "direction of the middle of each cell, in the frame of the body that carries it", &
                      [(worn(k)%angle([(i, i=1, size(worn(k)%volume))]), k=1, size(worn))], formats=in_hdf5)
-      call table%put("depth", "m", "depth of the worn profile in the middle of each cell", [(worn(k)%depths(), k=1, size(worn))], &
+      call table%put("depth", "m", "depth of each cell", [(worn(k)%depths(), k=1, size(worn))], &
                      formats=in_hdf5)
       call table%put("volume", "m^3", "what each cell has lost", [(worn(k)%volume, k=1, size(worn))], formats=in_hdf5)
    end function table_of_profiles
