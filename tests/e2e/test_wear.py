@@ -107,7 +107,7 @@ def test_running_in_and_threshold(gudgeon):
     greatest = LOAD / (LENGTH * RADIUS * (half + math.sin(half) * math.cos(half)))
     surfaces, _ = worn(gudgeon, shaft("threshold[Pa]", repr(0.999 * greatest)))
     part = math.sin(math.acos(0.999)) / math.sin(half)
-    assert_close(surfaces["bearing", "bearing"]["volume"], 1e-15 * LOAD * SLID * part, relative=1e-6, what="threshold")
+    assert_close(surfaces["bearing", "bearing"]["volume"], 1e-15 * LOAD * SLID * part, relative=1e-5, what="threshold")
     surfaces, _ = worn(gudgeon, shaft("threshold[Pa]", repr(1.001 * greatest)))
     assert surfaces["bearing", "bearing"]["volume"] == 0 and surfaces["bearing", "bearing"]["depth_max"] == 0
 
@@ -143,7 +143,7 @@ def test_identity_with_the_ledger(gudgeon):
     """V = (k/mu) W of Coulomb's friction, to 1e-10; Reye's law with k/mu is the same, its volume the work to round-off."""
     surfaces, friction = base(gudgeon)
     for side, k in (("bearing", 1e-15), ("journal", 3e-15)):
-        assert_close(surfaces["gudgeon", side]["volume"], k / 0.05 * friction, relative=1e-10, what=side)
+        assert_close(surfaces["gudgeon", side]["volume"], k / 0.05 * friction, relative=1e-12, what=side)
     by_work, friction = worn(gudgeon, crank(wear="reye"))
     for side, k in (("bearing", 2e-14), ("journal", 6e-14)):
         assert_close(by_work["gudgeon", side]["volume"], k * friction, relative=1e-12, what=f"reye, {side}")

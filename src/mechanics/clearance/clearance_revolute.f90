@@ -15,6 +15,7 @@
 module clearance_revolute
    use bodies, only: material_t
    use clearance_set, only: loss_friction, n_integrand, normal_impulse
+   use friction_law, only: memory_slip
    use item, only: item_t, place_of
    use joint_level, only: level_lubricated, level_of
    use kind_info, only: add_channel, add_number, add_reference, add_word, dim_length, in_plane, kind_info_t
@@ -134,12 +135,12 @@ contains
       call find_level_mistake(item, column, message, help)
    end subroutine revolute_mistake
 
-   !> Rates of the driving work of wear: F_N |v_T|, or the power of friction; v_T that of the material points where forces act.
+   !> Rates of the driving work of wear: F_N |v_T|, or the power of friction.
    pure subroutine revolute_wear_rates(self, motion, integrands, rate)
       class(clearance_revolute_t), intent(in) :: self   !! the set, with a wear law, evaluated
       type(motion_t), intent(in) :: motion              !! positions and velocities of the evaluation
       real(wp), intent(in) :: integrands(n_integrand, self%n_contact)  !! (3, contacts) power lost and normal force [W and N]
-      real(wp), intent(out) :: rate(self%n_contact)                    !! (contacts) rates, not negative [W]
+      real(wp), intent(out) :: rate(self%n_contact)                    !! (contacts) rates [W]
 
       integer :: k
 
@@ -147,15 +148,28 @@ contains
          rate(k) = 0.0_wp
          if (.not. self%contact(k)%is_touching) cycle
          if (self%laws%wear%by_friction) then
-            rate(k) = abs(integrands(loss_friction, k))
+            rate(k) = integrands(loss_friction, k)
          else
             associate (i => self%items%body(1, k), j => self%items%body(2, k))
-               rate(k) = integrands(normal_impulse, k)*abs(planar_sliding(self%work%contacts(k), motion%v(:, i), &
-                                                                          motion%omega(3, i), motion%v(:, j), motion%omega(3, j)))
+               rate(k) = integrands(normal_impulse, k)*speed_of(self, k, planar_sliding(self%work%contacts(k), motion%v(:, i), &
+                                                                           motion%omega(3, i), motion%v(:, j), motion%omega(3, j)))
             end associate
          end if
       end do
    end subroutine revolute_wear_rates
+
+   !> |v_T| of the material points where forces act, for wear. Of a contact that may stick it is the speed along its slip, and none
+   !> while it sticks: what is left of its sliding then is no motion.
+   pure real(wp) function speed_of(self, k, v_t) result(speed)
+      class(clearance_revolute_t), intent(in) :: self   !! the set
+      integer, intent(in) :: k                          !! contact of the set
+      real(wp), intent(in) :: v_t                       !! sliding velocity [m/s]
+
+      speed = abs(v_t)
+      if (self%stick_slip%memory /= memory_slip) return
+      speed = 0.0_wp
+      if (abs(self%stick_slip%slip(k)) == 1) speed = self%stick_slip%slip(k)*v_t
+   end function speed_of
 
    !> What a contact does to its surfaces at a motion: its arc is that in which the round surfaces overlap, in the directions of the
    !> normal. Friction that remembers is taken as that of steady sliding.
@@ -172,7 +186,7 @@ contains
       call self%monitor(k, motion, delta, rate, wear%force, force_rate)
       call self%measure(k, .true., motion, contact)
       call self%turning(k, motion, contact, turn, speed_i, speed_j)
-      wear%speed = abs(contact%v_t_work)
+      wear%speed = max(speed_of(self, k, contact%v_t_work), 0.0_wp)
       wear%power = wear%force*wear%speed
       if (self%laws%wear%by_friction) then
          call self%laws%friction%force(1, [wear%force], [wear%speed], f_t)

@@ -179,7 +179,7 @@ contains
       class(clearance_set_t), intent(in) :: self   !! the set, with a wear law, evaluated
       type(motion_t), intent(in) :: motion         !! positions and velocities of the evaluation
       real(wp), intent(in) :: integrands(n_integrand, self%n_contact)  !! (3, contacts) power lost and normal force [W and N]
-      real(wp), intent(out) :: rate(self%n_contact)                    !! (contacts) rates, not negative [W]
+      real(wp), intent(out) :: rate(self%n_contact)                    !! (contacts) rates [W]
 
       rate = 0.0_wp
    end subroutine clearance_wear_rates

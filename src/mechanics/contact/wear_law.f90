@@ -64,7 +64,7 @@ contains
       call add_number(info, "bearing", dim_wear, "wear coefficient of the surface of i: worn volume over "//over// &
                       "; 0: it does not wear", lower=0.0_wp)
       call add_number(info, "journal", dim_wear, "the same of the surface of j", lower=0.0_wp)
-      call add_number(info, "threshold", dim_pressure, "pressure below which nothing wears; needs the length of the joint", &
+      call add_number(info, "threshold", dim_pressure, "pressure of the contact below which nothing wears", &
                       default="0 Pa", lower=0.0_wp)
       call add_number(info, "running_in", dim_length, "sliding distance over which the surfaces run in: the coefficient goes as " &
                       //"exp(-s/running_in) from its first value to its last; 0: they are run in", default="0 m", lower=0.0_wp)
