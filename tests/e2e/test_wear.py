@@ -7,7 +7,7 @@ import math
 import h5py
 import numpy as np
 import pytest
-from support import assert_close, call, changed, plain_deck, scratch, written
+from support import ROOT, assert_close, call, changed, plain_deck, scratch, written
 
 LOAD, STIFFNESS, RADIUS, SHAFT, LENGTH = 100.0, 1e8, 10e-3, 9.5e-3, 15e-3
 DEPTH = LOAD / STIFFNESS
@@ -56,6 +56,8 @@ def worn(program, text, *options):
         rows = {name: file[f"wear/{name}"][()] for name in file["wear"]}
         cells = {name: file[f"wear_profiles/{name}"][()] for name in file["wear_profiles"]}
         friction = file["energy/dissipated_friction"][-1] if "energy/dissipated_friction" in file else None
+    pages = (ROOT / "docs/reference/output.md").read_text()
+    assert all(f"`/wear/{name}`" in pages for name in rows) and all(f"`/wear_profiles/{name}`" in pages for name in cells)
     summary = json.loads((directory / "out/summary.json").read_text())["worn_surfaces"]
     surfaces = {}
     for k, key in enumerate(zip(rows["joint"], rows["surface"])):
