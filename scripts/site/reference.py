@@ -9,7 +9,7 @@ ROOT = pathlib.Path(__file__).resolve().parent.parent.parent
 PLACE = ROOT / "docs/reference"
 MARK = "<!-- Made by `make docs` from the program: do not edit. -->"
 # groups of which a deck has several tables, and the parameter that names the one of an example
-CHOSEN = {"contact": "law", "friction": "friction", "film": "film", "integrator": "method"}
+CHOSEN = {"contact": "law", "friction": "friction", "film": "film", "wear": "wear", "integrator": "method"}
 
 Column = collections.namedtuple("Column", "name meaning value limits default")
 Section = collections.namedtuple("Section", "space about head heading columns channels")

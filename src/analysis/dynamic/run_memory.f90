@@ -21,7 +21,7 @@ module run_memory
    private
    public :: load_part_memory, load_run, save_part_memory, save_run
 
-   integer, parameter :: monitor_version = 1   !! of the form of what is kept of contacts from step to step
+   integer, parameter :: monitor_version = 2   !! of the form of what is kept of contacts from step to step
    integer, parameter :: part_version = 1    !! of the form of where ledger and events stand
 
 contains

@@ -73,6 +73,7 @@ contains
       call warn_of_errors(whole%parts(worst)%system, whole%parts(worst)%violation%worst, whole%parts(worst)%violation%row, &
                           tally%min_lost, tally%magnitude, summary)
       call warn_by_parts(whole, summary)
+      call gather_wear(whole, summary)
       guards = limits%guards
       call whole%seen(guards)
       call warn_of_stiffness(whole, guards, method, allocated(error), summary)
@@ -84,6 +85,24 @@ contains
          summary%message = error%message
       end if
    end subroutine sum_up
+
+   !> What the surfaces of all parts have lost.
+   subroutine gather_wear(whole, summary)
+      type(whole_motion_t), intent(in) :: whole      !! the motion
+      type(summary_t), intent(inout) :: summary      !! worn surfaces are set
+
+      integer :: k, p
+
+      allocate (summary%worn(0))
+      do p = 1, size(whole%parts)
+         call whole%parts(p)%monitor%wear%add_surfaces(whole%parts(p)%system, summary%worn)
+      end do
+      do k = 1, size(summary%worn)
+         if (.not. summary%worn(k)%is_through()) cycle
+         call append_text(summary%warnings, "the "//summary%worn(k)%side//" of joint '"//summary%worn(k)%joint//"' is worn "// &
+                          "through: its depth is cut at its radius")
+      end do
+   end subroutine gather_wear
 
    !> What the parts of the motion have noted.
    subroutine warn_by_parts(whole, summary)

@@ -334,6 +334,9 @@ contains
                      y(to + 1:to + set%stick_slip%n_component) = own(from + 1:from + set%stick_slip%n_component)
                   end if
                   y(whole%place_of_impulse(target%before%contacts + c)) = own(system%place_of_impulse(m))
+                  if (system%n_wear > 0) then
+                     y(whole%place_of_wear(target%before%contacts + c)) = own(system%place_of_wear(m))
+                  end if
                   if (.not. system%ledger%is_kept) cycle
                   from = system%in_state(place_of_loss(m, 1))
                   to = whole%in_state(place_of_loss(target%before%contacts + c, 1))

@@ -20,6 +20,7 @@ module contact_monitor
    use recorder, only: event_t
    use slip_monitor, only: handle_slip
    use turn_monitor, only: handle_turn
+   use wear_monitor, only: new_wear_monitor, wear_monitor_t
    implicit none (type, external)
    private
    public :: close_open, contact_monitor_t, new_contact_monitor
@@ -40,6 +41,7 @@ module contact_monitor
       real(wp) :: shift = 0.0_wp                     !! time from the last onset to where a force that jumps there is seen [s]
       type(trend_t), allocatable :: force(:)         !! (contacts) normal force
       type(trend_t), allocatable :: penetration(:)   !! (contacts) penetration
+      type(wear_monitor_t) :: wear                   !! what surfaces lose
       real(wp), allocatable :: y(:)                  !! (n) scratch state [any]
       real(wp), allocatable :: ydot(:)               !! (n) scratch derivative [any]
       real(wp), allocatable :: g(:), g_rate(:)       !! (contacts) scratch event functions and rates [m, m/s]
@@ -56,7 +58,7 @@ module contact_monitor
 
    interface
 
-      !> Look for maxima of force and penetration within the last step, and whether a force is cut off.
+      !> Look for maxima of force and penetration within the last step, whether a force is cut off, and what surfaces lose.
       module subroutine after_step(self, system, method)
          implicit none (type, external)
          class(contact_monitor_t), intent(inout) :: self   !! the monitor
@@ -88,6 +90,7 @@ contains
       type(contact_monitor_t), intent(out) :: monitor   !! the monitor
 
       allocate (monitor%peaks(1))
+      call new_wear_monitor(system, monitor%wear)
       allocate (monitor%owes_row(system%clearance_joints%n_contact), source=.false.)
       allocate (monitor%told(system%clearance_joints%n_contact), source=0.0_wp)
       allocate (monitor%low(2, system%clearance_joints%n_contact), source=0.0_wp)

@@ -14,6 +14,7 @@ contains
          call archive%put(self%told(k))
          call archive%put(self%low(:, k))
       end do
+      call self%wear%save(archive)
    end procedure monitor_save
 
    !> Read what the monitor remembers.
@@ -30,6 +31,7 @@ contains
          call archive%get(self%low(1, k))
          call archive%get(self%low(2, k))
       end do
+      call self%wear%load(archive)
    end procedure monitor_load
 
 end submodule contact_monitor_memory

@@ -14,7 +14,7 @@ submodule(contact_monitor) contact_monitor_steps
 
 contains
 
-   !> Look for maxima of force and penetration within the last step, and whether a force is cut off.
+   !> Look for maxima of force and penetration within the last step, whether a force is cut off, and what surfaces lose.
    module procedure after_step
       integer :: i, k
 
@@ -28,6 +28,7 @@ contains
             end do
          end associate
       end do
+      if (system%n_wear > 0) call self%wear%after_step(system, method)
 
    contains
 

@@ -37,6 +37,7 @@ contains
          associate (set => loaded%system%clearance_joints%sets(k)%set)
             law = set%laws%normal%name
             if (allocated(set%laws%friction)) law = law//", friction "//set%laws%friction%name
+            if (allocated(set%laws%wear)) law = law//", wear "//set%laws%wear%name
             do i = 1, set%n
                c = (i - 1)*set%n_contact_item + 1
                words = ""

@@ -19,7 +19,7 @@ contains
       type(mechanism_t), intent(in) :: system   !! its system
 
       integer :: k
-      logical :: is_nothing, is_used(max(size(scene%frictions), size(scene%laws), size(scene%materials), &
+      logical :: is_nothing, is_used(max(size(scene%frictions), size(scene%laws), size(scene%materials), size(scene%wears), &
                                          size(scene%lubrication%films), size(scene%lubrication%oils)))
 
       call say("")
@@ -41,6 +41,10 @@ contains
       call find_used(scene, "material", is_used)
       do k = 1, size(scene%materials)
          if (.not. is_used(k)) call drop("material '"//scene%materials(k)%name%s//"': no joint refers to it")
+      end do
+      call find_used(scene, "wear.", is_used)
+      do k = 1, size(scene%wears)
+         if (.not. is_used(k)) call drop("wear law '"//scene%wears(k)%law%name//"': no joint refers to it")
       end do
       call find_used(scene, "film.", is_used)
       do k = 1, size(scene%lubrication%films)

@@ -10,6 +10,7 @@ module recorder
    use linearised, only: linearised_t
    use saved_run, only: saved_run_t, action_none
    use text, only: text_t
+   use worn_surface, only: worn_surface_t
    implicit none (type, external)
    private
    public :: event_t, located_t, recorder_t, run_quality_t, summary_t
@@ -87,6 +88,7 @@ module recorder
       type(text_t), allocatable :: warnings(:)     !! (any) what a careful reader should know
       character(:), allocatable :: equilibrium     !! of a static analysis: stable, unstable or indifferent, and why; else blank
       type(linearised_t) :: linear                 !! of a static analysis with films: small motions about the equilibrium
+      type(worn_surface_t), allocatable :: worn(:) !! (any) worn surfaces; unallocated: no dynamic analysis
       real(wp) :: time_start = 0.0_wp              !! first instant [s]
       real(wp) :: time_end = 0.0_wp                !! last instant reached [s]
       integer :: groups = 1                        !! groups of bodies integrated apart; 1: all together

@@ -23,6 +23,7 @@ module build_clearances
    use scene, only: scene_t
    use socket_films, only: socket_films_t
    use ties, only: find_joint, kind_number, tie_of, tie_set, tie_t
+   use wear_law, only: wear_law_t
    implicit none (type, external)
    private
    public :: add_clearances, has_ideal, is_ideal, levels_as_written, levels_ideal, levels_clearance_joints
@@ -92,7 +93,7 @@ contains
       share_laws = .true.
       do c = 1, size(info%columns)
          select case (info%columns(c)%name)
-         case ("law", "face_law", "friction", "film")
+         case ("law", "face_law", "friction", "wear", "film")
             share_laws = share_laws .and. item%values(c)%index == other%values(c)%index
          case ("level", "stiffness")
             share_laws = share_laws .and. item%values(c)%text == other%values(c)%text
@@ -181,6 +182,7 @@ contains
       call slot%set%new(items, ties%point(1), ties%point(2), scene%points, law, friction)
       call slot%set%take_surfaces(items, scene%materials, scene%bodies%mass, is_driven)
       if (face_law > 0) allocate (slot%set%laws%face, source=scene%laws(face_law)%law)
+      call choose_wear(scene, scene%clearances(kind)%info, items(1), slot%set%laws%wear)
       slot%set%items%free = [(0, i=1, size(items))]
       allocate (slot%set%items%slide_axis(2, size(items)), source=0.0_wp)
       allocate (joints(size(items)))
@@ -250,6 +252,19 @@ contains
       call new_law_faded(whole, item%number("e_t0"), faded)
       call move_alloc(faded, law)
    end subroutine choose_law
+
+   !> The wear law of a row, if it names one.
+   subroutine choose_wear(scene, info, item, law)
+      type(scene_t), intent(in) :: scene                    !! the scene
+      type(kind_info_t), intent(in) :: info                 !! the geometry
+      type(item_t), intent(in) :: item                      !! the row
+      class(wear_law_t), allocatable, intent(out) :: law    !! its law; unallocated: none
+
+      integer :: number
+
+      number = cell_index(info, item, "wear")
+      if (number > 0) allocate (law, source=scene%wears(number)%law)
+   end subroutine choose_wear
 
    !> A joint that a row names, by itself.
    subroutine make_joint(scene, number, motion, set, free)

@@ -77,10 +77,10 @@ contains
                                     .or. any([(scene%joints(k)%info%counts_turns .and. size(scene%joints(k)%items) > 0, &
                                                k=1, n_joint_kinds())])
       allocate (system%clearance_joints%integrands(n_integrand, system%clearance_joints%n_contact), source=0.0_wp)
-      if (scene%analysis == analysis_dynamic) system%n_impulse = system%clearance_joints%n_contact
+      if (scene%analysis == analysis_dynamic) call count_works(system)
       system%n_quadrature = merge(place_of_film_loss(system%clearance_joints%n_contact, system%friction%rubbing%n > 0) &
                                   - merge(0, 1, system%clearance_joints%has_films), 0, &
-                                  system%ledger%is_kept) + system%n_impulse
+                                  system%ledger%is_kept) + system%n_wear + system%n_impulse
       system%n = system%linkage%n_position + system%linkage%n_rate + system%n_quadrature
       call count_stick_slips(system)
       call add_event_functions(system)
@@ -92,6 +92,18 @@ contains
       call bind_reactions(system)
       call system%choose_form()
    end subroutine new_system
+
+   !> Contacts whose impulses are integrated, and whose driving work of wear.
+   subroutine count_works(system)
+      type(mechanism_t), intent(inout) :: system  !! the system, its contacts counted
+
+      integer :: k
+
+      associate (joints => system%clearance_joints)
+         system%n_impulse = joints%n_contact
+         if (any([(allocated(joints%sets(k)%set%laws%wear), k=1, size(joints%sets))])) system%n_wear = joints%n_contact
+      end associate
+   end subroutine count_works
 
    !> The blocks of event functions that the contacts have.
    subroutine add_event_functions(system)

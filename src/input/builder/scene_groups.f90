@@ -288,6 +288,7 @@ contains
       one%materials = scene%materials
       one%laws = scene%laws
       one%frictions = scene%frictions
+      one%wears = scene%wears
       one%lubrication = scene%lubrication
       one%analysis = scene%analysis
       one%settings%integration = scene%settings%integration

@@ -1,7 +1,7 @@
 !> The scene of a deck whose parameters have other numbers than when it was read: only what they stand in is read again.
 module change_scene
    use clearance_registry, only: n_clearance_kinds
-   use contact_registry, only: n_friction_kinds, n_law_kinds
+   use contact_registry, only: n_friction_kinds, n_law_kinds, n_wear_kinds
    use deck_types, only: deck_t
    use diagnostics, only: diagnostics_t
    use film_registry, only: n_film_kinds
@@ -9,7 +9,7 @@ module change_scene
    use joint_registry, only: n_joint_kinds
    use kind_info, only: is_of_space
    use read_films, only: check_lubricants, make_films
-   use read_laws, only: make_frictions, make_laws
+   use read_laws, only: make_frictions, make_laws, make_wears
    use read_scene, only: check_space, finish_scene, list_names, resolve_tables
    use references, only: add_names, directory_t
    use scene, only: n_base, scene_t, table_t
@@ -99,6 +99,15 @@ contains
             associate (items => scene%tables%frictions(i)%items)
                if (has_changed) call make_frictions(i, items, mistakes%count() > 0, scene%frictions(n + 1:), mistakes)
                call add_names(items, directory%frictions)
+               n = n + size(items)
+            end associate
+         end do
+         n = 0
+         do i = 1, n_wear_kinds()
+            call read_again(scene%tables%wears(i), has_changed)
+            associate (items => scene%tables%wears(i)%items)
+               if (has_changed) call make_wears(i, items, mistakes%count() > 0, scene%wears(n + 1:), mistakes)
+               call add_names(items, directory%wears)
                n = n + size(items)
             end associate
          end do

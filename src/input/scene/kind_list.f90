@@ -5,7 +5,7 @@ module kind_list
    use spatial_bodies, only: spatial_bodies_info, spatial_points_info
    use clearance_registry, only: n_clearance_kinds, new_clearance_set
    use clearance_set, only: clearance_set_t
-   use contact_registry, only: n_friction_kinds, n_law_kinds, new_friction_law, new_normal_law
+   use contact_registry, only: n_friction_kinds, n_law_kinds, n_wear_kinds, new_friction_law, new_normal_law, new_wear_law
    use film_law, only: film_law_t
    use film_registry, only: n_film_kinds, new_film_law
    use force_registry, only: n_force_kinds, new_force_set
@@ -24,9 +24,11 @@ module kind_list
    use shapes, only: shapes_info
    use section_info, only: dynamic_info, kinematic_info, output_info, scene_info, static_info
    use study_info, only: ensemble_info, statistics_info, sweep_info
+   use wear_law, only: wear_law_t
    implicit none (type, external)
    private
    public :: all_kinds, clearance_info, film_info, force_info, friction_info, function_info, joint_info, kind_named, known, law_info
+   public :: wear_info
 
    ! where the kinds of a registry stand in the list: behind these
    integer :: before_joints       !! sections and tables of the scene
@@ -35,7 +37,8 @@ module kind_list
    integer :: before_clearances   !! functions, materials
    integer :: before_laws         !! clearances
    integer :: before_frictions    !! laws of contact
-   integer :: before_films        !! laws of friction, lubricants
+   integer :: before_wears        !! laws of friction
+   integer :: before_films        !! laws of wear, lubricants
    integer :: before_settings     !! films
 
    type(kind_info_t), allocatable, protected, target :: known(:)  !! (kinds) what they said, once they were asked
@@ -96,6 +99,15 @@ contains
       info => known(before_frictions + k)
    end function friction_info
 
+   !> What wear law number k describes.
+   function wear_info(k) result(info)
+      integer, intent(in) :: k            !! number in the registry
+      type(kind_info_t), pointer :: info  !! the kind
+
+      call ask_all()
+      info => known(before_wears + k)
+   end function wear_info
+
    !> What film number k describes.
    function film_info(k) result(info)
       integer, intent(in) :: k            !! number in the registry
@@ -147,7 +159,8 @@ contains
       before_clearances = before_functions + n_function_kinds() + 1
       before_laws = before_clearances + n_clearance_kinds()
       before_frictions = before_laws + n_law_kinds()
-      before_films = before_frictions + n_friction_kinds() + 1
+      before_wears = before_frictions + n_friction_kinds()
+      before_films = before_wears + n_wear_kinds() + 1
       before_settings = before_films + n_film_kinds()
       allocate (known(before_settings + 13))
       known(1) = scene_info()
@@ -181,6 +194,7 @@ contains
          call new_friction_law(k, friction)
          known(before_frictions + k) = friction%info()
       end do
+      call ask_wears()
       known(before_films) = lubricant_info()
       do k = 1, n_film_kinds()
          call new_film_law(k, film)
@@ -188,6 +202,17 @@ contains
       end do
       call ask_settings()
    end subroutine ask_all
+
+   !> Ask the wear laws.
+   subroutine ask_wears()
+      class(wear_law_t), allocatable :: wear
+      integer :: k
+
+      do k = 1, n_wear_kinds()
+         call new_wear_law(k, wear)
+         known(before_wears + k) = wear%info()
+      end do
+   end subroutine ask_wears
 
    !> Ask the sections of settings.
    subroutine ask_settings()

@@ -1,22 +1,23 @@
-!> Contact laws and friction laws of a deck: one object per row.
+!> Contact laws, friction laws and wear laws of a deck: one object per row.
 module read_laws
-   use contact_registry, only: n_friction_kinds, n_law_kinds, new_friction_law, new_normal_law
+   use contact_registry, only: n_friction_kinds, n_law_kinds, n_wear_kinds, new_friction_law, new_normal_law, new_wear_law
    use deck_types, only: deck_t
    use diagnostics, only: diagnostics_t
    use item, only: item_t
    use kind_info, only: is_of_space
-   use kind_list, only: friction_info, law_info
+   use kind_list, only: friction_info, law_info, wear_info
    use references, only: add_names, directory_t
    use scene, only: friction_slot_t, law_slot_t, scene_t
    use scene_checks, only: report_doubled
    use tables, only: read_items
+   use wear_law, only: wear_slot_t
    implicit none (type, external)
    private
-   public :: laws_from_deck, make_frictions, make_laws
+   public :: laws_from_deck, make_frictions, make_laws, make_wears
 
 contains
 
-   !> Normal laws and friction laws: one object per row, names unique over all kinds of laws.
+   !> Normal laws, friction laws and wear laws: one object per row, names unique over all kinds of laws.
    subroutine laws_from_deck(deck, scene, directory, diagnostics)
       type(deck_t), intent(inout) :: deck                 !! the deck
       type(scene_t), intent(inout) :: scene               !! laws are set
@@ -54,7 +55,36 @@ contains
             call add_names(items, directory%frictions)
          end associate
       end do
+      call wears_from_deck(deck, scene, directory, diagnostics)
    end subroutine laws_from_deck
+
+   !> Wear laws.
+   subroutine wears_from_deck(deck, scene, directory, diagnostics)
+      type(deck_t), intent(inout) :: deck                 !! the deck
+      type(scene_t), intent(inout) :: scene               !! wear laws are set
+      type(directory_t), intent(inout) :: directory       !! names of the wear laws are set
+      type(diagnostics_t), intent(inout) :: diagnostics   !! errors found
+
+      integer :: before, k, n
+      logical :: has_mistakes(n_wear_kinds())
+
+      do k = 1, n_wear_kinds()
+         scene%tables%wears(k)%info => wear_info(k)
+         before = diagnostics%count()
+         call read_items(deck, scene%tables%wears(k)%info, scene%tables%wears(k)%items, diagnostics)
+         has_mistakes(k) = diagnostics%count() > before
+      end do
+      allocate (scene%wears(sum([(size(scene%tables%wears(k)%items), k=1, n_wear_kinds())])), directory%wears(0))
+      n = 0
+      do k = 1, n_wear_kinds()
+         associate (items => scene%tables%wears(k)%items)
+            call report_doubled(items, directory%wears, diagnostics)
+            call make_wears(k, items, has_mistakes(k), scene%wears(n + 1:), diagnostics)
+            call add_names(items, directory%wears)
+            n = n + size(items)
+         end associate
+      end do
+   end subroutine wears_from_deck
 
    !> The normal laws of the rows of one kind.
    subroutine make_laws(kind, items, has_mistakes, laws, diagnostics)
@@ -97,6 +127,27 @@ contains
          if (is_broken) call diagnostics%add(items(i)%location, laws(i)%law%mistake(), "in this row")
       end do
    end subroutine make_frictions
+
+   !> The wear laws of the rows of one kind.
+   subroutine make_wears(kind, items, has_mistakes, laws, diagnostics)
+      integer, intent(in) :: kind                         !! number in the registry
+      type(item_t), intent(in) :: items(:)                !! (n) rows
+      logical, intent(in) :: has_mistakes                 !! no law is made of rows with errors
+      type(wear_slot_t), intent(inout) :: laws(:)         !! (n or more) the laws
+      type(diagnostics_t), intent(inout) :: diagnostics   !! errors found
+
+      integer :: i
+      logical :: is_broken
+
+      is_broken = has_mistakes
+      do i = 1, size(items)
+         call new_wear_law(kind, laws(i)%law)
+         if (is_broken) cycle
+         call laws(i)%law%prepare(items(i))
+         is_broken = laws(i)%law%mistake() /= ""
+         if (is_broken) call diagnostics%add(items(i)%location, laws(i)%law%mistake(), "in this row")
+      end do
+   end subroutine make_wears
 
    !> Longer list of laws.
    subroutine grow_laws(laws, n)

@@ -2,7 +2,7 @@
 module read_scene
    use bodies, only: new_bodies, new_materials, new_points
    use clearance_registry, only: n_clearance_kinds
-   use contact_registry, only: n_friction_kinds, n_law_kinds
+   use contact_registry, only: n_friction_kinds, n_law_kinds, n_wear_kinds
    use columns, only: column_of
    use deck_types, only: deck_t, location_of_end
    use diagnostics, only: diagnostics_t
@@ -52,7 +52,7 @@ contains
       allocate (scene%joints(n_joint_kinds()), scene%forces(n_force_kinds()), scene%clearances(n_clearance_kinds()))
       associate (tables => scene%tables)
          allocate (tables%functions(n_function_kinds()), tables%laws(n_law_kinds()), tables%frictions(n_friction_kinds()), &
-                   tables%films(n_film_kinds()))
+                   tables%wears(n_wear_kinds()), tables%films(n_film_kinds()))
       end associate
       call read_section(deck, kind_named("scene", .false.), scene%settings%header, diagnostics)
       scene%settings%is_spatial = scene%settings%header%word("space") == "spatial"

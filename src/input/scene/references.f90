@@ -20,6 +20,7 @@ module references
       type(text_t), allocatable :: kinds(:)       !! their kinds
       type(text_t), allocatable :: laws(:)        !! normal laws
       type(text_t), allocatable :: frictions(:)   !! friction laws
+      type(text_t), allocatable :: wears(:)       !! wear laws
       type(text_t), allocatable :: lubricants(:)  !! lubricants
       type(text_t), allocatable :: films(:)       !! films
    end type directory_t
@@ -71,6 +72,8 @@ contains
             call look_up_all(directory%laws, "law", "contact laws", .false.)
          case ("friction.")
             call look_up_all(directory%frictions, "friction", "friction laws", .false.)
+         case ("wear.")
+            call look_up_all(directory%wears, "wear law", "wear laws", .false.)
          case ("lubricant")
             call look_up_all(directory%lubricants, "lubricant", "lubricants", .false.)
          case ("film.")

@@ -10,6 +10,7 @@ module scene
    use lubricant, only: oil_t
    use normal_law, only: normal_law_t
    use requests, only: requests_t
+   use wear_law, only: wear_slot_t
    implicit none (type, external)
    private
    public :: analysis_dynamic, analysis_kinematic, analysis_names, analysis_static, n_analysis
@@ -76,6 +77,7 @@ module scene
       type(table_t), allocatable :: functions(:)       !! (kinds) named functions
       type(table_t), allocatable :: laws(:)            !! (kinds) normal laws
       type(table_t), allocatable :: frictions(:)       !! (kinds) friction laws
+      type(table_t), allocatable :: wears(:)           !! (kinds) wear laws
       type(table_t), allocatable :: films(:)           !! (kinds) films
       type(table_t) :: requests(n_requests)            !! (kinds) requests
    end type tables_t
@@ -96,6 +98,7 @@ module scene
       type(material_t), allocatable :: materials(:)          !! (materials) elastic materials
       type(law_slot_t), allocatable :: laws(:)               !! (laws) normal laws
       type(friction_slot_t), allocatable :: frictions(:)     !! (laws) friction laws
+      type(wear_slot_t), allocatable :: wears(:)             !! (laws) wear laws
       type(lubrication_t) :: lubrication                     !! films and lubricants
       type(table_t), allocatable :: joints(:)                !! (kinds) joints and drivers
       type(table_t), allocatable :: forces(:)                !! (kinds) force elements

@@ -10,7 +10,7 @@ module scene_checks
    use friction_law, only: memory_slip
    use force_registry, only: n_force_kinds
    use item, only: item_t
-   use joint_level, only: level_clearance, level_ideal, level_of
+   use joint_level, only: level_clearance, level_ideal, level_lubricated, level_of
    use joint_registry, only: n_joint_kinds
    use kind_info, only: dim_angle, dim_length, dim_t, kind_info_t, free_rotation, free_translation, same_dimension
    use kinds, only: wp
@@ -310,6 +310,7 @@ contains
       if (law_number > 0) call scene%laws(law_number)%law%fit(pair, parameters, message, help)
       if (message /= "") column = column_of(info, "law")
       if (column == 0) call check_film(scene, info, item, pair, column, message, help)
+      if (column == 0) call check_wear(scene, info, item, pair, column, message, help)
       if (column > 0) return
       face_law = cell_index(info, item, "face_law")
       if (face_law == 0) return
@@ -324,6 +325,37 @@ contains
       end associate
       if (message /= "") column = column_of(info, "face_law")
    end subroutine check_law
+
+   !> Surfaces that wear must touch, and have an area; a law of the work of friction needs friction.
+   subroutine check_wear(scene, info, item, pair, column, message, help)
+      type(scene_t), intent(in) :: scene                  !! the scene
+      type(kind_info_t), intent(in) :: info               !! the geometry
+      type(item_t), intent(in) :: item                    !! the row
+      type(surfaces_t), intent(in) :: pair                !! its surfaces
+      integer, intent(inout) :: column                    !! column at fault, 0: all is well
+      character(:), allocatable, intent(inout) :: message !! what is wrong
+      character(:), allocatable, intent(inout) :: help    !! what would be right
+
+      integer :: friction, wear
+      logical :: has_friction
+
+      wear = cell_index(info, item, "wear")
+      if (wear == 0) return
+      friction = cell_index(info, item, "friction")
+      has_friction = .false.
+      if (friction > 0) has_friction = scene%frictions(friction)%law%is_active()
+      if (level_of(item) == level_lubricated) then
+         message = "joint '"//item%name//"' with level = lubricated has a wear law"
+         help = "its surfaces do not touch: use level = clearance or hybrid, or wear = none"
+      else if (.not. pair%length > 0.0_wp) then
+         message = "joint '"//item%name//"' has a wear law but no length"
+         help = "the depth of wear is volume over area: give the length of the joint along its axis"
+      else if (scene%wears(wear)%law%by_friction .and. .not. has_friction) then
+         message = "joint '"//item%name//"' has the wear law '"//scene%wears(wear)%law%name//"' but no friction"
+         help = "this law is one of the work of friction: name a row of a friction table, or use wear.archard"
+      end if
+      if (message /= "") column = column_of(info, "wear")
+   end subroutine check_wear
 
    !> The film of a clearance joint must fit its bearing.
    subroutine check_film(scene, info, item, pair, column, message, help)

@@ -26,6 +26,7 @@ contains
       call add(scene%clearances)
       call add(scene%tables%laws)
       call add(scene%tables%frictions)
+      call add(scene%tables%wears)
       call add(scene%tables%films)
       call add(scene%tables%requests)
       dynamic = scene%settings%dynamic

@@ -8,19 +8,28 @@
 !>
 !> Signs: the reported force is that on the journal, world frame; the friction force is its component along t = R90 n; the
 !> eccentricity is the journal's centre from the bearing's, world frame.
+!> Wear (`wear_law`): the driving work is that of the resultant; it is shared out over the arc in which the round surfaces overlap
+!> (`wear_arc`). The geometry of contact stays that of new surfaces within a run.
 !> Source: Flores et al. (2008), section 4.2, corrected: see `round_contacts`; `form = book` does as the book prints.
 !> Limits: both surfaces round; one contact per joint.
 module clearance_revolute
    use bodies, only: material_t
+   use clearance_set, only: loss_friction, n_integrand, normal_impulse
+   use friction_law, only: memory_slip
    use item, only: item_t, place_of
    use joint_level, only: level_lubricated, level_of
    use kind_info, only: add_channel, add_number, add_reference, add_word, dim_length, in_plane, kind_info_t
    use kinds, only: wp
+   use motion, only: motion_t
+   use planar_contacts, only: planar_sliding
+   use point_contact, only: point_contact_t
    use point_contacts, only: add_contact_channels, of_eccentricity, of_force
    use revolute_level, only: add_film_channels, add_film_columns, describe_hole, find_level_mistake
    use round_contacts, only: round_contacts_t
    use surfaces, only: surfaces_t
    use text, only: to_text
+   use wear_arc, only: half_angles
+   use wear_contact, only: wear_contact_t
    implicit none (type, external)
    private
    public :: clearance_revolute_t
@@ -33,6 +42,8 @@ module clearance_revolute
       procedure :: prepare => revolute_prepare
       procedure, nopass :: mistake => revolute_mistake
       procedure, nopass :: describe => revolute_describe
+      procedure :: wear_rates => revolute_wear_rates
+      procedure :: wear_at => revolute_wear_at
    end type clearance_revolute_t
 
 contains
@@ -60,6 +71,7 @@ contains
                     choices="corrected book")
       call add_number(info, "length", dim_length, "length of the bearing along its axis, for laws of cylinders; 0: unknown", &
                       default="0 m", lower=0.0_wp)
+      call add_reference(info, "wear", "wear.", "wear law, a row of a wear table, or none; needs a length", default="none")
       call add_film_columns(info, .false.)
       call add_channel(info, "eccentricity", "m", "world", 2, "centre of the journal relative to that of the bearing", &
                        of_eccentricity)
@@ -122,5 +134,73 @@ contains
       end associate
       call find_level_mistake(item, column, message, help)
    end subroutine revolute_mistake
+
+   !> Rates of the driving work of wear: F_N |v_T|, or the power of friction.
+   pure subroutine revolute_wear_rates(self, motion, integrands, rate)
+      class(clearance_revolute_t), intent(in) :: self   !! the set, with a wear law, evaluated
+      type(motion_t), intent(in) :: motion              !! positions and velocities of the evaluation
+      real(wp), intent(in) :: integrands(n_integrand, self%n_contact)  !! (3, contacts) power lost and normal force [W and N]
+      real(wp), intent(out) :: rate(self%n_contact)                    !! (contacts) rates [W]
+
+      integer :: k
+
+      do k = 1, self%n_contact
+         rate(k) = 0.0_wp
+         if (.not. self%contact(k)%is_touching) cycle
+         if (self%laws%wear%by_friction) then
+            rate(k) = integrands(loss_friction, k)
+         else
+            associate (i => self%items%body(1, k), j => self%items%body(2, k))
+               rate(k) = integrands(normal_impulse, k)*speed_of(self, k, planar_sliding(self%work%contacts(k), motion%v(:, i), &
+                                                                           motion%omega(3, i), motion%v(:, j), motion%omega(3, j)))
+            end associate
+         end if
+      end do
+   end subroutine revolute_wear_rates
+
+   !> |v_T| of the material points where forces act, for wear. Of a contact that may stick it is the speed along its slip, and none
+   !> while it sticks: what is left of its sliding then is no motion.
+   pure real(wp) function speed_of(self, k, v_t) result(speed)
+      class(clearance_revolute_t), intent(in) :: self   !! the set
+      integer, intent(in) :: k                          !! contact of the set
+      real(wp), intent(in) :: v_t                       !! sliding velocity [m/s]
+
+      speed = abs(v_t)
+      if (self%stick_slip%memory /= memory_slip) return
+      speed = 0.0_wp
+      if (abs(self%stick_slip%slip(k)) == 1) speed = self%stick_slip%slip(k)*v_t
+   end function speed_of
+
+   !> What a contact does to its surfaces at a motion: its arc is that in which the round surfaces overlap, in the directions of the
+   !> normal. Friction that remembers is taken as that of steady sliding.
+   subroutine revolute_wear_at(self, k, motion, wear)
+      class(clearance_revolute_t), intent(in) :: self   !! the set, with a wear law
+      integer, intent(in) :: k                          !! contact of the set, which touches
+      type(motion_t), intent(in) :: motion              !! positions and velocities
+      type(wear_contact_t), intent(out) :: wear         !! force, sliding and arc
+
+      type(point_contact_t) :: contact
+      real(wp) :: delta, f_t(1), force_rate, normal(2), rate, speed_i, speed_j, turn
+      integer :: body, side
+
+      call self%monitor(k, motion, delta, rate, wear%force, force_rate)
+      call self%measure(k, .true., motion, contact)
+      call self%turning(k, motion, contact, turn, speed_i, speed_j)
+      wear%speed = max(speed_of(self, k, contact%v_t_work), 0.0_wp)
+      wear%power = wear%force*wear%speed
+      if (self%laws%wear%by_friction) then
+         call self%laws%friction%force(1, [wear%force], [wear%speed], f_t)
+         wear%power = f_t(1)*wear%speed
+      end if
+      do side = 1, size(wear%direction)
+         body = self%items%body(side, k)
+         normal = matmul(contact%normal(1:2), motion%rot(1:2, 1:2, body))
+         wear%direction(side) = atan2(normal(2), normal(1))
+         wear%turn(side) = turn - motion%omega(3, body)
+      end do
+      associate (pair => self%items%pairs(k))
+         wear%half_angle = half_angles(pair%radius_i, pair%radius_j, pair%clearance + contact%delta)
+      end associate
+   end subroutine revolute_wear_at
 
 end module clearance_revolute

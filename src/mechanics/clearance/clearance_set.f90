@@ -6,8 +6,8 @@
 !> surfaces that are apart (`acts_apart`, as a film has), a contact that is free acts too, wherever that force is positive; onset
 !> and end are still where the surfaces meet, and friction is that of surfaces which touch.
 module clearance_set
-   use bearing_films, only: bearing_films_t
    use bodies, only: material_t, points_t
+   use clearance_parts, only: clearance_items_t, clearance_laws_t, clearance_traits_t
    use contact_stick_slip, only: new_stick_slip, tangent_t
    use contact_states, only: contact_states_t
    use floors, only: gentle
@@ -20,6 +20,7 @@ module clearance_set
    use normal_law, only: n_law_parameter, normal_law_t, parameter_gentle
    use readings, only: readings_t
    use surfaces, only: surfaces_t
+   use wear_contact, only: wear_contact_t
    use text, only: text_t
    implicit none (type, external)
    private
@@ -31,33 +32,6 @@ module clearance_set
    integer, parameter :: loss_friction = 2   !! power taken by friction
    integer, parameter :: normal_impulse = 3  !! normal force
    integer, parameter :: n_integrand = 3     !! how many these are
-
-   !> What a geometry is like.
-   type :: clearance_traits_t
-      logical :: is_round = .false.       !! the clearance is a radial one
-      logical :: is_gap = .false.         !! the clearance is the gap between flat surfaces
-      logical :: has_faces = .false.      !! contacts of an item share a face, and what it stores
-      logical :: energy_jumps = .false.   !! stored energy and forces may jump where a contact starts or ends
-   end type clearance_traits_t
-
-   !> Items of a geometry: where they are, and their surfaces.
-   type :: clearance_items_t
-      integer, allocatable :: body(:, :)          !! (2, n) bodies of bearing and journal, 0: ground
-      real(wp), allocatable :: s_i(:, :)          !! (3, n) centre of the bearing, frame of its body [m]
-      real(wp), allocatable :: s_j(:, :)          !! (3, n) centre of the journal, frame of its body [m]
-      integer, allocatable :: free(:)           !! (n) of items tied by a joint: what that leaves, see `kind_info`
-      real(wp), allocatable :: slide_axis(:, :)   !! (2, n) and the axis of one that slides, frame of i [1]
-      type(surfaces_t), allocatable :: pairs(:)   !! (n) the surfaces
-   end type clearance_items_t
-
-   !> Laws of all items of a set.
-   type :: clearance_laws_t
-      real(wp), allocatable :: parameters(:, :)        !! (n_law_parameter, n_contact) of the normal law, fitted to them [any]
-      class(normal_law_t), allocatable :: normal       !! normal law of all items
-      class(normal_law_t), allocatable :: face         !! normal law of faces, where the geometry has some; unallocated: none
-      class(friction_law_t), allocatable :: friction   !! friction law of all items; unallocated: none
-      class(bearing_films_t), allocatable :: films     !! lubricant films of the items; unallocated: none
-   end type clearance_laws_t
 
    !> All items that share a geometry and its laws.
    type, abstract, extends(contact_states_t) :: clearance_set_t
@@ -87,6 +61,8 @@ module clearance_set
       procedure :: follow_sliding => clearance_follow_sliding
       procedure :: contact_time => clearance_contact_time
       procedure :: load_on_j => clearance_load_on_j
+      procedure :: wear_rates => clearance_wear_rates
+      procedure :: wear_at => clearance_wear_at
    end type clearance_set_t
 
    !> A place for a set of any geometry.
@@ -196,6 +172,25 @@ contains
       force = not_a_number()
       moment = force + 0.0_wp*(item + self%n + size(motion%angle))
    end subroutine clearance_load_on_j
+
+   !> Rates of the driving work of wear of all contacts, as of the last evaluation: none, unless the geometry says otherwise. No
+   !> allocation.
+   pure subroutine clearance_wear_rates(self, motion, integrands, rate)
+      class(clearance_set_t), intent(in) :: self   !! the set, with a wear law, evaluated
+      type(motion_t), intent(in) :: motion         !! positions and velocities of the evaluation
+      real(wp), intent(in) :: integrands(n_integrand, self%n_contact)  !! (3, contacts) power lost and normal force [W and N]
+      real(wp), intent(out) :: rate(self%n_contact)                    !! (contacts) rates [W]
+
+      rate = 0.0_wp
+   end subroutine clearance_wear_rates
+
+   !> What a contact does to its surfaces: nothing, unless the geometry says otherwise. No allocation.
+   subroutine clearance_wear_at(self, k, motion, wear)
+      class(clearance_set_t), intent(in) :: self   !! the set, with a wear law
+      integer, intent(in) :: k                     !! contact of the set, which touches
+      type(motion_t), intent(in) :: motion         !! positions and velocities
+      type(wear_contact_t), intent(out) :: wear    !! force, sliding and arc; here none
+   end subroutine clearance_wear_at
 
    !> Set up the common part.
    subroutine clearance_new(self, items, bearing, journal, points, law, friction)

@@ -1,4 +1,4 @@
-!> The kinds of normal laws and of friction laws: two lines each (`use`, `case`), and their number.
+!> The kinds of normal laws, of friction laws and of wear laws: two lines each (`use`, `case`), and their number.
 module contact_registry
    use friction_ambrosio, only: friction_ambrosio_t
    use friction_brown_mcphee, only: friction_brown_mcphee_t
@@ -32,9 +32,12 @@ module contact_registry
    use law_radzimovsky, only: law_radzimovsky_t
    use law_zhiying_qishao, only: law_zhiying_qishao_t
    use normal_law, only: normal_law_t
+   use wear_archard, only: wear_archard_t
+   use wear_law, only: wear_law_t
+   use wear_reye, only: wear_reye_t
    implicit none (type, external)
    private
-   public :: n_friction_kinds, n_law_kinds, new_friction_law, new_normal_law
+   public :: n_friction_kinds, n_law_kinds, n_wear_kinds, new_friction_law, new_normal_law, new_wear_law
 
 contains
 
@@ -47,6 +50,11 @@ contains
    pure integer function n_friction_kinds()
       n_friction_kinds = 9
    end function n_friction_kinds
+
+   !> Number of wear laws.
+   pure integer function n_wear_kinds()
+      n_wear_kinds = 2
+   end function n_wear_kinds
 
    !> A normal law of kind number k, 1 to `n_law_kinds`.
    subroutine new_normal_law(k, law)
@@ -95,5 +103,16 @@ contains
       case (9); allocate (friction_dahl_t :: law)
       end select
    end subroutine new_friction_law
+
+   !> A wear law of kind number k, 1 to `n_wear_kinds`.
+   subroutine new_wear_law(k, law)
+      integer, intent(in) :: k                            !! number of the kind
+      class(wear_law_t), allocatable, intent(out) :: law  !! the law, without parameters
+
+      select case (k)
+      case (1); allocate (wear_archard_t :: law)
+      case (2); allocate (wear_reye_t :: law)
+      end select
+   end subroutine new_wear_law
 
 end module contact_registry

@@ -32,7 +32,7 @@ module mechanism
       procedure :: multipliers => mechanism_multipliers
       procedure :: effect_of => mechanism_effect_of
       procedure :: choose_form => mechanism_choose_form
-      procedure, private :: evaluate_terms, evaluate_any, ledger_rates
+      procedure, private :: evaluate_terms, evaluate_any, ledger_rates, wear_rates
       procedure :: events => mechanism_events, last_events => mechanism_last_events, settle => mechanism_settle
       procedure :: set_step => mechanism_set_step
       procedure :: hold => mechanism_stabilise, project_state => mechanism_project, take_stabiliser => mechanism_take_stabiliser
@@ -207,6 +207,13 @@ module mechanism
          class(mechanism_t), intent(in) :: self         !! the system
          real(wp), intent(out), contiguous :: power(:)  !! (quadratures) powers, those of the ledger are set [W]
       end subroutine ledger_rates
+
+      !> Rates of the driving work of wear.
+      pure module subroutine wear_rates(self, rate)
+         implicit none (type, external)
+         class(mechanism_t), intent(in) :: self   !! the system, evaluated
+         real(wp), intent(out) :: rate(:)         !! (contacts) rates [W]
+      end subroutine wear_rates
 
       !> Event functions: penetrations of free contacts, their negatives of touching ones.
       module subroutine mechanism_events(self, t, y, g, rate)

@@ -61,6 +61,7 @@ contains
             call self%ledger_rates(r_y(n_state + 1:))
          end if
          call impulse_rates(self%n_impulse, self%clearance_joints%integrands, r_y(self%n - self%n_impulse + 1:))
+         if (self%n_wear > 0) call self%wear_rates(r_y(self%place_of_wear(1):self%place_of_wear(self%n_wear)))
          r_y = ydot - r_y
          r_lambda = linkage%solution%phi_dot(:m)
          r_mu = rows%phi(:m)

@@ -62,6 +62,7 @@ contains
          call self%ledger_rates(ydot(self%n - self%n_quadrature + 1:))
       end if
       call impulse_rates(self%n_impulse, self%clearance_joints%integrands, ydot(self%n - self%n_impulse + 1:))
+      if (self%n_wear > 0) call self%wear_rates(ydot(self%place_of_wear(1):self%place_of_wear(self%n_wear)))
 
    contains
 

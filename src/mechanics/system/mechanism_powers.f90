@@ -1,4 +1,4 @@
-!> The powers of the ledger, as of the last evaluation.
+!> The powers of the ledger and of wear, as of the last evaluation.
 submodule(mechanism) mechanism_powers
    use clearance_set, only: loss_contact, loss_friction
    use contact_places, only: lost_damper, n_loss, place_of_film_loss, place_of_joint_loss, place_of_loss, work_drive, work_load, &
@@ -45,5 +45,22 @@ contains
          end associate
       end do
    end procedure ledger_rates
+
+   !> Rates of the driving work of wear: none of contacts whose surfaces do not wear.
+   module procedure wear_rates
+      integer :: k
+
+      do k = 1, self%clearance_joints%n_set
+         associate (set => self%clearance_joints%sets(k)%set)
+            associate (first => set%before%contacts + 1, last => set%before%contacts + set%n_contact)
+               if (allocated(set%laws%wear)) then
+                  call set%wear_rates(self%linkage%motion, self%clearance_joints%integrands(:, first:last), rate(first:last))
+               else
+                  rate(first:last) = 0.0_wp
+               end if
+            end associate
+         end associate
+      end do
+   end procedure wear_rates
 
 end submodule mechanism_powers

@@ -269,13 +269,13 @@ contains
          if (self%linkage%joints(k)%set%is_driver) exit
       end do
       if (k > size(self%linkage%joints)) return
-      associate (scales => self%linkage%scales, bodies => self%linkage%bodies, n_ledger => self%n_quadrature - self%n_impulse)
+      associate (scales => self%linkage%scales, bodies => self%linkage%bodies, n_work => self%n_quadrature - self%n_impulse)
          speed = scales%length*max(remembered*scales%pace, scales%late_rate)
          self%ledger%largest = max(self%ledger%largest, energy, sum(bodies%mass)*speed**2)
          momentum = sum(bodies%mass)*scales%length*max(scales%pace, scales%late_rate)
          if (.not. allocated(self%traits%quadrature_scale)) allocate (self%traits%quadrature_scale(self%n_quadrature))
-         self%traits%quadrature_scale(:n_ledger) = self%ledger%largest
-         self%traits%quadrature_scale(n_ledger + 1:) = momentum
+         self%traits%quadrature_scale(:n_work) = self%ledger%largest
+         self%traits%quadrature_scale(n_work + 1:) = momentum
       end associate
    end procedure mechanism_scale_quadratures
 

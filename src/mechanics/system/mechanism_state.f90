@@ -1,8 +1,8 @@
 !> What a mechanism consists of, and what stands where in its state: that of `mechanism`, which evaluates it.
 !>
 !> y = ( q, v, z ): coordinates (x, y, angle) of each body whose motion is unknown, then one of each body with one degree of
-!> freedom; their rates; and the quadratures: those of the energy ledger, then the impulse of each contact's normal force. Contacts
-!> with bristles have a state each, after the rates.
+!> freedom; their rates; and the quadratures: those of the energy ledger, then, if surfaces wear, the driving work of each contact's
+!> wear, then the impulse of each contact's normal force. Contacts with bristles have a state each, after the rates.
 !>
 !> Here are the places in it, what is small beside it (error scales, the characteristic rate, round-off of event functions), small
 !> changes of it, where its residual has entries, and what of it a checkpoint keeps.
@@ -30,6 +30,7 @@ module mechanism_state
       type(ledger_t) :: ledger                    !! what is reported of energies
       type(requests_t) :: requests                !! what is asked of the motion beside channels of its items
       integer :: n_impulse = 0                    !! contacts whose impulses are integrated: all, or none
+      integer :: n_wear = 0                       !! contacts whose driving work of wear is integrated: all, or none
       integer(i8) :: n_evaluations = 0            !! evaluations made
    contains
       procedure :: begin_pace => mechanism_begin_pace, follow_pace => mechanism_follow_pace, time_of_difference
@@ -38,7 +39,7 @@ module mechanism_state
       procedure :: to_local => mechanism_to_local, from_local => mechanism_from_local
       procedure :: free_directions => mechanism_free_directions
       procedure :: find_contact => mechanism_find_contact, contact_change => mechanism_contact_change, in_state
-      procedure :: place_of_impulse
+      procedure :: place_of_impulse, place_of_wear
       procedure :: take_bristles => mechanism_take_bristles, bristle_rates => mechanism_bristle_rates
       procedure :: bristle_place => mechanism_bristle_place, rubbing_place => mechanism_rubbing_place
       procedure :: bristle_weights => mechanism_bristle_weights
@@ -217,5 +218,13 @@ contains
 
       place = self%n - self%n_impulse + contact
    end function place_of_impulse
+
+   !> Place in the state of the driving work of wear of a contact.
+   pure integer function place_of_wear(self, contact) result(place)
+      class(mechanism_state_t), intent(in) :: self  !! the system of a dynamic analysis, in which surfaces wear
+      integer, intent(in) :: contact                !! number of the contact among all
+
+      place = self%n - self%n_impulse - self%n_wear + contact
+   end function place_of_wear
 
 end module mechanism_state

@@ -19,6 +19,7 @@ module run_tables
    use statistics, only: number_t, statistics_t
    use statistics_tables, only: tables_of_statistics
    use summary_table, only: table_of_cost, table_of_summary
+   use wear_tables, only: tables_of_wear
    implicit none (type, external)
    private
    public :: tables_of_run
@@ -38,7 +39,7 @@ contains
       type(result_table_t), allocatable :: tables(:)     !! (any) the results
 
       tables = [table_of_summary(summary), table_of_cost(summary)]
-      tables = [tables, tables_of_films(summary%linear)]
+      tables = [tables, tables_of_films(summary%linear), tables_of_wear(summary%worn)]
       if (plan%accuracy%asked > 0.0_wp) tables = [tables, table_of_accuracy(plan%accuracy, growth_words(plan%accuracy%growth))]
       if (allocated(plan%horizon%t)) then
          tables = [tables, table_of_horizon(plan%horizon)]

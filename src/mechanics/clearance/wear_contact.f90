@@ -1,0 +1,19 @@
+!> What a contact does to its surfaces at a motion, for their wear.
+module wear_contact
+   use kinds, only: wp
+   use wear_law, only: n_side
+   implicit none (type, external)
+   private
+   public :: wear_contact_t
+
+   !> A contact that wears its surfaces. Directions are those of the normal into the bearing, in the frames of the bodies.
+   type :: wear_contact_t
+      real(wp) :: force = 0.0_wp                 !! normal force; 0: it does not act [N]
+      real(wp) :: power = 0.0_wp                 !! rate of the driving work, see `wear_law` [W]
+      real(wp) :: speed = 0.0_wp                 !! magnitude of the sliding velocity [m/s]
+      real(wp) :: direction(n_side) = 0.0_wp     !! (2) direction of the middle of the arc on each surface [rad]
+      real(wp) :: turn(n_side) = 0.0_wp          !! (2) rates of these directions [rad/s]
+      real(wp) :: half_angle(n_side) = 0.0_wp    !! (2) half angles of the arc, from the centre of each surface [rad]
+   end type wear_contact_t
+
+end module wear_contact
