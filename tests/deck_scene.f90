@@ -40,7 +40,7 @@ module deck_scene
 
    !> Keeps times, one channel and all events in memory.
    type, extends(recorder_t) :: keeper_t
-      integer :: room = 0                               !! workspace of the channel that is kept, 0: none
+      integer :: item_group = 0                         !! group of items of the channel that is kept, 0: none
       character(:), allocatable :: channel              !! its name; first component of the last item
       integer :: n_sample = 0                           !! samples
       integer :: n_event = 0                            !! events

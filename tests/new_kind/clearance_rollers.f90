@@ -8,7 +8,7 @@ module clearance_rollers
    use kind_info, only: add_channel, add_number, add_reference, dim_length, in_plane, kind_info_t
    use kinds, only: wp
    use point_contacts, only: add_contact_channels, of_force
-   use surfaces, only: shape_external, surfaces_t, take_materials
+   use surfaces, only: put_beside, surfaces_t, take_materials
    implicit none (type, external)
    private
    public :: clearance_rollers_t
@@ -17,7 +17,6 @@ module clearance_rollers
    type, extends(clearance_discs_t) :: clearance_rollers_t
    contains
       procedure, nopass :: info => rollers_info
-      procedure :: prepare => rollers_prepare
       procedure, nopass :: describe => describe_rollers
    end type clearance_rollers_t
 
@@ -41,34 +40,13 @@ contains
       call add_contact_channels(info, "second roller", "t = R90 n")
    end function rollers_info
 
-   !> Radii of each item.
-   subroutine rollers_prepare(self, items)
-      class(clearance_rollers_t), intent(inout) :: self  !! the set
-      type(item_t), intent(in) :: items(:)               !! (n) rows of the table
-
-      integer :: k
-
-      call self%make_journals()
-      do k = 1, self%n
-         associate (journal => self%journal(k), radius => items(k)%number("radius"))
-            journal%side = -1.0_wp
-            journal%radius_i = -radius
-            journal%radius_j = radius
-            journal%clearance = -2.0_wp*radius
-            self%items%clearance(k) = 2.0_wp*radius
-         end associate
-      end do
-   end subroutine rollers_prepare
-
    !> Two convex surfaces.
    pure subroutine describe_rollers(item, materials, pair)
       type(item_t), intent(in) :: item              !! the row
       type(material_t), intent(in) :: materials(:)  !! (materials) all materials
       type(surfaces_t), intent(out) :: pair         !! its surfaces
 
-      pair%shape = shape_external
-      pair%radius_i = item%number("radius")
-      pair%radius_j = item%number("radius")
+      call put_beside(pair, item%number("radius"), item%number("radius"))
       call take_materials(pair, materials, item%reference("material"), item%reference("material"))
    end subroutine describe_rollers
 

@@ -5,7 +5,7 @@
 !> Source: K. Heun, Neue Methoden zur approximativen Integration der Differentialgleichungen einer unabhaengigen Veraenderlichen,
 !> Z. Math. Phys. 45 (1900) 23-38. Limits: not for stiff equations; no control of the error.
 module heun
-   use integrator, only: steps_fixed
+   use integration_method, only: abilities_t, steps_fixed
    use kind_info, only: kind_info_t
    use kinds, only: wp
    use ode_system, only: ode_system_t
@@ -20,7 +20,7 @@ module heun
       real(wp), allocatable :: y(:)    !! (n) state there [any]
    contains
       procedure, nopass :: info => heun_info
-      procedure, nopass :: steps => heun_steps
+      procedure, nopass :: abilities => heun_abilities
       procedure :: prepare => heun_prepare
       procedure :: make_stages => heun_make_stages
       procedure :: error_norm => heun_error_norm
@@ -37,10 +37,10 @@ contains
       info%source = "Heun (1900)"
    end function heun_info
 
-   !> Fixed steps only.
-   pure integer function heun_steps() result(steps)
-      steps = steps_fixed
-   end function heun_steps
+   !> What it can do: fixed steps.
+   pure type(abilities_t) function heun_abilities() result(can)
+      can = abilities_t(steps=steps_fixed)
+   end function heun_abilities
 
    !> Storage for the stage.
    subroutine heun_prepare(self, n)

@@ -22,7 +22,7 @@ EACH = 100  # scenes of a kind in the full set; each by one of the methods, in t
 RATIO = 10.0  # of the steps
 FEW = 2000  # steps that are few, whatever the smooth law takes
 RESIDUAL = 1e-4  # of the ledger, of the largest energy
-LEVER = 2.0  # within a contact in space, of its penetration
+LEVER = 2.0  # within contacts, of their penetration
 GIVEN = 1e-7  # energy that friction may give between two rows: ten tolerances, of the largest energy
 NEAR = 1e-8  # way between two onsets of one contact by two methods: ten tolerances of a body of 0.1 m [m]
 REGULAR = 4  # contacts of a run
@@ -80,12 +80,14 @@ def faults_of(result, scene, method, run_smooth):
 
 
 def work_within(result, is_spatial):
-    """Of friction on turns of the bodies within the penetration of contacts in space, up to each output instant: the most."""
-    if not is_spatial:
-        return np.zeros(len(result.time))
+    """Of friction on turns of the bodies within the penetration, up to each output instant: the most. Of any contact in space; in the plane
+    of two or more that act at once."""
     angular = result.rows("bodies/angular_velocity")
     force, depth = (result.rows(f"clearances/contacts/{name}") for name in ("friction_force", "penetration"))
-    power = LEVER*np.sum(np.abs(force)*np.maximum(depth, 0.0), axis=1)*np.sum(np.linalg.norm(angular, axis=2), axis=1)
+    spin = np.sum(np.linalg.norm(angular, axis=2), axis=1) if is_spatial else np.sum(np.abs(angular), axis=1)
+    power = LEVER*np.sum(np.abs(force)*np.maximum(depth, 0.0), axis=1)*spin
+    if not is_spatial:
+        power *= np.count_nonzero(force, axis=1) > 1
     time = result.rows("time")
     work = np.concatenate([[0.0], np.cumsum(0.5*(power[1:] + power[:-1])*np.diff(time))])
     return np.interp(result.time, time, work)
