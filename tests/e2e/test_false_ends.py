@@ -35,7 +35,7 @@ def test_instants_are_of_what_there_is_of_the_motion(gudgeon):
     """A motion of 0.19 s in a deck of 100 s is compared at 201 instants: steps that go past its end are not the cheapest."""
     words, choice = study(gudgeon, "-0.3 m", "100 s", "--methods", "verner rk4")
     compared = [line for line in words.splitlines() if line.startswith("compared")][0]
-    assert f"{math.acos(-0.3) / 10:.6g} s" in compared and "at 201 instants" in compared
+    assert f"{math.acos(-0.3) / 10:.6g} s" in compared and "at 201 output times" in compared
     assert "method = verner" in choice
 
 

@@ -251,5 +251,5 @@ def test_thresholds_of_what_the_deck_has(gudgeon):
     """No thresholds of friction and contacts for a pendulum; those of sticking where a law sticks."""
     said = call(gudgeon, "explain", written(scratch(), PIN)).stdout
     assert "numerical thresholds" in said and not re.search(r"slip|sliding|stick|penetration.*threshold", said.split("numerical thresholds")[1]), said
-    said = call(gudgeon, "explain", ROOT / "inputs/incline.deck").stdout
+    said = call(gudgeon, "explain", ROOT / "inputs/incline.deck", "--set", "friction=coulomb").stdout
     assert "slip-to-stick" in said

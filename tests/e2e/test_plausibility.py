@@ -97,5 +97,5 @@ def test_density(gudgeon):
     text = (ROOT / "docs/reference/space.md").read_text()
     text = text[text.index("```deck bar.deck\n") + 17 : text.index("```", text.index("```deck bar.deck") + 3)].replace("figures    = bar.position\n", "")
     box = "[shapes]\nname body shape length[m] width[m] height[m]\nbox bar box 0.01 0.01 0.01\n"
-    assert any("1000000 kg/m^3; usual: 1000" in note for note in notes(gudgeon, text + box))
+    assert any("1e6 kg/m^3; usual: 1000" in note for note in notes(gudgeon, text + box))
     assert notes(gudgeon, text + box.replace("0.01 0.01 0.01", "0.01 1 0.0128")) == []

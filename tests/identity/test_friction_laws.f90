@@ -150,10 +150,10 @@ contains
       class(friction_law_t), allocatable :: law
       real(wp) :: f(5)
 
-      call make_named("constant", [3.0_wp, 1.0e-3_wp], " ", law)
+      call make_named("constant", [3.0_wp, 1.0e-3_wp, 100.0_wp], " ", law)
       call law%force(5, [1.0_wp, 1.0_wp, 1.0e6_wp, 0.0_wp, 5.0_wp], [0.0_wp, 0.25e-3_wp, 7.0_wp, 7.0_wp, 1.0e-3_wp], f)
       call check_close(error, f, [0.0_wp, 0.75_wp, 3.0_wp, 0.0_wp, 3.0_wp], 1.0e-15_wp, "with a ramp")
-      call make_named("constant", [3.0_wp, 0.0_wp], " ", law)
+      call make_named("constant", [3.0_wp, 0.0_wp, 100.0_wp], " ", law)
       call law%force(3, [1.0_wp, 1.0_wp, 1.0e6_wp], [0.0_wp, 1.0e-12_wp, 7.0_wp], f(1:3))
       call check_close(error, f(1:3), [3.0_wp, 3.0_wp, 3.0_wp], 0.0_wp, "as printed, sliding at any speed")
       call check_true(error, law%memory == memory_slip, "sticks")

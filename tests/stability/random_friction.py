@@ -97,13 +97,13 @@ def finish(label, rng, lines, is_spatial, mass, radius, tilt):
     """The scene from its tables."""
     if is_spatial:
         gravity = words(G*np.array([math.sin(tilt), 0.0, -math.cos(tilt)])).strip('"')
-        space, more = "space = spatial\n", " *.friction_force *.penetration *.angular_velocity"
+        space = "space = spatial\n"
     else:
-        gravity, space, more = f"{G*math.sin(tilt)!r} {-G*math.cos(tilt)!r}", "", ""
+        gravity, space = f"{G*math.sin(tilt)!r} {-G*math.cos(tilt)!r}", ""
     tables, others = laws(rng, label.split()[0], mass*G)
     text = (f"deck = 1\n[scene]\n{space}gravity = {gravity} m/s^2\n[parameters]\nfriction = coulomb\n[analysis.dynamic]\n"
             f"start = given\noverlap = preload\nend = {END!r} s\ntolerance = 1e-8\n[output]\nevery = {END/50!r} s\n"
-            f"channels = energy.* *.position{more}\n"
+            f"channels = energy.* *.position *.friction_force *.penetration *.angular_velocity\n"
             f"[material]\nname young[GPa] poisson\nsteel {YOUNG/1e9} {POISSON}\n") + tables + lines
     stiffness = 4.0/3.0*MODULUS*math.sqrt(radius)
     return Scene(label, text, 0.01*2.9432*(1.25*mass/stiffness)**0.4*0.03**-0.2, others)

@@ -16,9 +16,9 @@ contains
    subroutine run_test_wear_profiles(suite)
       type(suite_t), intent(inout) :: suite  !! where tests are registered
 
-      call suite%test("arc of overlap", test_half_angles)
-      call suite%test("shares of a swept arc", test_shares)
-      call suite%test("depths of a hole and a pin", test_depths)
+      call suite%test("arc_of_overlap", test_half_angles)
+      call suite%test("shares_of_a_swept_arc", test_shares)
+      call suite%test("depths_of_a_hole_and_a_pin", test_depths)
    end subroutine run_test_wear_profiles
 
    !> Half angles of a pin that has worn 1 um and 100 um into a hole: those of 30 digits. Both see one chord.

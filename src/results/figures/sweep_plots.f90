@@ -10,7 +10,7 @@ module sweep_plots
    use kinds, only: not_a_number, wp
    use plot_table, only: draw_bars, draw_marks, draw_points, panel_t, plot_curve_t, plot_table_t
    use sweep_results, only: case_numbers, n_spread, spread_names, sweep_results_t
-   use sweep_axes, only: axis_of_parameter
+   use sweep_axes, only: axis_of_parameter, sweep_axis_t
    use swept, only: sweep_t
    use text, only: append_text, text_t, to_text
    implicit none (type, external)
@@ -44,16 +44,17 @@ contains
       type(sweep_t), intent(in) :: sweep                !! the cases
       type(plot_table_t), intent(inout) :: table        !! the table
 
+      type(sweep_axis_t) :: first
+
       table%x_name = "case"
       table%x_unit = "1"
       if (size(sweep%parameters) > 0) then
-         associate (first => axis_of_parameter(sweep%parameters(1)))
-            table%x_name = first%name
-            table%x_unit = first%unit
-            table%x_shown = first%shown
-            table%is_log_x = first%is_log
-            table%categories = first%categories
-         end associate
+         first = axis_of_parameter(sweep%parameters(1))
+         table%x_name = first%name
+         table%x_unit = first%unit
+         table%x_shown = first%shown
+         table%is_log_x = first%is_log
+         if (allocated(first%categories)) table%categories = first%categories
       end if
       call append_text(table%labels, table%x_name//"["//table%x_unit//"]")
    end subroutine set_abscissa
