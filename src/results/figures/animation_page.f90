@@ -89,7 +89,7 @@ contains
       text = page%get()
    end function page_text
 
-   !> Each how manieth frame there is room for.
+   !> Stride with which frames are kept, so that the page stays within its limit.
    pure integer function stride_of(list, bytes) result(stride)
       type(frame_t), intent(in) :: list(:)     !! (1 or more) frames
       integer, intent(in) :: bytes             !! that they may take
@@ -238,13 +238,13 @@ contains
       real(wp) :: clearance
       integer :: k
 
-      associate (room => catalogue%item_groups(group_clearances))
+      associate (joints => catalogue%item_groups(group_clearances))
          call data%add("joints:[")
-         do k = 1, size(room%names)
+         do k = 1, size(joints%names)
             clearance = 0.0_wp
-            if (.not. ieee_is_nan(room%radius(k))) clearance = room%radius(k)
+            if (.not. ieee_is_nan(joints%radius(k))) clearance = joints%radius(k)
             unit = choose_unit("m", clearance)
-            call data%add("{n:"""//escaped(room%names(k)%s, .false.)//""",c:"//number(clearance)//",cw:"""// &
+            call data%add("{n:"""//escaped(joints%names(k)%s, .false.)//""",c:"//number(clearance)//",cw:"""// &
                           real_text(unit%factor*clearance, 4)//" "//unit%symbol//"""},")
          end do
          call data%line("],")

@@ -34,7 +34,7 @@ module figure_words
    integer, parameter :: figure_statistics = 8   !! of a sweep: numbers with their spread over the parameter
    integer, parameter :: figure_contour = 9      !! of a sweep: a number over two parameters
    integer, parameter :: figure_film = 10        !! pressure of a film around a bearing, unwrapped
-   integer, parameter :: figure_mechanism = 11   !! the mechanism at some instants
+   integer, parameter :: figure_mechanism = 11   !! the mechanism at some output times
    integer, parameter :: figure_strip = 12       !! the mechanism at several positions over a turn, one over the other
    integer, parameter :: figure_coupler = 13     !! the path of a point
    integer, parameter :: figure_animation = 14   !! the moving mechanism

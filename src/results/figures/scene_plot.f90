@@ -32,7 +32,7 @@ module scene_plot
 
    integer, parameter :: line_still = 3        !! width of lines of bodies in a picture
    integer, parameter :: line_moving = 2       !! the same in an animation
-   integer, parameter :: most_names = 24       !! of a picture that has names unless it is told to
+   integer, parameter :: most_names = 24       !! of a picture with names by default
    integer, parameter :: seconds_moving = 6    !! that an animation takes, about
 
 contains
@@ -141,7 +141,7 @@ contains
                             canvas)
          end do
          if (size(plot%names%list) > 0 .and. f == merge(size(list), f, figure%kind == figure_strip) .and. &
-             (f == 1 .or. figure%kind /= figure_mechanism)) then  ! of several instants at the first
+             (f == 1 .or. figure%kind /= figure_mechanism)) then  ! of several output times at the first
             call add_names(plot%names, list(f), plot%views(1), plot%symbols, plot%extents, canvas)
          end if
          if (f < size(list) .and. figure%kind /= figure_animation) cycle

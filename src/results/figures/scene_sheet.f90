@@ -1,7 +1,7 @@
 !> The sheet of a figure of the mechanism: its unit, views and cells, axes or a scale, size of the picture and of letters.
 !>
-!> A scene in the plane has axes with the coordinates of the world; several instants side by side have a scale, as scenes in space,
-!> which have the directions of the axes above it.
+!> A scene in the plane has axes with the coordinates of the world; several output times side by side have a scale, as
+!> scenes in space, which have the directions of the axes above it.
 module scene_sheet
    use display_units, only: display_unit_t
    use kinds, only: wp
@@ -25,7 +25,7 @@ module scene_sheet
       type(extents_t) :: extents                !! of the whole picture [m]
       type(view_t), allocatable :: views(:)     !! views of a cell
       type(names_t) :: names                    !! names in the first view, none if they are off
-      real(wp) :: cell(2) = 0.0_wp              !! (2) size of a cell, where several instants stand side by side [m]
+      real(wp) :: cell(2) = 0.0_wp              !! (2) size of a cell, where several output times stand side by side [m]
       integer :: columns = 1                    !! cells beside each other
       integer :: cells = 1                      !! all of them
       logical :: is_planar = .true.             !! bodies move in the plane

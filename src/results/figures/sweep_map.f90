@@ -109,7 +109,7 @@ contains
       text = lines%get()
    end function table_text
 
-   !> Order of values, the least first.
+   !> Order of values, ascending.
    pure function ascending(x) result(order)
       real(wp), intent(in) :: x(:)   !! (n) values [any]
       integer :: order(size(x))      !! (n) their numbers
