@@ -22,6 +22,7 @@ module run_audit
       real(wp) :: violation = 0.0_wp   !! maximum violation of a constraint, 0: none [m]
       real(wp) :: cpu = 0.0_wp         !! processor time allowed, 0: no limit [s]
       real(wp) :: clock = 0.0_wp       !! time allowed by the clock on the wall, 0: no limit [s]
+      real(wp) :: wear_from = -huge(1.0_wp)  !! time from which wear is counted [s]
       type(guards_t) :: guards         !! what no mechanism does
       type(stop_t) :: stop             !! conditions that end it by intent
    end type limits_t

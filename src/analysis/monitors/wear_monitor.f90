@@ -10,15 +10,16 @@
 !> threshold the volume is the coefficient times the quadrature, whatever the method and the shares.
 !> A quadrature that is negative, by round-off, is booked with the next step.
 !>
-!> Source: this program. Limits: shares are as good as the interpolant; the geometry of contact is that of new surfaces.
+!> Source: this program. Limits: shares are as good as the interpolant; the geometry of contact is that of the start.
 module wear_monitor
    use archive, only: archive_t
    use integrator, only: integrator_t
    use kinds, only: pi, wp
    use mechanism, only: mechanism_t
-   use wear_arc, only: add_swept_arc
+   use wear_arc, only: add_swept_arc, add_swept_points
    use wear_contact, only: wear_contact_t
-   use wear_law, only: n_side, of_bearing, side_names
+   use surfaces, only: surfaces_t
+   use wear_law, only: n_side, of_bearing, of_journal, side_names, wear_law_t
    use worn_surface, only: worn_surface_t
    implicit none (type, external)
    private
@@ -56,6 +57,7 @@ module wear_monitor
 
    !> All of them.
    type :: wear_monitor_t
+      real(wp) :: from = -huge(1.0_wp)                !! time from which on wear is counted [s]
       type(worn_contact_t), allocatable :: worn(:)    !! (any) contacts whose surfaces wear
       type(sample_t), allocatable, private :: samples(:)   !! (any) scratch
       real(wp), allocatable, private :: y(:)          !! (n) scratch state [any]
@@ -68,7 +70,7 @@ module wear_monitor
 
 contains
 
-   !> The contacts of a system, new.
+   !> The contacts of a system, with what their surfaces have lost at the start.
    subroutine new_wear_monitor(system, monitor)
       type(mechanism_t), intent(in) :: system        !! the system
       type(wear_monitor_t), intent(out) :: monitor   !! the monitor
@@ -90,6 +92,11 @@ contains
                monitor%worn(m)%slot = k
                monitor%worn(m)%contact = i
                allocate (monitor%worn(m)%volume(nint(set%laws%wear%cells), n_side), source=0.0_wp)
+               if (.not. allocated(set%items%pairs(set%item_of(i))%worn)) cycle
+               associate (profiles => set%items%pairs(set%item_of(i))%worn)
+                  if (.not. profiles%hole%is_round()) monitor%worn(m)%volume(:, of_bearing) = profiles%hole%volume
+                  if (.not. profiles%pin%is_round()) monitor%worn(m)%volume(:, of_journal) = profiles%pin%volume
+               end associate
             end do
          end associate
       end do
@@ -105,10 +112,11 @@ contains
       logical :: has_moved
 
       has_moved = .false.
+      if (.not. method%t > self%from) return
       do m = 1, size(self%worn)
          associate (worn => self%worn(m), set => system%clearance_joints%sets(self%worn(m)%slot)%set)
             if (.not. set%contact(worn%contact)%is_touching) cycle
-            call wear_in_step(worn, self%samples, self%y, system, method)
+            call wear_in_step(worn, max((self%from - method%step%t0)/method%step%h, 0.0_wp), self%samples, self%y, system, method)
             has_moved = .true.
          end associate
       end do
@@ -116,8 +124,9 @@ contains
    end subroutine after_step
 
    !> What it took of the surfaces of a contact.
-   subroutine wear_in_step(worn, samples, y, system, method)
+   subroutine wear_in_step(worn, first, samples, y, system, method)
       type(worn_contact_t), intent(inout) :: worn                     !! the contact
+      real(wp), intent(in) :: first                                   !! part of the step that is not counted [1]
       type(sample_t), allocatable, intent(inout) :: samples(:)        !! (any) scratch, grown
       real(wp), intent(inout), contiguous :: y(:)                     !! (n) scratch state [any]
       type(mechanism_t), intent(inout) :: system                      !! the system
@@ -129,14 +138,18 @@ contains
       associate (set => system%clearance_joints%sets(worn%slot)%set, h => method%step%h)
          place = system%place_of_wear(set%before%contacts + worn%contact)
          work = worn%owed + method%step%y1(place) - method%step%y0(place)
+         if (first > 0.0_wp) then
+            call method%within(system, first, y)
+            work = method%step%y1(place) - y(place)
+         end if
          worn%owed = min(work, 0.0_wp)
          n = 1
-         call take_samples(worn, n, samples, y, system, method)
+         call take_samples(worn, first, n, samples, y, system, method)
          do k = 1, n_point
             n = max(n, ceiling(maxval(abs(samples(k)%wear%turn))*h*size(worn%volume, 1)/(2.0_wp*pi*sweep)))
          end do
          n = min(n, most_stretches)
-         if (n > 1) call take_samples(worn, n, samples, y, system, method)
+         if (n > 1) call take_samples(worn, first, n, samples, y, system, method)
          n = n*n_point
          if (.not. sum(samples(:n)%weight) > 0.0_wp) samples(:n)%weight = samples(:n)%time
          do side = 1, n_side
@@ -144,12 +157,7 @@ contains
                if (.not. (work > 0.0_wp .and. sum(shares) > 0.0_wp)) cycle
                volume = work*sum(shares)/sum(samples(:n)%weight)
                do k = 1, n
-                  associate (wear => samples(k)%wear)
-                     if (shares(k) > 0.0_wp) call add_swept_arc(worn%volume(:, side), &
-                                                                wear%direction(side) + wear%turn(side)*samples(k)%from, &
-                                                                wear%direction(side) + wear%turn(side)*samples(k)%to, &
-                                                                wear%half_angle(side), volume*shares(k)/sum(shares))
-                  end associate
+                  if (shares(k) > 0.0_wp) call add_shares(samples(k), side, volume*shares(k)/sum(shares), worn%volume(:, side))
                end do
             end associate
          end do
@@ -157,16 +165,39 @@ contains
       end associate
    end subroutine wear_in_step
 
+   !> Share out what a point of a step takes from a surface.
+   pure subroutine add_shares(sample, side, volume, cells)
+      type(sample_t), intent(in) :: sample         !! the point
+      integer, intent(in) :: side                  !! the surface
+      real(wp), intent(in) :: volume               !! what is taken [m^3]
+      real(wp), intent(inout) :: cells(:)          !! (cells) added to [m^3]
+
+      associate (wear => sample%wear, by => sample%wear%turn(side)*[sample%from, sample%to])
+         if (.not. wear%is_worn) then
+            call add_swept_arc(cells, wear%direction(side) + by(1), wear%direction(side) + by(2), wear%half_angle(side), volume)
+            return
+         end if
+         associate (arc => wear%arc, n => wear%arc%n)
+            if (side == of_bearing) then
+               call add_swept_points(cells, arc%hole(:n), arc%d(:n)*arc%width(:n), by, volume)
+            else
+               call add_swept_points(cells, arc%pin(:n), arc%d(:n)*arc%width(:n), by, volume)
+            end if
+         end associate
+      end associate
+   end subroutine add_shares
+
    !> What a contact does at Gauss's points of stretches of a step, and its coefficients there.
-   subroutine take_samples(worn, n, samples, y, system, method)
+   subroutine take_samples(worn, first, n, samples, y, system, method)
       type(worn_contact_t), intent(in) :: worn                        !! the contact
+      real(wp), intent(in) :: first                                   !! part of the step that is not counted [1]
       integer, intent(in) :: n                                        !! stretches of the step
       type(sample_t), allocatable, intent(inout) :: samples(:)        !! (n_point n or more) samples, grown
       real(wp), intent(inout), contiguous :: y(:)                     !! (n) scratch state [any]
       type(mechanism_t), intent(inout) :: system                      !! the system
       class(integrator_t), intent(inout) :: method                    !! the integrator, after a step
 
-      real(wp) :: distance, part, place, worn_angle
+      real(wp) :: distance, part, place
       integer :: g, item, k, m
 
       if (size(samples) < n*n_point) then
@@ -174,33 +205,47 @@ contains
          allocate (samples(n*n_point))
       end if
       distance = worn%distance
-      associate (set => system%clearance_joints%sets(worn%slot)%set, h => method%step%h/n)
+      associate (set => system%clearance_joints%sets(worn%slot)%set, h => (1.0_wp - first)*method%step%h/n)
          item = set%item_of(worn%contact)
          do k = 1, n
             do g = 1, n_point
                m = n_point*(k - 1) + g
                associate (sample => samples(m))
-                  place = (k - 1 + points(g))/n
+                  place = first + (1.0_wp - first)*(k - 1 + points(g))/n
                   call method%within(system, place, y)
                   call system%linkage%set_motion(method%step%t0 + place*method%step%h, y)
                   call set%wear_at(worn%contact, system%linkage%motion, sample%wear)
-                  sample%wear%half_angle = max(sample%wear%half_angle, narrowest)
                   sample%time = weights(g)*h
                   sample%weight = sample%time*sample%wear%power
                   sample%from = (ends(g - 1) - points(g))*h
                   sample%to = (ends(g) - points(g))*h
-                  associate (pair => set%items%pairs(item))
-                     call set%laws%wear%worn_part(sample%wear%force, pair%radius_i*pair%length, sample%wear%half_angle(1), &
-                                                  worn_angle, part)
-                  end associate
+                  call find_worn_part(set%laws%wear, set%items%pairs(item), sample%wear, part)
                   sample%kappa = part*set%laws%wear%coefficients(distance - sample%from*sample%wear%speed)
-                  sample%wear%half_angle = sample%wear%half_angle*worn_angle/sample%wear%half_angle(1)
                   distance = distance + sample%time*sample%wear%speed
                end associate
             end do
          end do
       end associate
    end subroutine take_samples
+
+   !> Part of an arc that wears, which is cut to it.
+   pure subroutine find_worn_part(law, pair, wear, part)
+      class(wear_law_t), intent(in) :: law           !! the law
+      type(surfaces_t), intent(in) :: pair           !! the surfaces
+      type(wear_contact_t), intent(inout) :: wear    !! the contact
+      real(wp), intent(out) :: part                  !! of the driving work that wears, 0 to 1 [1]
+
+      real(wp) :: worn_angle
+
+      if (wear%is_worn) then
+         call law%worn_points(wear%force, pair%radius_i*pair%length, wear%arc%hole(:wear%arc%n), wear%direction(of_bearing), &
+                              wear%arc%width(:wear%arc%n), wear%arc%d(:wear%arc%n), part)
+         return
+      end if
+      wear%half_angle = max(wear%half_angle, narrowest)
+      call law%worn_part(wear%force, pair%radius_i*pair%length, wear%half_angle(1), worn_angle, part)
+      wear%half_angle = wear%half_angle*worn_angle/wear%half_angle(1)
+   end subroutine find_worn_part
 
    !> Append the surfaces of a system.
    subroutine add_surfaces(self, system, surfaces)

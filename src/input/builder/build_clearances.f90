@@ -23,7 +23,9 @@ module build_clearances
    use scene, only: scene_t
    use socket_films, only: socket_films_t
    use ties, only: find_joint, kind_number, tie_of, tie_set, tie_t
-   use wear_law, only: wear_law_t
+   use wear_law, only: of_bearing, side_names, wear_law_t
+   use worn_profile, only: new_profile
+   use worn_surface, only: worn_surface_t
    implicit none (type, external)
    private
    public :: add_clearances, has_ideal, is_ideal, levels_as_written, levels_ideal, levels_clearance_joints
@@ -181,6 +183,7 @@ contains
       ties = [(tie_of(scene, scene%clearances(kind)%info, items(i)), i=1, size(items))]
       call slot%set%new(items, ties%point(1), ties%point(2), scene%points, law, friction)
       call slot%set%take_surfaces(items, scene%materials, scene%bodies%mass, is_driven)
+      if (allocated(scene%worn)) call take_worn(scene%worn, slot%set)
       if (face_law > 0) allocate (slot%set%laws%face, source=scene%laws(face_law)%law)
       call choose_wear(scene, scene%clearances(kind)%info, items(1), slot%set%laws%wear)
       slot%set%items%free = [(0, i=1, size(items))]
@@ -265,6 +268,29 @@ contains
       number = cell_index(info, item, "wear")
       if (number > 0) allocate (law, source=scene%wears(number)%law)
    end subroutine choose_wear
+
+   !> Profiles of the surfaces that are worn at the start.
+   subroutine take_worn(worn, set)
+      type(worn_surface_t), intent(in) :: worn(:)           !! (any) surfaces, of any joints
+      class(clearance_set_t), intent(inout) :: set          !! the set, its surfaces taken
+
+      integer :: i, k
+
+      do k = 1, set%n
+         associate (pair => set%items%pairs(k))
+            do i = 1, size(worn)
+               if (worn(i)%joint /= set%names(k)%s) cycle
+               if (.not. allocated(pair%worn)) allocate (pair%worn)
+               if (worn(i)%side == side_names(of_bearing)) then
+                  call new_profile(pair%worn%hole, .true., pair%radius_i, pair%length, worn(i)%volume)
+               else
+                  call new_profile(pair%worn%pin, .false., pair%radius_j, pair%length, worn(i)%volume)
+               end if
+            end do
+            set%traits%is_worn = set%traits%is_worn .or. allocated(pair%worn)
+         end associate
+      end do
+   end subroutine take_worn
 
    !> A joint that a row names, by itself.
    subroutine make_joint(scene, number, motion, set, free)

@@ -11,6 +11,7 @@ module scene
    use normal_law, only: normal_law_t
    use requests, only: requests_t
    use wear_law, only: wear_slot_t
+   use worn_surface, only: worn_surface_t
    implicit none (type, external)
    private
    public :: analysis_dynamic, analysis_kinematic, analysis_names, analysis_static, n_analysis
@@ -99,6 +100,7 @@ module scene
       type(law_slot_t), allocatable :: laws(:)               !! (laws) normal laws
       type(friction_slot_t), allocatable :: frictions(:)     !! (laws) friction laws
       type(wear_slot_t), allocatable :: wears(:)             !! (laws) wear laws
+      type(worn_surface_t), allocatable :: worn(:)           !! (any) surfaces that are worn at the start; unallocated: none
       type(lubrication_t) :: lubrication                     !! films and lubricants
       type(table_t), allocatable :: joints(:)                !! (kinds) joints and drivers
       type(table_t), allocatable :: forces(:)                !! (kinds) force elements

@@ -15,6 +15,7 @@ module clearance_parts
       logical :: is_round = .false.       !! the clearance is a radial one
       logical :: is_gap = .false.         !! the clearance is the gap between flat surfaces
       logical :: has_faces = .false.      !! contacts of an item share a face, and what it stores
+      logical :: is_worn = .false.        !! surfaces of some items have profiles
       logical :: energy_jumps = .false.   !! stored energy and forces may jump where a contact starts or ends
    end type clearance_traits_t
 

@@ -8,10 +8,11 @@
 !>
 !> Signs: the reported force is that on the journal, world frame; the friction force is its component along t = R90 n; the
 !> eccentricity is the journal's centre from the bearing's, world frame.
-!> Wear (`wear_law`): the driving work is that of the resultant; it is shared out over the arc in which the round surfaces overlap
-!> (`wear_arc`). The geometry of contact stays that of new surfaces within a run.
+!> Wear (`wear_law`): the driving work is that of the resultant; it is shared out over the arc in which the surfaces overlap, by the
+!> cosine of the angle from the normal where they are round (`wear_arc`), by the overlap where they are worn (`surface_overlap`). The
+!> geometry of contact is that of the start within a run.
 !> Source: Flores et al. (2008), section 4.2, corrected: see `round_contacts`; `form = book` does as the book prints.
-!> Limits: both surfaces round; one contact per joint.
+!> Limits: surfaces round, or round but for wear; one contact per joint.
 module clearance_revolute
    use bodies, only: material_t
    use clearance_set, only: loss_friction, n_integrand, normal_impulse
@@ -30,6 +31,7 @@ module clearance_revolute
    use text, only: to_text
    use wear_arc, only: half_angles
    use wear_contact, only: wear_contact_t
+   use worn_contacts, only: worn_arc
    implicit none (type, external)
    private
    public :: clearance_revolute_t
@@ -171,13 +173,13 @@ contains
       if (abs(self%stick_slip%slip(k)) == 1) speed = self%stick_slip%slip(k)*v_t
    end function speed_of
 
-   !> What a contact does to its surfaces at a motion: its arc is that in which the round surfaces overlap, in the directions of the
-   !> normal. Friction that remembers is taken as that of steady sliding.
+   !> What a contact does to its surfaces at a motion: its arc is that in which the surfaces overlap, of round ones in the directions
+   !> of the normal. Friction that remembers is taken as that of steady sliding.
    subroutine revolute_wear_at(self, k, motion, wear)
       class(clearance_revolute_t), intent(in) :: self   !! the set, with a wear law
       integer, intent(in) :: k                          !! contact of the set, which touches
       type(motion_t), intent(in) :: motion              !! positions and velocities
-      type(wear_contact_t), intent(out) :: wear         !! force, sliding and arc
+      type(wear_contact_t), intent(inout) :: wear       !! force, sliding and arc
 
       type(point_contact_t) :: contact
       real(wp) :: delta, f_t(1), force_rate, normal(2), rate, speed_i, speed_j, turn
@@ -199,7 +201,12 @@ contains
          wear%turn(side) = turn - motion%omega(3, body)
       end do
       associate (pair => self%items%pairs(k))
-         wear%half_angle = half_angles(pair%radius_i, pair%radius_j, pair%clearance + contact%delta)
+         wear%is_worn = allocated(pair%worn)
+         if (wear%is_worn) then
+            call worn_arc(pair, self%journal(k)%body, self%journal(k)%s_i, self%journal(k)%s_j, motion, wear%arc)
+         else
+            wear%half_angle = half_angles(pair%radius_i, pair%radius_j, pair%clearance + contact%delta)
+         end if
       end associate
    end subroutine revolute_wear_at
 

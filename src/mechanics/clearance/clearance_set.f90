@@ -189,7 +189,10 @@ contains
       class(clearance_set_t), intent(in) :: self   !! the set, with a wear law
       integer, intent(in) :: k                     !! contact of the set, which touches
       type(motion_t), intent(in) :: motion         !! positions and velocities
-      type(wear_contact_t), intent(out) :: wear    !! force, sliding and arc; here none
+      type(wear_contact_t), intent(inout) :: wear  !! force, sliding and arc; here none
+
+      wear%force = 0.0_wp
+      wear%power = 0.0_wp
    end subroutine clearance_wear_at
 
    !> Set up the common part.

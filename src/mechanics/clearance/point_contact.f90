@@ -5,7 +5,8 @@
 !> f_j = -F_N n + F_T t,   on body i: -f_j,   both at C
 !>
 !> with t the direction of sliding in the tangent plane (R90 n, one of two, in the plane); F_N is not negative, F_T is against
-!> v_T = t . (v_j - v_i).
+!> v_T = t . (v_j - v_i). Where surfaces are worn the penetration does not grow as the centres move along n, but lambda times as
+!> much: F_N is lambda F(delta) of the law F, and the rate is that of the centres, delta'/lambda (`surface_overlap`).
 module point_contact
    use kinds, only: wp
    implicit none (type, external)
@@ -19,11 +20,12 @@ module point_contact
       real(wp) :: normal(3) = 0.0_wp  !! (3) n, world frame [1]
       real(wp) :: tangent(3) = 0.0_wp !! (3) in space: t, the direction of sliding, zero of none; world frame [1]
       real(wp) :: delta = 0.0_wp      !! penetration, negative: apart [m]
-      real(wp) :: rate = 0.0_wp       !! its rate [m/s]
+      real(wp) :: rate = 0.0_wp       !! its rate, over `lever` [m/s]
       real(wp) :: v_t = 0.0_wp        !! sliding velocity of j along t, for the friction law; where it is asked for [m/s]
       real(wp) :: v_t_work = 0.0_wp   !! the same of the material points where the forces act, for their power [m/s]
       real(wp) :: arm_i(3) = 0.0_wp   !! (3) where the force on i acts, from its centre of mass, world frame [m]
       real(wp) :: arm_j(3) = 0.0_wp   !! (3) where the force on j acts, from its centre of mass, world frame [m]
+      real(wp) :: lever = 1.0_wp      !! derivative of the penetration along n; 1 but of worn surfaces [1]
    end type point_contact_t
 
    !> What an evaluation finds of several contacts.

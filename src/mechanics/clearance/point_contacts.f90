@@ -64,6 +64,7 @@ module point_contacts
       procedure, non_overridable :: rub => point_friction
       procedure :: gaps => point_gaps
       procedure :: cut_at_ends => point_cut_at_ends
+      procedure :: lever_growth => point_lever_growth
       procedure :: monitor => point_monitor
       procedure(point_force_interface), nopass, deferred :: force_on_j
       procedure :: report => point_report
@@ -83,7 +84,7 @@ module point_contacts
          type(point_contact_t), intent(inout) :: contact  !! its kinematics
       end subroutine measure_interface
 
-      !> Second derivative of a penetration by time.
+      !> Rate of the rate of a penetration.
       pure real(wp) function acceleration_interface(self, k, motion, contact) result(acceleration)
          import :: motion_t, point_contact_t, point_contacts_t, wp
          implicit none (type, external)
@@ -251,6 +252,15 @@ contains
       real(wp), intent(inout) :: delta                !! penetration [m]
       real(wp), intent(inout) :: rate                 !! its rate [m/s]
    end subroutine point_cut_at_ends
+
+   !> Growth of a lever, lambda'/lambda: none, unless surfaces are worn.
+   pure real(wp) function point_lever_growth(self, k, motion) result(growth)
+      class(point_contacts_t), intent(in) :: self     !! the set
+      integer, intent(in) :: k                        !! contact
+      type(motion_t), intent(in) :: motion            !! positions and velocities
+
+      growth = 0.0_wp
+   end function point_lever_growth
 
    !> A channel of a geometry's own; there is none here, and the value is left alone.
    subroutine point_report_item(self, code, item, motion, contacts, f_n, f_t, value)

@@ -49,7 +49,7 @@ contains
       if (has_forces) has_forces = self%contact(k)%is_touching .or. self%laws%normal%acts_apart
    end function has_forces
 
-   !> Normal force of a touching contact and its rate, F' = dF/ddelta delta' + dF/drate delta''.
+   !> Normal force of a touching contact and its rate, F' = dF/ddelta delta' + dF/drate delta'', and F lambda'/lambda of worn surfaces.
    module procedure point_monitor
       type(point_contact_t) :: contact
       real(wp), dimension(1) :: d, d_rate, elastic, f, impact_speed, slope_delta, slope_rate
@@ -60,6 +60,7 @@ contains
          force = self%work%f_n(k)
          force_rate = self%work%slope_delta(k)*rate &
                       + self%work%slope_rate(k)*self%penetration_acceleration(k, motion, self%work%contacts(k))
+         if (self%traits%is_worn) force_rate = force_rate + force*self%lever_growth(k, motion)
          return
       end if
       call self%measure(k, .false., motion, contact)
@@ -73,6 +74,7 @@ contains
                  slope_rate, elastic)
       force = f(1)
       force_rate = slope_delta(1)*rate + slope_rate(1)*self%penetration_acceleration(k, motion, contact)
+      if (self%traits%is_worn) force_rate = force_rate + force*self%lever_growth(k, motion)
    end procedure point_monitor
 
    !> Elastic energy that the touching contacts store.

@@ -5,7 +5,7 @@
 !> v_T = t . (v_j - v_i), velocities of the material points at C = (Q_i + Q_j) / 2, Q_k = P_k + R_k n
 !>
 !> With e = 0 the normal is taken along e' and delta = -c. Beside a disc |e|, n, c and the disc's radius have the other sign, and
-!> all of this holds as it stands. Forces: see `point_contacts`.
+!> all of this holds as it stands. Forces: see `point_contacts`. Surfaces that are worn: see `worn_contacts`.
 !>
 !> Source: Flores et al. (2008), section 4.2, corrected: the book differentiates the geometric contact point, (4.7) and (4.9), so
 !> that a spinning journal does not slide, and lets f_i act at Q_i and f_j at Q_j, (4.10)-(4.13), which leaves a couple delta F_T.
@@ -23,6 +23,7 @@ module round_contacts
    use planar_points, only: planar_points_t
    use readings, only: readings_t
    use surfaces, only: surfaces_t
+   use worn_contacts, only: lever_growth, measure_worn, rate_of_rate, turning_of_worn
    implicit none (type, external)
    private
    public :: journal_t, round_contacts_t
@@ -46,6 +47,7 @@ module round_contacts
       procedure :: measure => measure_one
       procedure :: penetration_acceleration => round_penetration_acceleration
       procedure :: turning => round_turning
+      procedure :: lever_growth => round_lever_growth
       procedure :: report => round_report
       procedure :: report_item => round_report_item
    end type round_contacts_t
@@ -99,7 +101,8 @@ contains
       type(loads_t), intent(inout) :: loads                 !! loads on the bodies
       real(wp), intent(inout) :: integrands(n_integrand, self%n_contact)  !! (3, contacts) power lost and normal force [W and N]
 
-      if (self%n_touching > 0 .and. self%laws%normal%hertz_damping > 0.0_wp .and. .not. allocated(self%laws%friction)) then
+      if (self%n_touching > 0 .and. self%laws%normal%hertz_damping > 0.0_wp .and. .not. allocated(self%laws%friction) &
+          .and. .not. self%traits%is_worn) then
          self%evaluated_at = motion%number
          call press_journals(self%n, self%laws%normal%hertz_damping, self%laws%parameters, self%contact, self%journal, &
                              self%items%pairs, ubound(motion%angle, 1), motion%r, motion%rot, motion%v, motion%omega, &
@@ -180,6 +183,18 @@ contains
       class(round_contacts_t), intent(inout) :: self  !! the set; kinematics are set
       type(motion_t), intent(in) :: motion            !! positions and velocities
 
+      integer :: k
+
+      if (self%traits%is_worn) then
+         do k = 1, self%n
+            if (self%contact(k)%is_touching .or. self%laws%normal%acts_apart) then
+               call measure_one(self, k, allocated(self%laws%friction), motion, self%work%contacts(k))
+            end if
+            call take_contact(self%contact(k), self%work%contacts(k), self%laws%normal%acts_apart, self%work%delta(k), &
+                              self%work%rate(k), self%work%impact_speed(k))
+         end do
+         return
+      end if
       call measure_journals(self%n, self%laws%normal%acts_apart, self%contact, self%journal, &
                             self%items%pairs, ubound(motion%angle, 1), motion%r, motion%rot, motion%v, motion%omega, &
                             allocated(self%laws%friction), self%work%contacts, self%work%delta, self%work%rate, &
@@ -228,6 +243,10 @@ contains
 
       real(wp) :: distance
 
+      if (allocated(self%items%pairs(k)%worn)) then
+         call measure_worn(self%items%pairs(k), self%items%body(:, k), self%journal(k)%s_i, self%journal(k)%s_j, motion, contact)
+         return
+      end if
       call measure_journal(self%journal(k)%body, self%journal(k)%s_i, self%journal(k)%s_j, self%journal(k), &
                            self%items%pairs(k), ubound(motion%angle, 1), motion%r, motion%rot, motion%v, motion%omega, contact, &
                            distance)
@@ -296,7 +315,18 @@ contains
       end associate
    end subroutine measure_sliding
 
-   !> Second derivative of a penetration by time.
+   !> Growth of a lever.
+   pure real(wp) function round_lever_growth(self, k, motion) result(growth)
+      class(round_contacts_t), intent(in) :: self    !! the set
+      integer, intent(in) :: k                       !! contact
+      type(motion_t), intent(in) :: motion           !! positions and velocities
+
+      growth = 0.0_wp
+      if (.not. allocated(self%items%pairs(k)%worn)) return
+      growth = lever_growth(self%items%pairs(k), self%journal(k)%body, self%journal(k)%s_i, self%journal(k)%s_j, motion)
+   end function round_lever_growth
+
+   !> Rate of the rate of a penetration.
    pure real(wp) function round_penetration_acceleration(self, k, motion, contact) result(acceleration)
       class(round_contacts_t), intent(in) :: self    !! the set
       integer, intent(in) :: k                       !! contact
@@ -304,6 +334,10 @@ contains
       type(point_contact_t), intent(in) :: contact   !! its kinematics
 
       associate (journal => self%journal(k))
+         if (allocated(self%items%pairs(k)%worn)) then
+            acceleration = rate_of_rate(self%items%pairs(k), journal%body, journal%s_i, journal%s_j, motion)
+            return
+         end if
          acceleration = acceleration_along(journal%body, journal%s_i, journal%s_j, journal%side, &
                                            journal%side*(contact%delta + self%items%pairs(k)%touch), &
                                            ubound(motion%angle, 1), motion%r, motion%rot, motion%v, motion%omega, motion%a, &
@@ -353,6 +387,11 @@ contains
       real(wp) :: distance, longer, p_i(2), p_j(2), s_i(2), s_j(2)
       integer :: i, j
 
+      if (allocated(self%items%pairs(k)%worn)) then
+         call turning_of_worn(self%items%pairs(k), self%journal(k)%body, self%journal(k)%s_i, self%journal(k)%s_j, motion, turn, &
+                              speed_i, speed_j)
+         return
+      end if
       i = self%items%body(1, k)
       j = self%items%body(2, k)
       call find_centres(self, k, motion, s_i, s_j, distance)

@@ -1,6 +1,7 @@
 !> What a contact does to its surfaces at a motion, for their wear.
 module wear_contact
    use kinds, only: wp
+   use surface_overlap, only: arc_t
    use wear_law, only: n_side
    implicit none (type, external)
    private
@@ -13,7 +14,9 @@ module wear_contact
       real(wp) :: speed = 0.0_wp                 !! magnitude of the sliding velocity [m/s]
       real(wp) :: direction(n_side) = 0.0_wp     !! (2) direction of the middle of the arc on each surface [rad]
       real(wp) :: turn(n_side) = 0.0_wp          !! (2) rates of these directions [rad/s]
-      real(wp) :: half_angle(n_side) = 0.0_wp    !! (2) half angles of the arc, from the centre of each surface [rad]
+      real(wp) :: half_angle(n_side) = 0.0_wp    !! (2) half angles of the arc of round surfaces, from their centres [rad]
+      logical :: is_worn = .false.               !! the surfaces have profiles: `arc` has the arc
+      type(arc_t) :: arc                         !! points of the arc of worn surfaces
    end type wear_contact_t
 
 end module wear_contact

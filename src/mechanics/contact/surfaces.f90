@@ -9,6 +9,7 @@ module surfaces
    use bodies, only: material_t
    use elastic_waves, only: speed_of_share
    use kinds, only: wp
+   use worn_profile, only: worn_pair_t
    implicit none (type, external)
    private
    public :: put_beside, put_inside, set_materials, shape_external, shape_face, shape_internal, shape_plane, surfaces_t
@@ -34,6 +35,7 @@ module surfaces
       real(wp) :: speed_limit = huge(1.0_wp) !! impact speed up to which contact is quasi-static; huge: not known [m/s]
       real(wp) :: strength = huge(1.0_wp)    !! maximum pressure that both surfaces bear; huge: not known [Pa]
       real(wp) :: inverse_mass = 0.0_wp      !! 1/m_i + 1/m_j of the bodies, 0 for the ground [1/kg]
+      type(worn_pair_t), allocatable :: worn !! profiles of a pin in a hole that are worn; unallocated: both are round
    end type surfaces_t
 
 contains

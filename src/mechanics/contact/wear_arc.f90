@@ -10,12 +10,13 @@
 !>
 !> Arc of a pin of radius r whose centre lies e off that of a hole of radius R, delta = e + r - R deep: half angle a at the
 !> centre of the pin, b at that of the hole,  1 - cos a = delta (r + e + R)/(2 r e),  tan b = r sin a/(e + r cos a).
-!> Limits: the surfaces are round; angles are in cells of one width; an arc is at most half a turn.
+!> Of worn surfaces the arc is given by points (`add_swept_points`).
+!> Limits: the surfaces are round where an arc has half angles; angles are in cells of one width; an arc is at most half a turn.
 module wear_arc
    use kinds, only: pi, wp
    implicit none (type, external)
    private
-   public :: add_swept_arc, half_angles
+   public :: add_swept_arc, add_swept_points, half_angles
 
 contains
 
@@ -93,5 +94,34 @@ contains
       end function integral
 
    end subroutine add_swept_arc
+
+   !> Add the shares of an amount that points of an arc leave while all of them sweep along the surface.
+   pure subroutine add_swept_points(cells, angle, weight, by, amount)
+      real(wp), intent(inout) :: cells(:)   !! (n) added to; cell k lies from 2 pi (k - 1)/n to 2 pi k/n [any]
+      real(wp), intent(in) :: angle(:)      !! (points) where they are [rad]
+      real(wp), intent(in) :: weight(:)     !! (points) their parts, not negative, their sum positive [any]
+      real(wp), intent(in) :: by(2)         !! (2) from where to where they sweep, from these angles [rad]
+      real(wp), intent(in) :: amount        !! what is shared out [any]
+
+      real(wp) :: before, behind, first, last, share, total, width
+      integer :: k, m
+
+      total = sum(weight)
+      width = 2.0_wp*pi/size(cells)
+      do m = 1, size(angle)
+         share = amount*(weight(m)/total)
+         first = (angle(m) + minval(by))/width
+         last = (angle(m) + maxval(by))/width
+         before = 0.0_wp
+         do k = floor(first), floor(last)
+            behind = 1.0_wp
+            if (k + 1 < last) behind = min(max((k + 1 - first)/(last - first), before), 1.0_wp)
+            associate (cell => cells(modulo(k, size(cells)) + 1))
+               cell = cell + share*(behind - before)
+            end associate
+            before = behind
+         end do
+      end do
+   end subroutine add_swept_points
 
 end module wear_arc

@@ -38,6 +38,7 @@ module wear_law
       procedure :: mistake => wear_mistake
       procedure :: coefficients => wear_coefficients
       procedure :: worn_part => wear_worn_part
+      procedure :: worn_points => wear_worn_points
    end type wear_law_t
 
    !> A place for a wear law of any kind.
@@ -133,5 +134,26 @@ contains
       worn_angle = min(acos(self%threshold/maximum), half_angle)
       part = sin(worn_angle)/sin(half_angle)
    end subroutine wear_worn_part
+
+   !> The same of an arc that is given by points, with the pressure p = F_N d/(R L int d cos(theta - phi) dtheta): points below the
+   !> threshold lose their overlap.
+   pure subroutine wear_worn_points(self, force, area, angle, middle, width, d, part)
+      class(wear_law_t), intent(in) :: self     !! the law
+      real(wp), intent(in) :: force             !! F_N [N]
+      real(wp), intent(in) :: area              !! radius times length; read with a threshold [m^2]
+      real(wp), intent(in) :: angle(:)          !! (points) where they are [rad]
+      real(wp), intent(in) :: middle            !! phi, direction of the force [rad]
+      real(wp), intent(in) :: width(:)          !! (points) angles that they stand for [rad]
+      real(wp), intent(inout) :: d(:)           !! (points) overlap, to which the pressure is proportional [m]
+      real(wp), intent(out) :: part             !! of the driving work that wears, 0 to 1 [1]
+
+      real(wp) :: whole
+
+      whole = sum(d*width)
+      part = merge(1.0_wp, 0.0_wp, whole > 0.0_wp)
+      if (.not. (self%threshold > 0.0_wp .and. whole > 0.0_wp)) return
+      where (.not. force*d > self%threshold*(area*sum(d*width*cos(angle - middle)))) d = 0.0_wp
+      part = sum(d*width)/whole
+   end subroutine wear_worn_points
 
 end module wear_law

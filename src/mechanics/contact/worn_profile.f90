@@ -1,0 +1,101 @@
+!> The profile of a worn surface, as contact geometry reads it: depth, slope and bend at any place of its circumference.
+!>
+!> V_k the volume that cell k has lost, w its angle, L the length:  A = V_k/(L w), mean area of its section per angle; A(theta) is the
+!> histospline of these means, so that the area of each cell is kept, and
+!>
+!> h = sqrt(R^2 + 2 A) - R of a hole,   h = r - sqrt(r^2 - 2 A) of a pin
+!> h' = A'/(R + h),  h'' = (A'' - h'^2)/(R + h);   of a pin h' = A'/(r - h),  h'' = (A'' + h'^2)/(r - h)
+!>
+!> Signs: h is not negative; angles in the frame of the body that carries the surface, counter-clockwise from its x axis. h and h'
+!> are continuous, h'' jumps from cell to cell. Source: see `histospline`.
+!> Limits: cells of one width, at least 4; a pin is nowhere worn through (`worn_surface`).
+module worn_profile
+   use histospline, only: degree, fit_histospline, value_of_histospline
+   use kinds, only: pi, wp
+   implicit none (type, external)
+   private
+   public :: depth_t, new_profile, profile_t, worn_pair_t
+
+   !> A worn surface, or one without a profile, which is round.
+   type :: profile_t
+      logical :: is_hole = .true.            !! its radius grows by wear; else a pin
+      real(wp) :: radius = 0.0_wp            !! of the new surface [m]
+      real(wp) :: width = 0.0_wp             !! angle of a cell [rad]
+      real(wp), allocatable :: c(:, :)       !! (0:4, cells) coefficients of A; unallocated: the surface is round [m^2]
+      real(wp), allocatable :: volume(:)     !! (cells) what each has lost [m^3]
+   contains
+      procedure :: is_round => profile_is_round
+      procedure :: at => depth_at
+   end type profile_t
+
+   !> The worn surfaces of a pin in a hole; one of them may be round.
+   type :: worn_pair_t
+      type(profile_t) :: hole   !! of the bearing
+      type(profile_t) :: pin    !! of the journal
+   end type worn_pair_t
+
+   !> Depth at a place.
+   type :: depth_t
+      real(wp) :: h = 0.0_wp       !! depth [m]
+      real(wp) :: slope = 0.0_wp   !! dh/dtheta [m/rad]
+      real(wp) :: bend = 0.0_wp    !! d2h/dtheta2 [m/rad^2]
+   end type depth_t
+
+contains
+
+   !> The profile of what cells have lost.
+   pure subroutine new_profile(profile, is_hole, radius, length, volume)
+      type(profile_t), intent(out) :: profile  !! the profile
+      logical, intent(in) :: is_hole           !! a hole, else a pin
+      real(wp), intent(in) :: radius           !! of the new surface [m]
+      real(wp), intent(in) :: length           !! along the axis [m]
+      real(wp), intent(in) :: volume(:)        !! (cells) what each has lost, not negative [m^3]
+
+      profile%is_hole = is_hole
+      profile%radius = radius
+      profile%width = 2.0_wp*pi/size(volume)
+      profile%volume = volume
+      allocate (profile%c(0:degree, size(volume)))
+      call fit_histospline(volume/(length*profile%width), profile%c)
+   end subroutine new_profile
+
+   !> Whether there is no profile.
+   pure logical function profile_is_round(self)
+      class(profile_t), intent(in) :: self   !! the surface
+
+      profile_is_round = .not. allocated(self%c)
+   end function profile_is_round
+
+   !> Depth at an angle. At the edge of two cells h'' is that of the cell on the side that is asked for.
+   pure type(depth_t) function depth_at(self, theta, cell) result(depth)
+      class(profile_t), intent(in) :: self      !! the surface
+      real(wp), intent(in) :: theta             !! angle from the x axis of its body, any turn [rad]
+      integer, intent(in), optional :: cell     !! number of the cell it is in, from 0, any turn; absent: found
+
+      real(wp) :: area, bend, rho, slope, u
+      integer :: k
+
+      if (.not. allocated(self%c)) return
+      u = theta/self%width
+      if (present(cell)) then
+         k = cell
+      else
+         k = floor(u)
+      end if
+      u = min(max(u - k, 0.0_wp), 1.0_wp)
+      call value_of_histospline(self%c(:, modulo(k, size(self%c, 2)) + 1), u, area, slope, bend)
+      slope = slope/self%width
+      bend = bend/self%width**2
+      if (self%is_hole) then
+         rho = sqrt(self%radius**2 + 2.0_wp*area)
+         depth%slope = slope/rho
+         depth%bend = (bend - depth%slope**2)/rho
+      else
+         rho = sqrt(self%radius**2 - 2.0_wp*area)
+         depth%slope = slope/rho
+         depth%bend = (bend + depth%slope**2)/rho
+      end if
+      depth%h = 2.0_wp*area/(rho + self%radius)
+   end function depth_at
+
+end module worn_profile
