@@ -44,6 +44,7 @@ module overlap_rays
       real(wp) :: d_ddot = 0.0_wp        !! its second derivative [m/s^2]
       real(wp) :: w_dot = 0.0_wp         !! rate of w [1/s]
       real(wp) :: h_j_dot = 0.0_wp       !! rate of the depth [m/s]
+      real(wp) :: h_j_slope = 0.0_wp     !! its derivative by theta [m/rad]
       real(wp) :: slope_dot = 0.0_wp     !! rate of the slope [m/(rad.s)]
       real(wp) :: w_slope = 0.0_wp       !! derivative of w by theta [1/rad]
    end type ray_t
@@ -105,7 +106,7 @@ contains
       end associate
    end subroutine find_ray
 
-   !> Second derivatives by theta where the pin is worn.
+   !> Derivatives by theta where the pin is worn.
    pure subroutine bend_worn(r, c_psi, q, s, rho, root, x, hole, surface, ray)
       real(wp), intent(in) :: r              !! radius of the new pin [m]
       real(wp), intent(in) :: c_psi          !! cos(psi) [1]
@@ -116,13 +117,14 @@ contains
       real(wp), intent(in) :: x              !! derivative of chi by theta [1]
       type(depth_t), intent(in) :: hole      !! depth of the hole
       type(depth_t), intent(in) :: surface   !! depth of the pin
-      type(ray_t), intent(inout) :: ray      !! bend and w_slope are set
+      type(ray_t), intent(inout) :: ray      !! bend, w_slope and h_j_slope are set
 
       real(wp) :: c_slope, rho_bend, rho_slope, root_slope, x_slope
 
       c_slope = q*s/(r**2*c_psi)
       x_slope = q/(r*c_psi) - s*c_slope/(r*c_psi**2)
       rho_slope = -surface%slope*x
+      ray%h_j_slope = -rho_slope
       rho_bend = -surface%bend*x**2 - surface%slope*x_slope
       root_slope = (rho*rho_slope + q*s)/root
       ray%bend = -s + (rho_slope**2 + rho*rho_bend + q**2 - s**2 - root_slope**2)/root - hole%bend

@@ -74,6 +74,7 @@ module surface_overlap
    real(wp), parameter :: points(n_point) = 0.5_wp*(1.0_wp + [-outer, -inner, inner, outer])   !! places [1]
    real(wp), parameter :: weights(n_point) = [of_outer, of_inner, of_inner, of_outer]          !! weights [1]
    real(wp), parameter :: longest = 0.05_wp       !! part of an arc that these points are right for [rad]
+   integer, parameter :: n_part = 4               !! parts of what lies between two edges, where it is looked at closely
    integer, parameter :: most_iterations = 60     !! of a search between two edges, halvings among them
 
 contains
@@ -140,7 +141,7 @@ contains
          overlap%rate = ray%d_dot
          overlap%second = ray%d_ddot + ray%slope_dot*turn
          overlap%gradient_rate = ray%w_dot*across + turn*((1.0_wp + ray%w_slope)*across - ray%w*ray%u)
-         overlap%depth_rate = ray%h_j_dot
+         overlap%depth_rate = ray%h_j_dot + ray%h_j_slope*turn
       end associate
    end subroutine take_ray
 
@@ -171,9 +172,9 @@ contains
       type(ray_t), intent(inout) :: deepest          !! of the rays at edges, and where d has a maximum between them
       type(arc_t), intent(inout), optional :: arc    !! appended to
 
-      type(ray_t) :: left, right, turning
-      real(wp) :: edge
-      integer :: cell(2), passed
+      type(ray_t) :: end, left, right, start
+      real(wp) :: at_most, edge, middle
+      integer :: cell(2), k, passed
 
       cell = cells_at(pair, pin, from)
       call find_ray(pair, pin, from, cell, .false., .false., left)
@@ -181,35 +182,64 @@ contains
          call next_edge(pair, pin, left%theta, cell, edge, passed)
          edge = min(edge, to)
          call find_ray(pair, pin, edge, cell, .false., .false., right)
-         if (left%d > 0.0_wp .and. right%d > 0.0_wp) then
-            if (left%slope < 0.0_wp .and. right%slope > 0.0_wp) then
-               call find_turn(pair, pin, cell, left, right, turning)
-               if (turning%d < 0.0_wp) then
-                  call add_part(pair, pin, cell, left%theta, end_of(pair, pin, cell, left, turning), level, sums, arc)
-                  call add_part(pair, pin, cell, end_of(pair, pin, cell, right, turning), right%theta, level, sums, arc)
-               else
-                  call add_part(pair, pin, cell, left%theta, right%theta, level, sums, arc)
-               end if
-            else
-               call add_part(pair, pin, cell, left%theta, right%theta, level, sums, arc)
-            end if
-         else if (left%d > 0.0_wp) then
-            call add_part(pair, pin, cell, left%theta, end_of(pair, pin, cell, left, right), level, sums, arc)
-         else if (right%d > 0.0_wp) then
-            call add_part(pair, pin, cell, end_of(pair, pin, cell, right, left), right%theta, level, sums, arc)
-         else if (left%slope > 0.0_wp .and. right%slope < 0.0_wp) then
-            call find_turn(pair, pin, cell, left, right, turning)
-            if (turning%d > deepest%d) deepest = turning
-            if (turning%d > 0.0_wp) then
-               call add_part(pair, pin, cell, end_of(pair, pin, cell, turning, left), &
-                             end_of(pair, pin, cell, turning, right), level, sums, arc)
-            end if
+         at_most = max(left%d, right%d) + 0.5_wp*(edge - left%theta)*max(abs(left%slope), abs(right%slope))
+         if (max(left%d, right%d) <= 0.0_wp .and. at_most > min(deepest%d, 0.0_wp)) then
+            start = left
+            do k = 1, n_part  ! a cell may have more than one maximum
+               end = right
+               middle = start%theta + (edge - start%theta)/(n_part + 1 - k)
+               if (k < n_part) call find_ray(pair, pin, middle, cell, .false., .false., end)
+               call look_between(pair, pin, cell, start, end, level, sums, deepest, arc)
+               start = end
+            end do
+         else
+            call look_between(pair, pin, cell, left, right, level, sums, deepest, arc)
          end if
-         if (right%d > deepest%d) deepest = right
          left = right
          if (passed > 0) cell(passed) = cell(passed) + 1
       end do
    end subroutine scan
+
+   !> Add what overlaps between two rays in one cell of each surface, and keep the deepest ray.
+   pure subroutine look_between(pair, pin, cell, left, right, level, sums, deepest, arc)
+      type(surfaces_t), intent(in) :: pair           !! the surfaces
+      type(pin_t), intent(in) :: pin                 !! where the pin is
+      integer, intent(in) :: cell(2)                 !! cells of hole and pin
+      type(ray_t), intent(in) :: left                !! the first ray
+      type(ray_t), intent(in) :: right               !! the last ray
+      integer, intent(in) :: level                   !! what is found
+      type(sums_t), intent(inout) :: sums            !! added to
+      type(ray_t), intent(inout) :: deepest          !! the deepest so far
+      type(arc_t), intent(inout), optional :: arc    !! appended to
+
+      type(ray_t) :: turning
+
+      if (left%d > 0.0_wp .and. right%d > 0.0_wp) then
+         if (left%slope < 0.0_wp .and. right%slope > 0.0_wp) then
+            call find_turn(pair, pin, cell, left, right, turning)
+            if (turning%d < 0.0_wp) then
+               call add_part(pair, pin, cell, left%theta, end_of(pair, pin, cell, left, turning), level, sums, arc)
+               call add_part(pair, pin, cell, end_of(pair, pin, cell, right, turning), right%theta, level, sums, arc)
+            else
+               call add_part(pair, pin, cell, left%theta, right%theta, level, sums, arc)
+            end if
+         else
+            call add_part(pair, pin, cell, left%theta, right%theta, level, sums, arc)
+         end if
+      else if (left%d > 0.0_wp) then
+         call add_part(pair, pin, cell, left%theta, end_of(pair, pin, cell, left, right), level, sums, arc)
+      else if (right%d > 0.0_wp) then
+         call add_part(pair, pin, cell, end_of(pair, pin, cell, right, left), right%theta, level, sums, arc)
+      else if (left%slope > 0.0_wp .and. right%slope < 0.0_wp) then
+         call find_turn(pair, pin, cell, left, right, turning)
+         if (turning%d > deepest%d) deepest = turning
+         if (turning%d > 0.0_wp) then
+            call add_part(pair, pin, cell, end_of(pair, pin, cell, turning, left), &
+                          end_of(pair, pin, cell, turning, right), level, sums, arc)
+         end if
+      end if
+      if (right%d > deepest%d) deepest = right
+   end subroutine look_between
 
    !> The next edge of a cell in the order of directions.
    pure subroutine next_edge(pair, pin, theta, cell, edge, passed)
@@ -247,7 +277,7 @@ contains
       type(ray_t), intent(in) :: inside        !! the ray with d > 0
       type(ray_t), intent(in) :: outside       !! the other
 
-      real(wp), parameter :: close = 1.0e-9_wp   ! of the bracket: an error is felt by its third power
+      real(wp), parameter :: close = 1.0e-13_wp   ! of the bracket [1]
       type(ray_t) :: ray
       real(wp) :: bad, good, step
       integer :: k
