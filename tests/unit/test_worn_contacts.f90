@@ -7,7 +7,7 @@ module test_worn_contacts
    use overlap_rays, only: pin_t
    use surface_overlap, only: arc_t, find_overlap, overlap_t, to_gradient, to_second
    use surfaces, only: put_inside, surfaces_t
-   use worn_profile, only: new_profile
+   use surface_profile, only: new_profile
    implicit none (type, external)
    private
    public :: run_test_worn_contacts

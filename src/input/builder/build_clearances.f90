@@ -24,7 +24,7 @@ module build_clearances
    use socket_films, only: socket_films_t
    use ties, only: find_joint, kind_number, tie_of, tie_set, tie_t
    use wear_law, only: of_bearing, side_names, wear_law_t
-   use worn_profile, only: new_profile
+   use surface_profile, only: new_profile
    use worn_surface, only: worn_surface_t
    implicit none (type, external)
    private

@@ -11,7 +11,7 @@
 module overlap_rays
    use kinds, only: wp
    use surfaces, only: surfaces_t
-   use worn_profile, only: depth_t
+   use surface_profile, only: depth_t
    implicit none (type, external)
    private
    public :: find_ray, follow_ray, pin_t, ray_t

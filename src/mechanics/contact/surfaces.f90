@@ -9,7 +9,7 @@ module surfaces
    use bodies, only: material_t
    use elastic_waves, only: speed_of_share
    use kinds, only: wp
-   use worn_profile, only: worn_pair_t
+   use surface_profile, only: worn_pair_t
    implicit none (type, external)
    private
    public :: put_beside, put_inside, set_materials, shape_external, shape_face, shape_internal, shape_plane, surfaces_t

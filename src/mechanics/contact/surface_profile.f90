@@ -9,7 +9,7 @@
 !> Signs: h is not negative; angles in the frame of the body that carries the surface, counter-clockwise from its x axis. h and h'
 !> are continuous, h'' jumps from cell to cell. Source: see `histospline`.
 !> Limits: cells of one width, at least 4; a pin is nowhere worn through (`worn_surface`).
-module worn_profile
+module surface_profile
    use histospline, only: degree, fit_histospline, value_of_histospline
    use kinds, only: pi, wp
    implicit none (type, external)
@@ -98,4 +98,4 @@ contains
       depth%h = 2.0_wp*area/(rho + self%radius)
    end function depth_at
 
-end module worn_profile
+end module surface_profile
