@@ -289,6 +289,7 @@ contains
       one%laws = scene%laws
       one%frictions = scene%frictions
       one%wears = scene%wears
+      one%worn = scene%worn
       one%lubrication = scene%lubrication
       one%analysis = scene%analysis
       one%settings%integration = scene%settings%integration
