@@ -69,8 +69,8 @@ contains
       if (angle > pi) angle = angle - 2.0_wp*pi
    end subroutine surface_max_depth
 
-   !> Angle of all that has lost something, full, at the centre of the surface. Each stretch of worn cells ends within its outer cells:
-   !> where the line on which the areas of the cells beside go has the area of the outer cell before it, or is zero.
+   !> Angle of all that has lost something, full, at the centre of the surface. Each stretch of worn cells ends within its outer
+   !> cells: where the line on which the areas of the cells beside go has the area of the outer cell before it, or is zero.
    pure real(wp) function worn_arc(self) result(arc)
       class(worn_surface_t), intent(in) :: self   !! the surface
 
@@ -109,8 +109,8 @@ contains
       if (n > 2) width = n - 2 + part_of_outer(area(1), area(2:n - 1)) + part_of_outer(area(n), area(n - 1:2:-1))
    end function width_of
 
-   !> Part of an outer cell that is worn, where the area goes on as in up to three cells beside it: by the polynomial whose means they
-   !> are, up to its first zero.
+   !> Part of an outer cell that is worn, where the area goes on as in up to three cells beside it: by the polynomial whose means
+   !> they are, up to its first zero.
    pure real(wp) function part_of_outer(outer, inner) result(part)
       real(wp), intent(in) :: outer      !! area of the outer cell [m^2]
       real(wp), intent(in) :: inner(:)   !! (n) those of the cells beside it, from the outer cell on [m^2]

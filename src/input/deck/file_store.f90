@@ -1,8 +1,8 @@
 !> The files that a deck was read from, kept in memory, so that it can be read again exactly as it was.
 !>
 !> Nothing is kept unless it is asked for. From then on a file is read from the disk once; what it held then is what every later
-!> reading gets, in this process and in its copies, whatever becomes of the file. Of a file with a reader of its own that is what the
-!> reader takes from it.
+!> reading gets, in this process and in its copies, whatever becomes of the file. Of a file with a reader of its own that is what
+!> the reader takes from it.
 module file_store
    use kinds, only: i8
    use system_file, only: read_file

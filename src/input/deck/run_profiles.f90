@@ -1,7 +1,8 @@
 !> Worn surfaces of an earlier run, read with the deck that names its file.
 !>
-!> The format of the file belongs to the results of runs. What reads it is set once, when the program starts (`set_profile_reader`);
-!> it gives a line for each cell, `joint side volume`, cells in the order of their angles. These lines are what `file_store` keeps.
+!> The format of the file belongs to the results of runs. What reads it is set once, when a deck is loaded
+!> (`set_profile_reader`); it gives a line for each cell, `joint side volume`, cells in the order of their angles. These lines are
+!> what `file_store` keeps.
 module run_profiles
    use file_store, only: read_kept, reader_interface
    use kinds, only: i8, wp
@@ -25,13 +26,13 @@ contains
    end subroutine set_profile_reader
 
    !> Read the worn surfaces of a run.
-   subroutine read_profiles(path, names, table, message)
+   subroutine read_profiles(path, lines, names, table, message)
       character(*), intent(in) :: path                        !! of the file
+      character(:), allocatable, intent(out) :: lines         !! `joint side volume` of each cell
       type(text_t), allocatable, intent(out) :: names(:)      !! (n) `joint side` of each surface
       real(wp), allocatable, intent(out) :: table(:, :)       !! (n + cells of all, 1) numbers of cells, then volumes [1 and m^3]
       character(:), allocatable, intent(out) :: message       !! empty: success; else what is wrong
 
-      character(:), allocatable :: lines
       real(wp), allocatable :: count(:), volume(:)
       logical :: is_stream
 

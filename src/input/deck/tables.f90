@@ -3,7 +3,7 @@ module tables
    use cell_checks, only: is_name
    use cell_lists, only: read_word
    use cells, only: blank_value, read_value
-   use deck_types, only: deck_t, text_of
+   use deck_types, only: add_source, deck_t, text_of
    use defaults, only: read_default, remember_default
    use diagnostics, only: diagnostics_t
    use file_path, only: beside, plain_path
@@ -15,6 +15,7 @@ module tables
    use quantities, only: is_numeric
    use run_profiles, only: columns_of_profiles, read_profiles
    use table_header, only: header_t, is_broken, is_name_column, read_table_header
+   use source_text, only: new_source, source_t
    use text, only: to_text
    use tokens, only: span, token_equals, token_quoted, token_t, token_word
    use units, only: parse_unit, unit_t
@@ -99,17 +100,26 @@ contains
       if (len(message) > 0) call mistakes%add(value%location, "cannot read the mesh '"//value%text//"' "//place, message)
    end subroutine read_triangles
 
-   !> The file of an earlier run.
+   !> The file of an earlier run: what is taken from it becomes a text of the deck.
    subroutine read_worn_surfaces(deck, place, value, mistakes)
-      type(deck_t), intent(in) :: deck                !! the deck
+      type(deck_t), intent(inout) :: deck             !! the deck; its sources grow
       character(*), intent(in) :: place               !! as `in column run of worn.run`
       type(value_t), intent(inout) :: value           !! the cell with its path; receives names and volumes of the surfaces
       type(diagnostics_t), intent(inout) :: mistakes  !! collects what is wrong
 
-      character(:), allocatable :: message
+      character(:), allocatable :: lines, message, path
+      type(source_t) :: source
+      integer :: number
 
-      call read_profiles(plain_path(beside(deck%sources(value%location%file)%place, value%text)), value%words, value%table, message)
-      if (len(message) > 0) call mistakes%add(value%location, "cannot read the run '"//value%text//"' "//place, message)
+      path = plain_path(beside(deck%sources(value%location%file)%place, value%text))
+      call read_profiles(path, lines, value%words, value%table, message)
+      if (len(message) > 0) then
+         call mistakes%add(value%location, "cannot read the run '"//value%text//"' "//place, message)
+         return
+      end if
+      call new_source(source, path, lines)
+      source%is_file = .true.
+      call add_source(deck, source, number)
    end subroutine read_worn_surfaces
 
    !> All lines of all sections of some name.

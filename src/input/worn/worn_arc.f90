@@ -5,14 +5,14 @@
 !>
 !> e = R + h - rho of a hole,   e = r - h - rho of a pin, negative
 !>
-!> The worn surface is s(theta) = e cos(theta) + sqrt(rho^2 - e^2 sin(theta)^2) inside of the half angle b, where it meets the circle of
-!> the radius R:  1 - cos b = h (2 rho - h)/(2 R e),   of a pin  -h (2 rho + h)/(2 r e). Volume between two directions:
+!> The worn surface is s(theta) = e cos(theta) + sqrt(rho^2 - e^2 sin(theta)^2) inside of the half angle b, where it meets the
+!> circle of the radius R:  1 - cos b = h (2 rho - h)/(2 R e),   of a pin  -h (2 rho + h)/(2 r e). Volume between two directions:
 !>
 !> V = L |int (s^2 - R^2)/2 dtheta| = L |[rho^2 psi/2 + e rho sin(psi)/2 - R^2 theta/2]|,   psi = theta + asin(e sin(theta)/rho)
 !>
-!> Signs: the direction is that of the deepest place, in the frame of the body that carries the surface, counter-clockwise from its x
-!> axis. Source: areas of sectors of circles. Limits: rho is not larger than the radius of a hole and not smaller than that of a pin; h
-!> is at most rho in a hole, smaller than r on a pin; round-off is 1e-16 R^2 L.
+!> Signs: the direction is that of the deepest place, in the frame of the body that carries the surface, counter-clockwise from
+!> its x axis. Source: areas of sectors of circles. Limits: rho is not larger than the radius of a hole and not smaller than that
+!> of a pin; h is at most rho in a hole, smaller than r on a pin; round-off is 1e-16 R^2 L.
 module worn_arc
    use item, only: item_t
    use kind_info, only: add_number, dim_angle, dim_length, kind_info_t

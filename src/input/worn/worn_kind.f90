@@ -1,6 +1,7 @@
 !> The contract of given wear: a row of a table says how a surface of a joint is worn at the start.
 !>
-!> A row becomes the worn volumes of the cells of a surface, so that the area of its section is kept whatever the form it is given in.
+!> A row becomes the worn volumes of the cells of a surface, so that the area of its section is kept whatever the form it is given
+!> in.
 module worn_kind
    use item, only: item_t
    use kind_info, only: add_reference, add_word, kind_info_t

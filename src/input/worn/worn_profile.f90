@@ -1,8 +1,8 @@
 !> A profile of wear: depths over the angle, as lists or in a file.
 !>
-!> Between two samples the area A of the section per angle goes along a line, A = R h + h^2/2 of a hole, r h - h^2/2 of a pin; the last
-!> sample and the first one are joined around the circumference. The volume of a cell is L times the integral of A over it, in closed
-!> form: the area of the profile is kept, whatever the cells.
+!> Between two samples the area A of the section per angle goes along a line, A = R h + h^2/2 of a hole, r h - h^2/2 of a pin; the
+!> last sample and the first one are joined around the circumference. The volume of a cell is L times the integral of A over it,
+!> in closed form: the area of the profile is kept, whatever the cells.
 !> Signs: angles in the frame of the body that carries the surface, counter-clockwise from its x axis, increasing, over at most one
 !> turn; depths are not negative.
 module worn_profile

@@ -1,7 +1,7 @@
 !> Surfaces as an earlier run left them: all that it wore, or those of one joint, or one of them.
 !>
-!> Worn volumes are taken, so that none is lost on the way. Where the cells are others, each old cell is shared out over the new ones
-!> by the part of its width that they have.
+!> Worn volumes are taken, so that none is lost on the way. Where the cells are others, each old cell is shared out over the new
+!> ones by the part of its width that they have.
 module worn_run
    use item, only: item_t, place_of
    use kind_info, only: add_file, add_reference, add_word, kind_info_t

@@ -1,6 +1,7 @@
 !> The worn surfaces that a run left in its run.h5, as `run_profiles` takes them: a line for each cell.
 !>
-!> A file that carries a checksum is looked at first; any other is read in a copy of this process before, which a damaged file may end.
+!> A file that carries a checksum is looked at first; any other is read in a copy of this process before, which a damaged file may
+!> end.
 module worn_file
    use checksum, only: seal_none, seal_state, seal_wrong, survives
    use hdf5, only: h5fclose_f, hid_t
