@@ -6,7 +6,7 @@ module test_worn_tables
    use fixed_random, only: random_t
    use kinds, only: pi, wp
    use text, only: exact_text, to_text
-   use worn_run, only: resampled
+   use worn_by_run, only: resampled
    use worn_surface, only: worn_surface_t
    implicit none (type, external)
    private

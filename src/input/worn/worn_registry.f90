@@ -1,9 +1,9 @@
 !> The kinds of given wear: two lines each (`use`, `case`), and their number.
 module worn_registry
-   use worn_arc, only: worn_arc_t
+   use worn_by_arc, only: worn_by_arc_t
    use worn_kind, only: worn_kind_t
-   use worn_profile, only: worn_profile_t
-   use worn_run, only: worn_run_t
+   use worn_by_profile, only: worn_by_profile_t
+   use worn_by_run, only: worn_by_run_t
    use worn_uniform, only: worn_uniform_t
    implicit none (type, external)
    private
@@ -22,10 +22,10 @@ contains
       class(worn_kind_t), allocatable, intent(out) :: kind  !! the kind
 
       select case (k)
-      case (1); allocate (worn_arc_t :: kind)
+      case (1); allocate (worn_by_arc_t :: kind)
       case (2); allocate (worn_uniform_t :: kind)
-      case (3); allocate (worn_profile_t :: kind)
-      case (4); allocate (worn_run_t :: kind)
+      case (3); allocate (worn_by_profile_t :: kind)
+      case (4); allocate (worn_by_run_t :: kind)
       end select
    end subroutine new_worn_kind
 

@@ -5,7 +5,7 @@
 !> in closed form: the area of the profile is kept, whatever the cells.
 !> Signs: angles in the frame of the body that carries the surface, counter-clockwise from its x axis, increasing, over at most one
 !> turn; depths are not negative.
-module worn_profile
+module worn_by_profile
    use dimensions, only: dim_angle, dim_length, same_dimension
    use item, only: item_t, place_of
    use kind_info, only: add_file, add_list, kind_info_t
@@ -15,18 +15,18 @@ module worn_profile
    use worn_surface, only: worn_surface_t
    implicit none (type, external)
    private
-   public :: worn_profile_t
+   public :: worn_by_profile_t
 
    character(5), parameter :: lists(2) = [character(5) :: "angle", "depth"]   !! in the order of a file's columns
    integer, parameter :: fewest = 2                                           !! samples
    real(wp), parameter :: round_off = 1.0e-9_wp                               !! of a turn and of depths [1]
 
    !> The kind.
-   type, extends(worn_kind_t) :: worn_profile_t
+   type, extends(worn_kind_t) :: worn_by_profile_t
    contains
       procedure, nopass :: info => profile_info
       procedure, nopass :: fill => profile_fill
-   end type worn_profile_t
+   end type worn_by_profile_t
 
 contains
 
@@ -184,4 +184,4 @@ contains
 
    end subroutine check_samples
 
-end module worn_profile
+end module worn_by_profile

@@ -2,7 +2,7 @@
 !>
 !> Worn volumes are taken, so that none is lost on the way. Where the cells are others, each old cell is shared out over the new
 !> ones by the part of its width that they have.
-module worn_run
+module worn_by_run
    use item, only: item_t, place_of
    use kind_info, only: add_file, add_reference, add_word, kind_info_t
    use kinds, only: wp
@@ -12,15 +12,15 @@ module worn_run
    use worn_surface, only: worn_surface_t
    implicit none (type, external)
    private
-   public :: resampled, worn_run_t
+   public :: resampled, worn_by_run_t
 
    !> The kind.
-   type, extends(worn_kind_t) :: worn_run_t
+   type, extends(worn_kind_t) :: worn_by_run_t
    contains
       procedure, nopass :: info => run_info
       procedure, nopass :: surfaces => run_surfaces
       procedure, nopass :: fill => run_fill
-   end type worn_run_t
+   end type worn_by_run_t
 
 contains
 
@@ -97,4 +97,4 @@ contains
       end do
    end function resampled
 
-end module worn_run
+end module worn_by_run

@@ -13,7 +13,7 @@
 !> Signs: the direction is that of the deepest place, in the frame of the body that carries the surface, counter-clockwise from
 !> its x axis. Source: areas of sectors of circles. Limits: rho is not larger than the radius of a hole and not smaller than that
 !> of a pin; h is at most rho in a hole, smaller than r on a pin; round-off is 1e-16 R^2 L.
-module worn_arc
+module worn_by_arc
    use item, only: item_t
    use kind_info, only: add_number, dim_angle, dim_length, kind_info_t
    use kinds, only: pi, wp
@@ -22,14 +22,14 @@ module worn_arc
    use worn_surface, only: worn_surface_t
    implicit none (type, external)
    private
-   public :: worn_arc_t
+   public :: worn_by_arc_t
 
    !> The kind.
-   type, extends(worn_kind_t) :: worn_arc_t
+   type, extends(worn_kind_t) :: worn_by_arc_t
    contains
       procedure, nopass :: info => arc_info
       procedure, nopass :: fill => arc_fill
-   end type worn_arc_t
+   end type worn_by_arc_t
 
    real(wp), parameter :: same = 1.0e-9_wp   !! difference of radii that is round-off of the deck's numbers [1]
 
@@ -126,4 +126,4 @@ contains
       words = real_text(1.0e3_wp*length, 6)//" mm"
    end function in_mm
 
-end module worn_arc
+end module worn_by_arc
