@@ -156,7 +156,6 @@ contains
    !> Ask all kinds, unless that was done.
    subroutine ask_all()
       class(clearance_set_t), allocatable :: clearance
-      class(film_law_t), allocatable :: film
       class(force_set_t), allocatable :: force
       class(friction_law_t), allocatable :: friction
       class(function_kind_t), allocatable :: function
@@ -209,10 +208,7 @@ contains
       end do
       call ask_wears()
       known(before_films) = lubricant_info()
-      do k = 1, n_film_kinds()
-         call new_film_law(k, film)
-         known(before_films + k) = film%info()
-      end do
+      call ask_films()
       call ask_worn()
       call ask_settings()
    end subroutine ask_all
@@ -227,6 +223,17 @@ contains
          known(before_wears + k) = wear%info()
       end do
    end subroutine ask_wears
+
+   !> Ask the films.
+   subroutine ask_films()
+      class(film_law_t), allocatable :: film
+      integer :: k
+
+      do k = 1, n_film_kinds()
+         call new_film_law(k, film)
+         known(before_films + k) = film%info()
+      end do
+   end subroutine ask_films
 
    !> Ask the kinds of given wear.
    subroutine ask_worn()

@@ -53,12 +53,15 @@ contains
       type(worn_surface_t), intent(inout) :: surface               !! with radius and length; volumes are set
       type(worn_mistake_t), allocatable, intent(out) :: mistake    !! samples that are no profile
 
+      integer :: angle, depth
+
       call take_file(item, mistake)
       if (.not. allocated(mistake)) call check_samples(item, surface, mistake)
       if (allocated(mistake)) return
-      associate (angles => item%values(place_of(item, "angle"))%table(:, 1), depths => item%values(place_of(item, "depth")))
-         surface%volume = surface%length*areas_of_cells(angles, round_area(surface, depths%table(:, 1)), cells)
-      end associate
+      angle = place_of(item, "angle")
+      depth = place_of(item, "depth")
+      surface%volume = surface%length*areas_of_cells(item%values(angle)%table(:, 1), &
+                                                     round_area(surface, item%values(depth)%table(:, 1)), cells)
    end subroutine profile_fill
 
    !> Integrals over the cells of a function that goes along lines between samples, around the circumference.

@@ -67,8 +67,8 @@ contains
    !> The table: a block for each surface.
    function table_text(heading, pair, factors) result(text)
       character(*), intent(in) :: heading          !! lines with `#`
-      type(worn_surface_t), intent(in) :: pair(2)  !! bearing and journal
-      real(wp), intent(in) :: factors(2)           !! of their depths [1]
+      type(worn_surface_t), intent(in) :: pair(2)  !! (2) bearing and journal
+      real(wp), intent(in) :: factors(2)           !! (2) of their depths [1]
       character(:), allocatable :: text            !! whole lines
 
       type(buffer_t) :: lines
@@ -109,8 +109,8 @@ contains
 
    !> The script.
    function script_of(pair, factors, name, title) result(script)
-      type(worn_surface_t), intent(in) :: pair(2)  !! bearing and journal
-      real(wp), intent(in) :: factors(2)           !! of their depths [1]
+      type(worn_surface_t), intent(in) :: pair(2)  !! (2) bearing and journal
+      real(wp), intent(in) :: factors(2)           !! (2) of their depths [1]
       character(*), intent(in) :: name             !! of the figure
       character(*), intent(in) :: title            !! of the scene, any text
       character(:), allocatable :: script          !! lines for gnuplot
@@ -140,7 +140,7 @@ contains
          call lines%line("     '' index "//to_text(k - 1)//" using ($3*"//real_text(length%factor, 9)//"*cos($1)):($3*"// &
                          real_text(length%factor, 9)//"*sin($1)) with lines linewidth 2 linecolor rgb '"//colours(k)//"' title "// &
                          quoted(pair(k)%side//", depth "//times(factors(k)))//", \")
-         call lines%line("     "//circle(pair(k)%radius*length%factor)//" with lines linewidth 1.2 dashtype (8,5) linecolor "// &
+         call lines%line("     "//circle(pair(k)%radius*length%factor)//" with lines linewidth 1.2 dashtype 2 linecolor "// &
                          "rgb '"//colours(k)//"' title "//quoted(pair(k)%side//", new")//trim(merge(", \", "   ", k == 1)))
       end do
       call lines%line("unset parametric; set grid linetype 1 linewidth 0.7 linecolor rgb '#dcdcdc'; set size noratio; unset key")
@@ -171,7 +171,7 @@ contains
                                   real_text(angle/degree, 4)//"°, worn over "//real_text(surface%arc()/degree, 4)//"°, "// &
                                   real_text(1.0e9_wp*sum(surface%volume), 4)//" mm³"
       call lines%line("set origin 0.5, "//trim(merge("0.47", "0.00", block == 1))//"; set size 0.5, 0.47")
-      call lines%line("set title "//quoted(words)//" font ',14'")
+      call lines%line("set title "//quoted(words)//" font ',13'")
       call lines%line("set xlabel "//quoted("angle in the frame of the "//surface%side//" [°]")//"; set ylabel "// &
                       quoted("depth ["//shown%symbol//"]"))
       call lines%line("set yrange [0:"//trim(merge("1", "*", .not. depth > 0.0_wp))//"]")

@@ -33,7 +33,7 @@ module run_recorder
    use summary_writer, only: complete_summary, outcome_t
    use text, only: append_text, text_t, to_text
    use text_writer, only: text_writer_t
-   use worn_files, only: write_worn_csv, write_worn_stl
+   use worn_files, only: write_worn_files
    implicit none (type, external)
    private
    public :: append_all, join_errors, run_recorder_t
@@ -143,7 +143,6 @@ module run_recorder
    end interface
 
    interface
-
       !> Make the files.
       module subroutine start_run(self, catalogue, error)
          implicit none (type, external)
@@ -160,7 +159,6 @@ module run_recorder
          integer, intent(in) :: group                       !! its group in the catalogue
          integer, intent(in) :: item                        !! number of the item in the group's room
       end function run_wants
-
    end interface
 
 contains
@@ -326,12 +324,8 @@ contains
             files = outcome%files
             call append_text(files, "events.dat")
             call write_csv_files(self%plan%directory, files, outcome%csv, error)
-            if (allocated(full%worn) .and. .not. allocated(error)) call write_worn_csv(self%plan%directory, full%worn, &
-                                                                                       outcome%csv, error)
          end if
-         if (self%plan%with%worn_stl > 0.0_wp .and. allocated(full%worn) .and. .not. allocated(error)) then
-            call write_worn_stl(self%plan%directory, full%worn, self%plan%with%worn_stl, outcome%solids, error)
-         end if
+         if (.not. allocated(error)) call write_worn_files(self%plan, full%worn, outcome%csv, outcome%solids, error)
          call self%motion%finish(full%status, second)
          call join_errors(error, second)
          if (self%plan%with%motion) call append_text(outcome%files, motion_name)

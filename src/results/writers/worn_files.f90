@@ -9,33 +9,44 @@
 module worn_files
    use errors, only: error_t
    use kinds, only: pi, wp
+   use output_plan, only: output_plan_t
    use text, only: append_text, exact_text, real_text, text_t
    use text_buffer, only: buffer_t
    use text_file, only: write_file
    use worn_surface, only: worn_surface_t
    implicit none (type, external)
    private
-   public :: stl_text, write_worn_csv, write_worn_stl
+   public :: write_worn_files
 
    real(wp), parameter :: mm = 1.0e3_wp       !! [mm/m]
 
 contains
 
-   !> Write the profiles.
-   subroutine write_worn_csv(directory, worn, made, error)
-      character(*), intent(in) :: directory                    !! of the run
-      type(worn_surface_t), intent(in) :: worn(:)              !! (n) the surfaces
-      type(text_t), allocatable, intent(inout) :: made(:)      !! (any) files that were written, grown
-      type(error_t), allocatable, intent(out) :: error         !! one cannot be written; the others are there
+   !> Write the files that are asked for.
+   subroutine write_worn_files(plan, worn, csv, solids, error)
+      type(output_plan_t), intent(in) :: plan                       !! directory of the run, and what is asked for
+      type(worn_surface_t), allocatable, intent(in) :: worn(:)      !! (n) the surfaces; unallocated: none
+      type(text_t), allocatable, intent(inout) :: csv(:)            !! (any) profiles that were written, grown
+      type(text_t), allocatable, intent(inout) :: solids(:)         !! (any) solids that were written, grown
+      type(error_t), allocatable, intent(out) :: error              !! one cannot be written; those before are there
 
+      character(:), allocatable :: name
       integer :: k
 
+      if (.not. allocated(worn)) return
       do k = 1, size(worn)
-         call write_file(directory//"/"//name_of(worn(k))//".csv", csv_text(worn(k)), error)
+         name = name_of(worn(k))
+         if (plan%with%csv) then
+            call write_file(plan%directory//"/"//name//".csv", csv_text(worn(k)), error)
+            if (allocated(error)) return
+            call append_text(csv, name//".csv")
+         end if
+         if (.not. plan%with%worn_stl > 0.0_wp) cycle
+         call write_file(plan%directory//"/"//name//".stl", stl_text(worn(k), plan%with%worn_stl), error)
          if (allocated(error)) return
-         call append_text(made, name_of(worn(k))//".csv")
+         call append_text(solids, name//".stl")
       end do
-   end subroutine write_worn_csv
+   end subroutine write_worn_files
 
    !> Depths over the angle.
    function csv_text(surface) result(text)
@@ -53,23 +64,6 @@ contains
       end do
       text = lines%get()
    end function csv_text
-
-   !> Write the solids.
-   subroutine write_worn_stl(directory, worn, factor, made, error)
-      character(*), intent(in) :: directory                    !! of the run
-      type(worn_surface_t), intent(in) :: worn(:)              !! (n) the surfaces
-      real(wp), intent(in) :: factor                           !! of the depths [1]
-      type(text_t), allocatable, intent(inout) :: made(:)      !! (any) files that were written, grown
-      type(error_t), allocatable, intent(out) :: error         !! one cannot be written; the others are there
-
-      integer :: k
-
-      do k = 1, size(worn)
-         call write_file(directory//"/"//name_of(worn(k))//".stl", stl_text(worn(k), factor), error)
-         if (allocated(error)) return
-         call append_text(made, name_of(worn(k))//".stl")
-      end do
-   end subroutine write_worn_stl
 
    !> Name of the files of a surface, without ending.
    pure function name_of(surface) result(name)
