@@ -5,11 +5,12 @@ module explain_clearances
    use film_law, only: film_motion_t, parameter_length, parameter_radius, parameter_viscosity
    use kind_info, only: kind_info_t
    use elastic_waves, only: bar_speed, most_share, share_of_waves
-   use kinds, only: wp
+   use kinds, only: pi, wp
    use load, only: loaded_t
    use mechanism, only: mechanism_t
    use scene, only: analysis_dynamic
    use text, only: real_text, to_text
+   use worn_surface, only: worn_surface_t
    implicit none (type, external)
    private
    public :: explain_clearance_joints
@@ -47,6 +48,7 @@ contains
                last = set%before%contacts + i*set%n_contact_item
                if (allocated(y)) call say("initial clearance "//real_text(-1.0e3_wp*maxval( &
                   delta(last - set%n_contact_item + 1:last)), 6)//" mm", 4)
+               call explain_wear(loaded%scene%worn, set%names(i)%s)
                if (loaded%scene%analysis /= analysis_dynamic) cycle
                if (is_film_alone(set)) cycle
                do v = 1, size(speeds)
@@ -64,6 +66,23 @@ contains
          end associate
       end do
    end subroutine explain_clearance_joints
+
+   !> Surfaces of a joint that are worn at the start.
+   subroutine explain_wear(worn, joint)
+      type(worn_surface_t), intent(in) :: worn(:)   !! (any) of all joints
+      character(*), intent(in) :: joint             !! its name
+
+      real(wp) :: angle, depth
+      integer :: k
+
+      do k = 1, size(worn)
+         if (worn(k)%joint /= joint) cycle
+         call worn(k)%max_depth(depth, angle)
+         call say(worn(k)%side//" worn at the start: "//real_text(1.0e9_wp*sum(worn(k)%volume), 6)//" mm^3, maximum depth "// &
+                  real_text(1.0e3_wp*depth, 6)//" mm at "//real_text(angle*180.0_wp/pi, 4)//" deg, worn over "// &
+                  real_text(worn(k)%arc()*180.0_wp/pi, 5)//" deg in "//to_text(size(worn(k)%volume))//" cells", 4)
+      end do
+   end subroutine explain_wear
 
    !> Whether a film alone is between the surfaces.
    pure logical function is_film_alone(set)

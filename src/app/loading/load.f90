@@ -27,6 +27,7 @@ module load
    use parameter_change, only: change_parameters
    use read_scene, only: scene_from_deck
    use run_limits, only: check_conditions, has_conditions
+   use run_profiles, only: set_profile_reader
    use scene, only: analysis_dynamic, analysis_kinematic, analysis_names, n_analysis, scene_t, table_formulas
    use spelling, only: nearest_word
    use step_check, only: check_steps
@@ -36,6 +37,7 @@ module load
    use text, only: append_text, to_text
    use time_plan, only: new_time_plan
    use word_checks, only: check_words, read_figures
+   use worn_file, only: read_worn_file
    implicit none (type, external)
    private
    public :: check_swept_words, find_catalogue, load_case, load_deck, loaded_t
@@ -68,6 +70,7 @@ contains
       end if
       loaded%path = options%operands(1)%s
       call memory_is_for("the deck "//loaded%path)
+      call set_profile_reader(read_worn_file)
       call read_deck(loaded%path, options%change%overrides, loaded%deck, mistakes)
       loaded%is_stream = loaded%deck%sources(1)%is_stream
       if (mistakes%count() == 0) call scene_from_deck(loaded%deck, loaded%scene, mistakes)

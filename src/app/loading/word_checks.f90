@@ -8,7 +8,7 @@ module word_checks
    use figure_binding, only: bind_figure
    use figure_phrase, only: mistake_t, set_mistake
    use figure_words, only: draws_mechanism, figure_bifurcation, figure_contour, figure_film, figure_portrait, figure_section, &
-      figure_statistics, figure_t, read_figure
+      figure_statistics, figure_t, figure_wear, read_figure
    use film_fields, only: moment_at
    use item, only: location_of, place_of, value_t
    use kinds, only: wp
@@ -16,7 +16,7 @@ module word_checks
    use spelling, only: nearest_word
    use statistics, only: names_of_numbers, number_t
    use swept, only: sweep_t
-   use text, only: join, real_text, text_t
+   use text, only: append_text, join, real_text, text_t
    implicit none (type, external)
    private
    public :: check_words, read_figures
@@ -79,6 +79,7 @@ contains
             if (.not. allocated(mistake)) call check_statistics(figure, scene, catalogue, mistake)
             if (.not. allocated(mistake)) call check_contour(figure, sweep, mistake)
             if (.not. allocated(mistake)) call check_film(figure, scene, end, mistake)
+            if (.not. allocated(mistake)) call check_wear(figure, scene, mistake)
             if (allocated(mistake)) call report_mistake(deck, output%values(place_of(output, "figures")), k, mistake, mistakes)
          end do
       end associate
@@ -118,7 +119,7 @@ contains
       character(:), allocatable :: hint
       integer :: i, k
 
-      if (figure%kind <= figure_portrait .or. figure%kind == figure_film .or. draws_mechanism(figure)) return
+      if (figure%kind <= figure_portrait .or. any(figure%kind == [figure_film, figure_wear]) .or. draws_mechanism(figure)) return
       if (.not. scene%settings%statistics%is_present) then
          call set_mistake(mistake, "'"//figure%word//"' needs a section [statistics]", &
                           "give the end of the transient: [statistics], after = 2 turns of motor", "")
@@ -171,7 +172,7 @@ contains
       associate (words => scene%settings%statistics%values(place_of(scene%settings%statistics, "channels"))%words)
          call selection%clear(catalogue)
          if (size(words) > 0) call select_channels(words, catalogue, selection, bad, message, hint)
-         call names_of_numbers(list_scalars(selection), catalogue, list)
+         call names_of_numbers(list_scalars(selection), catalogue, joints_that_wear(scene), list)
       end associate
       allocate (names(size(list)))
       do k = 1, size(list)
@@ -189,7 +190,7 @@ contains
       integer :: film
 
       if (figure%kind /= figure_film) return
-      film = film_of(scene, figure%film%joint)
+      film = law_of(scene, figure%film%joint, "film")
       if (film > 0) then
          associate (law => scene%lubrication%films(film)%law)
             if (.not. law%has_field()) call set_mistake(mistake, "film '"//law%name//"' of joint '"//figure%film%joint// &
@@ -203,22 +204,52 @@ contains
       end if
    end subroutine check_film
 
-   !> Number of the film of a joint; 0: none.
-   pure integer function film_of(scene, joint) result(film)
-      type(scene_t), intent(in) :: scene   !! the scene
-      character(*), intent(in) :: joint    !! name of the joint
+   !> A figure of wear needs a joint with a wear law.
+   subroutine check_wear(figure, scene, mistake)
+      type(figure_t), intent(in) :: figure                     !! the figure
+      type(scene_t), intent(in) :: scene                       !! the scene
+      type(mistake_t), allocatable, intent(inout) :: mistake   !! what is wrong
+
+      if (figure%kind /= figure_wear) return
+      associate (joint => figure%arguments(1)%s)
+         if (law_of(scene, joint, "wear") == 0) call set_mistake(mistake, "joint '"//joint//"' has no wear law: no '"// &
+            figure%word//"'", "name a row of wear.archard or wear.reye in column wear of the joint", joint)
+      end associate
+   end subroutine check_wear
+
+   !> Names of the joints with a wear law.
+   function joints_that_wear(scene) result(names)
+      type(scene_t), intent(in) :: scene           !! the scene
+      type(text_t), allocatable :: names(:)        !! (n) in the order of the tables
 
       integer :: i, k
 
-      film = 0
+      allocate (names(0))
+      do k = 1, size(scene%clearances)
+         do i = 1, size(scene%clearances(k)%items)
+            if (cell_index(scene%clearances(k)%info, scene%clearances(k)%items(i), "wear") == 0) cycle
+            call append_text(names, scene%clearances(k)%items(i)%name)
+         end do
+      end do
+   end function joints_that_wear
+
+   !> Number of the film or wear law of a joint; 0: none.
+   pure integer function law_of(scene, joint, column) result(law)
+      type(scene_t), intent(in) :: scene   !! the scene
+      character(*), intent(in) :: joint    !! name of the joint
+      character(*), intent(in) :: column   !! film or wear
+
+      integer :: i, k
+
+      law = 0
       do k = 1, size(scene%clearances)
          if (.not. allocated(scene%clearances(k)%items)) cycle
          do i = 1, size(scene%clearances(k)%items)
             if (scene%clearances(k)%items(i)%name /= joint) cycle
-            film = cell_index(scene%clearances(k)%info, scene%clearances(k)%items(i), "film")
+            law = cell_index(scene%clearances(k)%info, scene%clearances(k)%items(i), column)
             return
          end do
       end do
-   end function film_of
+   end function law_of
 
 end module word_checks

@@ -77,6 +77,7 @@ contains
       plan%with%figures = options%write == "all"
       plan%with%report = loaded%scene%settings%output%flag("report") .and. options%write == "all"
       plan%with%csv = options%write == "all" .and. (options%is_csv .or. loaded%scene%settings%output%flag("csv"))
+      if (options%write == "all") plan%with%worn_stl = loaded%scene%settings%output%number("worn_stl")
       plan%with%motion = loaded%scene%settings%output%word("motion") /= "off" .and. options%write == "all"
       if (plan%with%figures .and. loaded%scene%analysis /= analysis_static) then
          call plan_drawn_figures(figures, loaded%scene, loaded%system, loaded%plan, plan%looks%frames)
@@ -111,6 +112,7 @@ contains
             motion = settings%output%word("motion")
             if (motion /= "off") call append_text(warnings, "motion = "//motion//reason)
             if (options%is_csv .or. settings%output%flag("csv")) call append_text(warnings, "csv"//reason)
+            if (settings%output%number("worn_stl") > 0.0_wp) call append_text(warnings, "worn_stl"//reason)
             if (settings%output%flag("report")) call append_text(warnings, "report"//reason)
          end if
          if (loaded%scene%analysis == analysis_dynamic) return

@@ -69,12 +69,72 @@ contains
       if (angle > pi) angle = angle - 2.0_wp*pi
    end subroutine surface_max_depth
 
-   !> Angle of all cells that have lost something.
+   !> Angle of all that has lost something, full, at the centre of the surface. Each stretch of worn cells ends within its outer
+   !> cells: where the line on which the areas of the cells beside go has the area of the outer cell before it, or is zero.
    pure real(wp) function worn_arc(self) result(arc)
       class(worn_surface_t), intent(in) :: self   !! the surface
 
-      arc = 2.0_wp*pi*count(self%volume > 0.0_wp)/size(self%volume)
+      real(wp) :: area(size(self%volume))
+      integer :: first, k, last, n, start
+
+      n = size(area)
+      area = areas(self)
+      arc = 2.0_wp*pi
+      start = findloc(area > 0.0_wp, .false., dim=1)
+      if (start == 0) return
+      area = cshift(area, start)   ! the last cell is new now
+      arc = 0.0_wp
+      last = 0
+      do
+         first = last + findloc(area(last + 1:) > 0.0_wp, .true., dim=1)
+         if (first == last) return
+         last = first
+         do k = first + 1, n
+            if (.not. area(k) > 0.0_wp) exit
+            last = k
+         end do
+         arc = arc + 2.0_wp*pi/n*width_of(area(first:last))
+         last = last + 1
+      end do
    end function worn_arc
+
+   !> Width of a stretch of worn cells, in cells.
+   pure real(wp) function width_of(area) result(width)
+      real(wp), intent(in) :: area(:)   !! (n) areas of its cells, positive [m^2]
+
+      integer :: n
+
+      n = size(area)
+      width = n
+      if (n > 2) width = n - 2 + part_of_outer(area(1), area(2:n - 1)) + part_of_outer(area(n), area(n - 1:2:-1))
+   end function width_of
+
+   !> Part of an outer cell that is worn, where the area goes on as in up to three cells beside it: by the polynomial whose means
+   !> they are, up to its first zero.
+   pure real(wp) function part_of_outer(outer, inner) result(part)
+      real(wp), intent(in) :: outer      !! area of the outer cell [m^2]
+      real(wp), intent(in) :: inner(:)   !! (n) those of the cells beside it, from the outer cell on [m^2]
+
+      integer, parameter :: halvings = 50
+      real(wp) :: c(0:2), high, low
+      integer :: i
+
+      ! value c0 + c1 u + c2 u^2 at the distance u of cells from the face between them, outward
+      c = [inner(1), 0.0_wp, 0.0_wp]
+      if (size(inner) == 2) c = [1.5_wp*inner(1) - 0.5_wp*inner(2), inner(1) - inner(2), 0.0_wp]
+      if (size(inner) > 2) c = [(11.0_wp*inner(1) - 7.0_wp*inner(2) + 2.0_wp*inner(3))/6.0_wp, &
+                                2.0_wp*inner(1) - 3.0_wp*inner(2) + inner(3), 0.5_wp*(inner(1) - 2.0_wp*inner(2) + inner(3))]
+      low = 0.0_wp
+      high = 1.0_wp
+      do i = 1, halvings
+         part = 0.5_wp*(low + high)
+         if (c(0) + part*(c(1) + part*c(2)) > 0.0_wp .and. part*(c(0) + part*(0.5_wp*c(1) + part*c(2)/3.0_wp)) < outer) then
+            low = part
+         else
+            high = part
+         end if
+      end do
+   end function part_of_outer
 
    !> Whether a pin has lost all there was of it somewhere.
    pure logical function is_through(self)

@@ -1,8 +1,7 @@
 !> Groups of bodies that nothing joins, and each of them as a scene of its own.
 !>
 !> Two bodies are of one group if a joint, driver, force element or joint with clearance, ideal or not, names both, or points of
-!> both; the ground joins nothing. Groups of which all bodies are driven, and so have no freedom, stay with the first group
-!> that has some.
+!> both; the ground joins nothing. A group of driven bodies only, which has no freedom, stays with the first that has some.
 module scene_groups
    use bodies, only: take_bodies
    use find_prescribed, only: find_prescribed_bodies, link_t, takes_work
@@ -289,6 +288,7 @@ contains
       one%laws = scene%laws
       one%frictions = scene%frictions
       one%wears = scene%wears
+      one%worn = scene%worn
       one%lubrication = scene%lubrication
       one%analysis = scene%analysis
       one%settings%integration = scene%settings%integration

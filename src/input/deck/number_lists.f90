@@ -3,7 +3,7 @@
 !>     "0 10 20 30 ms"        numbers and one unit; a number may have its own, glued to it
 !>
 !>     t[ms]   lift[mm]       the first line of a file with content: two names with their units
-!>     0       0              then two numbers a line; # starts a comment
+!>     0       0              then two numbers a line, with blanks or a comma between; # starts a comment
 module number_lists
    use deck_types, only: add_source, deck_t, text_of
    use diagnostics, only: diagnostics_t
@@ -14,7 +14,7 @@ module number_lists
    use kinds, only: wp
    use quantities, only: is_numeric, is_unit_word, quantity_t, read_bare, read_unit, report_not_a_number
    use source_text, only: n_line_of, read_source, source_t
-   use text, only: to_text
+   use text, only: replace, to_text
    use tokens, only: lex_line, span, token_quoted, token_t, token_word
    use units, only: unit_t
    implicit none (type, external)
@@ -155,6 +155,7 @@ contains
          call mistakes%add(value%location, "cannot read the file '"//path//"' "//place, message)
          return
       end if
+      source%text = replace(source%text, ",", " ")
       call add_source(deck, source, number)
       allocate (table(n_line_of(deck%sources(number)), 2), source=0.0_wp)
       allocate (places(size(table, 1)))
@@ -203,7 +204,7 @@ contains
       else
          call mistakes%add(span(deck%tokens%t(first), deck%tokens%t(deck%tokens%n)), &
                            "a line of samples needs two numbers", to_text(n)//" cells, or invalid numbers", &
-                           "use two numbers separated by blanks; # starts a comment")
+                           "use two numbers separated by blanks or a comma; # starts a comment")
       end if
    end subroutine read_pair
 

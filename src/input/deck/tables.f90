@@ -3,7 +3,7 @@ module tables
    use cell_checks, only: is_name
    use cell_lists, only: read_word
    use cells, only: blank_value, read_value
-   use deck_types, only: deck_t, text_of
+   use deck_types, only: add_source, deck_t, text_of
    use defaults, only: read_default, remember_default
    use diagnostics, only: diagnostics_t
    use file_path, only: beside, plain_path
@@ -13,7 +13,9 @@ module tables
    use name_table, only: name_table_t
    use number_lists, only: read_samples
    use quantities, only: is_numeric
+   use run_profiles, only: columns_of_profiles, read_profiles
    use table_header, only: header_t, is_broken, is_name_column, read_table_header
+   use source_text, only: new_source, source_t
    use text, only: to_text
    use tokens, only: span, token_equals, token_quoted, token_t, token_word
    use units, only: parse_unit, unit_t
@@ -75,6 +77,8 @@ contains
             associate (place => "in column "//info%columns(k)%name//" of "//info%name, value => items(n)%values(k))
                if (info%columns(k)%size == numbers_of_triangle) then
                   call read_triangles(deck, place, value, mistakes)
+               else if (info%columns(k)%size == columns_of_profiles) then
+                  call read_worn_surfaces(deck, place, value, mistakes)
                else
                   call read_samples(deck, place, value, mistakes)
                end if
@@ -95,6 +99,28 @@ contains
       call read_mesh(plain_path(beside(deck%sources(value%location%file)%place, value%text)), value%table, message)
       if (len(message) > 0) call mistakes%add(value%location, "cannot read the mesh '"//value%text//"' "//place, message)
    end subroutine read_triangles
+
+   !> The file of an earlier run: what is taken from it becomes a text of the deck.
+   subroutine read_worn_surfaces(deck, place, value, mistakes)
+      type(deck_t), intent(inout) :: deck             !! the deck; its sources grow
+      character(*), intent(in) :: place               !! as `in column run of worn.run`
+      type(value_t), intent(inout) :: value           !! the cell with its path; receives names and volumes of the surfaces
+      type(diagnostics_t), intent(inout) :: mistakes  !! collects what is wrong
+
+      character(:), allocatable :: lines, message, path
+      type(source_t) :: source
+      integer :: number
+
+      path = plain_path(beside(deck%sources(value%location%file)%place, value%text))
+      call read_profiles(path, lines, value%words, value%table, message)
+      if (len(message) > 0) then
+         call mistakes%add(value%location, "cannot read the run '"//value%text//"' "//place, message)
+         return
+      end if
+      call new_source(source, path, lines)
+      source%is_file = .true.
+      call add_source(deck, source, number)
+   end subroutine read_worn_surfaces
 
    !> All lines of all sections of some name.
    subroutine find_lines(deck, name, line, section)

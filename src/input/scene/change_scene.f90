@@ -14,6 +14,7 @@ module change_scene
    use references, only: add_names, directory_t
    use scene, only: n_base, scene_t, table_t
    use tables, only: read_items
+   use worn_registry, only: n_worn_kinds
    implicit none (type, external)
    private
    public :: scene_with_changes
@@ -21,7 +22,7 @@ module change_scene
 contains
 
    !> Bring a scene up to date. Names and words are those of before. Without success the deck must be read anew: something has
-   !> changed beyond the tables of bodies, joints, forces, clearances, laws and films, or there are errors.
+   !> changed beyond the tables of bodies, joints, forces, clearances, laws, films and worn surfaces, or there are errors.
    subroutine scene_with_changes(deck, is_touched, scene, is_done)
       type(deck_t), intent(inout) :: deck           !! the deck with other numbers (`change_parameters`)
       logical, intent(in) :: is_touched(:)          !! (sections) whether they may mean something else
@@ -45,6 +46,9 @@ contains
       end do
       do k = 1, n_clearance_kinds()
          call read_again(scene%clearances(k))
+      end do
+      do k = 1, n_worn_kinds()
+         call read_again(scene%tables%worn(k))
       end do
       call list_names(scene, directory)
       call make_again()

@@ -25,10 +25,12 @@ module kind_list
    use section_info, only: dynamic_info, kinematic_info, output_info, scene_info, static_info
    use study_info, only: ensemble_info, statistics_info, sweep_info
    use wear_law, only: wear_law_t
+   use worn_kind, only: worn_kind_t
+   use worn_registry, only: n_worn_kinds, new_worn_kind
    implicit none (type, external)
    private
    public :: all_kinds, clearance_info, film_info, force_info, friction_info, function_info, joint_info, kind_named, known, law_info
-   public :: wear_info
+   public :: wear_info, worn_info
 
    ! where the kinds of a registry stand in the list: behind these
    integer :: before_joints       !! sections and tables of the scene
@@ -39,7 +41,8 @@ module kind_list
    integer :: before_frictions    !! laws of contact
    integer :: before_wears        !! laws of friction
    integer :: before_films        !! laws of wear, lubricants
-   integer :: before_settings     !! films
+   integer :: before_worn         !! films
+   integer :: before_settings     !! surfaces that are worn at the start
 
    type(kind_info_t), allocatable, protected, target :: known(:)  !! (kinds) what they said, once they were asked
 
@@ -117,6 +120,15 @@ contains
       info => known(before_films + k)
    end function film_info
 
+   !> What kind number k of given wear describes.
+   function worn_info(k) result(info)
+      integer, intent(in) :: k            !! number in the registry
+      type(kind_info_t), pointer :: info  !! the kind
+
+      call ask_all()
+      info => known(before_worn + k)
+   end function worn_info
+
    !> The kind or section of a name; there must be one.
    function kind_named(name, is_spatial) result(info)
       character(*), intent(in) :: name    !! as in a deck
@@ -144,7 +156,6 @@ contains
    !> Ask all kinds, unless that was done.
    subroutine ask_all()
       class(clearance_set_t), allocatable :: clearance
-      class(film_law_t), allocatable :: film
       class(force_set_t), allocatable :: force
       class(friction_law_t), allocatable :: friction
       class(function_kind_t), allocatable :: function
@@ -161,7 +172,8 @@ contains
       before_frictions = before_laws + n_law_kinds()
       before_wears = before_frictions + n_friction_kinds()
       before_films = before_wears + n_wear_kinds() + 1
-      before_settings = before_films + n_film_kinds()
+      before_worn = before_films + n_film_kinds()
+      before_settings = before_worn + n_worn_kinds()
       allocate (known(before_settings + 13))
       known(1) = scene_info()
       known(2) = bodies_info()
@@ -196,10 +208,8 @@ contains
       end do
       call ask_wears()
       known(before_films) = lubricant_info()
-      do k = 1, n_film_kinds()
-         call new_film_law(k, film)
-         known(before_films + k) = film%info()
-      end do
+      call ask_films()
+      call ask_worn()
       call ask_settings()
    end subroutine ask_all
 
@@ -213,6 +223,28 @@ contains
          known(before_wears + k) = wear%info()
       end do
    end subroutine ask_wears
+
+   !> Ask the films.
+   subroutine ask_films()
+      class(film_law_t), allocatable :: film
+      integer :: k
+
+      do k = 1, n_film_kinds()
+         call new_film_law(k, film)
+         known(before_films + k) = film%info()
+      end do
+   end subroutine ask_films
+
+   !> Ask the kinds of given wear.
+   subroutine ask_worn()
+      class(worn_kind_t), allocatable :: worn
+      integer :: k
+
+      do k = 1, n_worn_kinds()
+         call new_worn_kind(k, worn)
+         known(before_worn + k) = worn%info()
+      end do
+   end subroutine ask_worn
 
    !> Ask the sections of settings.
    subroutine ask_settings()

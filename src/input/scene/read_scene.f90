@@ -23,6 +23,7 @@ module read_scene
    use read_films, only: check_lubricants, films_from_deck
    use read_laws, only: laws_from_deck
    use read_functions, only: functions_from_deck
+   use read_worn, only: make_worn_surfaces, worn_from_deck
    use read_requests, only: make_requests, place_observables, requests_from_deck
    use references, only: add_names, directory_t, resolve
    use scene, only: analysis_dynamic, analysis_kinematic, analysis_names, n_analysis, n_base, &
@@ -33,6 +34,7 @@ module read_scene
    use spatial_bodies, only: mistake_of_body, new_spatial_bodies, new_spatial_points
    use tables, only: read_items
    use text, only: to_text
+   use worn_registry, only: n_worn_kinds
    implicit none (type, external)
    private
    public :: check_space, finish_scene, list_names, resolve_tables, scene_from_deck
@@ -52,7 +54,7 @@ contains
       allocate (scene%joints(n_joint_kinds()), scene%forces(n_force_kinds()), scene%clearances(n_clearance_kinds()))
       associate (tables => scene%tables)
          allocate (tables%functions(n_function_kinds()), tables%laws(n_law_kinds()), tables%frictions(n_friction_kinds()), &
-                   tables%wears(n_wear_kinds()), tables%films(n_film_kinds()))
+                   tables%wears(n_wear_kinds()), tables%films(n_film_kinds()), tables%worn(n_worn_kinds()))
       end associate
       call read_section(deck, kind_named("scene", .false.), scene%settings%header, diagnostics)
       scene%settings%is_spatial = scene%settings%header%word("space") == "spatial"
@@ -70,6 +72,7 @@ contains
       call list_names(scene, directory)
       call laws_from_deck(deck, scene, directory, diagnostics)
       call films_from_deck(deck, scene, directory, diagnostics)
+      call worn_from_deck(deck, scene, diagnostics)
       call requests_from_deck(deck, directory, scene, diagnostics)
       if (size(scene%tables%base(table_bodies)%items) == 0 .and. diagnostics%count() == 0) then
          call diagnostics%add(location_of_end(deck), "no bodies", "a model needs at least one", "add a table [bodies]")
@@ -109,6 +112,7 @@ contains
       call make_requests(scene, diagnostics)
       call place_observables(scene, diagnostics)
       call check_meaning(deck, scene, diagnostics)
+      if (diagnostics%count() == 0) call make_worn_surfaces(scene, diagnostics)
    end subroutine finish_scene
 
    !> One section of settings: defaults if the deck has none.
@@ -336,6 +340,9 @@ contains
       end do
       do k = 1, n_clearance_kinds()
          call resolve(directory, scene%clearances(k)%info, scene%clearances(k)%items, diagnostics)
+      end do
+      do k = 1, n_worn_kinds()
+         call resolve(directory, scene%tables%worn(k)%info, scene%tables%worn(k)%items, diagnostics)
       end do
    end subroutine resolve_tables
 

@@ -198,10 +198,12 @@ contains
       character(*), intent(in) :: kinds      !! blank-separated kinds, or a prefix ending in a dot
       character(:), allocatable :: words     !! in a message
 
-      character(*), parameter :: room = "joint."
+      character(*), parameter :: room = "joint.", with_clearance = "clearance."
       character(:), allocatable :: rest
       integer :: blank
 
+      words = "joints with clearance"
+      if (kinds == with_clearance) return
       words = ""
       rest = kinds//" "
       do while (len(rest) > 0)

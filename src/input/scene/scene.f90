@@ -80,6 +80,7 @@ module scene
       type(table_t), allocatable :: frictions(:)       !! (kinds) friction laws
       type(table_t), allocatable :: wears(:)           !! (kinds) wear laws
       type(table_t), allocatable :: films(:)           !! (kinds) films
+      type(table_t), allocatable :: worn(:)            !! (kinds) surfaces that are worn at the start
       type(table_t) :: requests(n_requests)            !! (kinds) requests
    end type tables_t
 

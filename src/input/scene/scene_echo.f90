@@ -28,6 +28,7 @@ contains
       call add(scene%tables%frictions)
       call add(scene%tables%wears)
       call add(scene%tables%films)
+      call add(scene%tables%worn)
       call add(scene%tables%requests)
       dynamic = scene%settings%dynamic
       call scene%settings%integration%write(dynamic%item_t)

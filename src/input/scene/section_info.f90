@@ -227,9 +227,13 @@ contains
                     //"one step per output time", default="off", choices="off vtkhdf")
       call add_words(info, "figures", "figures: a channel, several of them (A + B), phase plots (A against C), with units and " &
                      //"limits of axes (in mm, from 0 mm to 2 mm), stacked panels (panels(A, B)); JOINT.orbit, " &
-                     //"portrait(x_channel,y_channel), film(JOINT), mechanism, strip(n=8), coupler(POINT), animation(last=...)", &
+                     //"portrait(x_channel,y_channel), film(JOINT), wear(JOINT), mechanism, strip(n=8), coupler(POINT), " &
+                     //"animation(last=...)", &
                      default="")
-      call add_flag(info, "csv", "write time histories and events as comma-separated values too", default="off")
+      call add_flag(info, "csv", "write time histories, events and profiles of worn surfaces as comma-separated values too", &
+                    default="off")
+      call add_number(info, "worn_stl", dim_none, "write worn bearings and journals as solids (JOINT.bearing.stl, in mm), with " &
+                      //"depths magnified by this factor; 0: none", default="0", lower=0.0_wp)
       call add_flag(info, "report", "write report.html, a single page: the deck with all defaults, figures, extremes, impacts, " &
                     //"cost and error, warnings; it works offline", default="off")
    end function output_info

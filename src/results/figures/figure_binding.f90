@@ -5,7 +5,7 @@ module figure_binding
    use curve_words, only: bind_curves, find_scalar
    use figure_phrase, only: mistake_t, phrase_hint, set_mistake
    use figure_words, only: call_words, figure_animation, figure_film, figure_histogram, figure_history, figure_orbit, &
-      figure_portrait, figure_statistics, figure_t, orbit_ending, read_figure
+      figure_portrait, figure_statistics, figure_t, figure_wear, orbit_ending, read_figure
    use groups_of_catalogue, only: group_clearances, group_contacts
    use, intrinsic :: ieee_arithmetic, only: ieee_is_finite
    use kinds, only: wp
@@ -40,6 +40,8 @@ contains
          call bind_orbit(figure, catalogue, mistake)
       case (figure_film)
          call check_film(figure%film%joint, catalogue, mistake)
+      case (figure_wear)
+         call check_wear(figure%arguments(1)%s, catalogue, mistake)
       case (figure_histogram)
          call check_histogram(figure%arguments(1)%s, figure%arguments(2)%s, catalogue, mistake)
       case (figure_portrait:figure_histogram - 1, figure_histogram + 1:figure_statistics - 1)
@@ -61,8 +63,8 @@ contains
       mistake%message = "unknown figure"//segment(mistake%message, len(unknown_channel) + 1)
       call take_nearest_call(word, catalogue, mistake%hint)
       mistake%hint = mistake%hint//"; figures are a channel, JOINT.orbit, portrait(X,Y), section(X,Y), spectrum(X), "// &
-                     "histogram(JOINT.impact_speed), bifurcation(X), statistics(NUMBER), film(JOINT), mechanism, strip(n=8), "// &
-                     "coupler(POINT) and animation(last=...); "//phrase_hint
+                     "histogram(JOINT.impact_speed), bifurcation(X), statistics(NUMBER), film(JOINT), wear(JOINT), mechanism, "// &
+                     "strip(n=8), coupler(POINT) and animation(last=...); "//phrase_hint
    end subroutine name_figures
 
    !> Start a hint with the figure of another kind that was probably meant, if that would be understood.
@@ -168,6 +170,25 @@ contains
       if (len(nearest) > 0) hint = question//"film("//nearest//")'? "//hint
       call set_mistake(mistake, "no film of '"//joint//"': it is not a joint with a film", hint, joint)
    end subroutine check_film
+
+   !> Wear needs a joint with clearance; whether its surfaces wear is known to the scene only.
+   subroutine check_wear(joint, catalogue, mistake)
+      character(*), intent(in) :: joint                         !! name of the joint
+      type(catalogue_t), intent(in) :: catalogue                !! what can be recorded
+      type(mistake_t), allocatable, intent(inout) :: mistake    !! what is wrong
+
+      character(:), allocatable :: hint, nearest
+      integer :: k
+
+      associate (names => catalogue%item_groups(group_clearances)%names)
+         if (any([(names(k)%s == joint, k=1, size(names))])) return
+         nearest = nearest_word(joint, names)
+         hint = "joints with clearance: "//join(names, " ")
+         if (size(names) == 0) hint = "this deck has no joints with clearance"
+      end associate
+      if (len(nearest) > 0) hint = question//"wear("//nearest//")'? "//hint
+      call set_mistake(mistake, "no wear of '"//joint//"': it is not a joint with clearance", hint, joint)
+   end subroutine check_wear
 
    !> A histogram needs a joint with contacts, and something that they do.
    subroutine check_histogram(joint, quantity, catalogue, mistake)

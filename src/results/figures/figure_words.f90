@@ -6,7 +6,8 @@
 !> the second over the first. With a section [statistics]: `section(X,Y)`, the same two once per period; `spectrum(X)`;
 !> `histogram(JOINT.impact_speed)` or of `peak_force`. Of a sweep: `bifurcation(X)`, the channel once per period over the
 !> first parameter; `statistics(NUMBER,...)`, up to four numbers with their spread over it. `film(JOINT)`: the unwrapped film at the
-!> end of the run; `film(JOINT,least)` where it is thinnest, `film(JOINT,0.3s)` at a time. The mechanism: `motion_words`.
+!> end of the run; `film(JOINT,least)` where it is thinnest, `film(JOINT,0.3s)` at a time. `wear(JOINT)`: worn bearing and journal
+!> at the end. The mechanism: `motion_words`.
 module figure_words
    use channel_names, only: scalar_t
    use curve_words, only: curves_t
@@ -22,7 +23,7 @@ module figure_words
    public :: append_figure, call_words, figure_t, orbit_ending, read_figure
    public :: figure_bifurcation, figure_histogram, figure_history, figure_orbit, figure_portrait, figure_section
    public :: draws_mechanism, figure_animation, figure_coupler, figure_mechanism, figure_strip
-   public :: figure_contour, figure_film, figure_spectrum, figure_statistics, is_of_run
+   public :: figure_contour, figure_film, figure_spectrum, figure_statistics, figure_wear, is_of_run
 
    integer, parameter :: figure_history = 1   !! channels over time
    integer, parameter :: figure_orbit = 2     !! eccentricity, y over x
@@ -34,17 +35,18 @@ module figure_words
    integer, parameter :: figure_statistics = 8   !! of a sweep: numbers with their spread over the parameter
    integer, parameter :: figure_contour = 9      !! of a sweep: a number over two parameters
    integer, parameter :: figure_film = 10        !! pressure of a film around a bearing, unwrapped
-   integer, parameter :: figure_mechanism = 11   !! the mechanism at some output times
-   integer, parameter :: figure_strip = 12       !! the mechanism at several positions over a turn, one over the other
-   integer, parameter :: figure_coupler = 13     !! the path of a point
-   integer, parameter :: figure_animation = 14   !! the moving mechanism
+   integer, parameter :: figure_wear = 11        !! sections of worn bearing and journal, and their depths
+   integer, parameter :: figure_mechanism = 12   !! the mechanism at some output times
+   integer, parameter :: figure_strip = 13       !! the mechanism at several positions over a turn, one over the other
+   integer, parameter :: figure_coupler = 14     !! the path of a point
+   integer, parameter :: figure_animation = 15   !! the moving mechanism
    integer, parameter :: longest_name = 100   !! characters of the name of a file without its ending
    !> How the figures with arguments start, by their kind.
    character(*), parameter :: call_words(figure_portrait:figure_animation) = [character(12) :: "portrait(", "section(", &
-      "spectrum(", "histogram(", "bifurcation(", "statistics(", "contour(", "film(", "mechanism(", "strip(", "coupler(", &
+      "spectrum(", "histogram(", "bifurcation(", "statistics(", "contour(", "film(", "wear(", "mechanism(", "strip(", "coupler(", &
       "animation("]
-   integer, parameter :: fewest(figure_portrait:figure_animation) = [2, 2, 1, 1, 1, 1, 1, 1, 0, 0, 1, 0]  !! arguments of each
-   integer, parameter :: most(figure_portrait:figure_animation) = [2, 2, 1, 1, 1, 4, 1, 2, spread(huge(1), 1, 4)]  !! the same
+   integer, parameter :: fewest(figure_portrait:figure_animation) = [2, 2, 1, 1, 1, 1, 1, 1, 1, 0, 0, 1, 0]  !! arguments of each
+   integer, parameter :: most(figure_portrait:figure_animation) = [2, 2, 1, 1, 1, 4, 1, 2, 1, spread(huge(1), 1, 4)]  !! the same
    character(*), parameter :: orbit_ending = ".orbit"      !! how an orbit ends
 
    !> One figure.
@@ -131,6 +133,7 @@ contains
          if (figure%kind == figure_statistics) hint = "write statistics(NUMBER,NUMBER) with one to four numbers"
          if (figure%kind == figure_contour) hint = "write contour(NUMBER) with one number"
          if (figure%kind == figure_film) hint = film_hint
+         if (figure%kind == figure_wear) hint = "write wear(JOINT)"
          if (draws_mechanism(figure)) hint = motion_hint
          call set_mistake(mistake, "cannot read '"//word//"'", hint, "")
       else if (draws_mechanism(figure)) then

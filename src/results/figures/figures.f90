@@ -17,7 +17,7 @@ module figures
    use drawn_rows, only: drawn_rows_t
    use figure_data, only: curve_t, find_curves
    use figure_words, only: draws_mechanism, figure_animation, figure_film, figure_histogram, figure_history, figure_portrait, &
-      figure_section, figure_spectrum, figure_t, is_of_run
+      figure_section, figure_spectrum, figure_t, figure_wear, is_of_run
    use frames, only: frame_keeper_t
    use gnuplot_runs, only: draw_figures, make_folder, moving
    use film_fields, only: film_field_t
@@ -29,6 +29,8 @@ module figures
    use scene_plot, only: write_scene_plot
    use text, only: append_text, text_t
    use text_file, only: write_file
+   use wear_plot, only: write_wear_plot
+   use worn_surface, only: worn_surface_t
    implicit none (type, external)
    private
    public :: make_figures
@@ -38,7 +40,7 @@ module figures
 contains
 
    !> Write the scripts of all figures and draw them.
-   subroutine make_figures(directory, title, list, catalogue, extremes, rows, ideal_rows, tables, fields, drawing, keeper, &
+   subroutine make_figures(directory, title, list, catalogue, extremes, rows, ideal_rows, tables, fields, worn, drawing, keeper, &
                            pictures, warnings, error)
       character(*), intent(in) :: directory                        !! of the run
       character(*), intent(in) :: title                            !! of the scene, any text
@@ -49,6 +51,7 @@ contains
       type(drawn_rows_t), intent(in) :: ideal_rows                 !! those of the reference run with ideal joints
       type(plot_table_t), intent(in) :: tables(:)                  !! (n) numbers of those that are no histories
       type(film_field_t), intent(in) :: fields(:)                  !! (any) films
+      type(worn_surface_t), intent(in) :: worn(:)                  !! (any) worn surfaces
       type(drawing_t), intent(in) :: drawing                       !! what the scene looks like
       type(frame_keeper_t), intent(in) :: keeper                   !! pictures of its motion
       type(text_t), allocatable, intent(out) :: pictures(:)        !! (m) pictures made, paths within the directory
@@ -70,6 +73,9 @@ contains
                              error)
          else if (list(k)%kind == figure_film) then
             call write_field_plot(directory//"/figures", title, tables(k)%heading, list(k)%name, fields, is_written, error)
+         else if (list(k)%kind == figure_wear) then
+            call write_wear_plot(directory//"/figures", title, tables(k)%heading, list(k)%name, list(k)%arguments(1)%s, worn, &
+                                 is_written, error)
          else if (list(k)%kind > figure_portrait) then
             call write_plot(directory//"/figures", title, tables(k), is_written, error, empty)
             call tell_empty(list(k)%word, empty, warnings)
@@ -102,6 +108,8 @@ contains
          reason = "it needs two output times after the transient (`after` in [statistics]), with a value at each"
       case (figure_histogram)
          reason = "the run has no impact after the transient (`after` in [statistics])"
+      case (figure_wear)
+         reason = "the joint does not wear in this run"
       case default
          reason = "the output times shown have no values (`from` and `last` in [output], the end of the run)"
       end select

@@ -33,6 +33,7 @@ module run_recorder
    use summary_writer, only: complete_summary, outcome_t
    use text, only: append_text, text_t, to_text
    use text_writer, only: text_writer_t
+   use worn_files, only: write_worn_files
    implicit none (type, external)
    private
    public :: append_all, join_errors, run_recorder_t
@@ -142,7 +143,6 @@ module run_recorder
    end interface
 
    interface
-
       !> Make the files.
       module subroutine start_run(self, catalogue, error)
          implicit none (type, external)
@@ -159,7 +159,6 @@ module run_recorder
          integer, intent(in) :: group                       !! its group in the catalogue
          integer, intent(in) :: item                        !! number of the item in the group's room
       end function run_wants
-
    end interface
 
 contains
@@ -297,7 +296,7 @@ contains
       if (.not. self%plan%with%contact_rows) self%summary%count%rows(row_onset:row_jump) = 0
       call self%keeper%finish()
       associate (outcome => self%outcome, full => self%summary)
-         outcome%numbers = self%statistics%numbers(self%items, self%events, full%time_end)
+         outcome%numbers = self%statistics%numbers(self%items, self%events, full%worn, full%time_end)
          call self%extremes%find_noise(self%items, self%plan%mass)
          do k = 1, size(outcome%numbers)
             outcome%numbers(k)%noise = self%extremes%noise_in(outcome%numbers(k)%unit)
@@ -305,7 +304,7 @@ contains
          call joints_at_extremes(self%items, self%events, full%time_start, full%time_end, joints)
          outcome%tables = tables_of_run(self%plan, full, self%statistics, outcome%numbers, self%extremes, joints, self%items, &
                                         self%events)
-         allocate (outcome%pictures(0), outcome%warnings(0), outcome%files(0), outcome%csv(0))
+         allocate (outcome%pictures(0), outcome%warnings(0), outcome%files(0), outcome%csv(0), outcome%solids(0))
          call append_all(outcome%warnings, [self%plan%warnings, full%warnings])
          if (allocated(self%wants_fields)) call append_all(outcome%warnings, missing_films(self%wants_fields, self%fields))
          call append_all(outcome%warnings, films_too_hot(self%extremes, self%items))
@@ -326,6 +325,7 @@ contains
             call append_text(files, "events.dat")
             call write_csv_files(self%plan%directory, files, outcome%csv, error)
          end if
+         if (.not. allocated(error)) call write_worn_files(self%plan, full%worn, outcome%csv, outcome%solids, error)
          call self%motion%finish(full%status, second)
          call join_errors(error, second)
          if (self%plan%with%motion) call append_text(outcome%files, motion_name)

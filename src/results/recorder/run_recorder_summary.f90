@@ -12,6 +12,7 @@ submodule(run_recorder) run_recorder_summary
    use summary_writer, only: summary_json, summary_lines
    use text_file, only: replace_file
    use text_table, only: file_heading
+   use worn_surface, only: worn_surface_t
    implicit none (type, external)
 
 contains
@@ -71,6 +72,7 @@ contains
    module procedure draw_figures
       type(plot_table_t), allocatable :: tables(:)
       type(text_t), allocatable :: missing(:)
+      type(worn_surface_t), allocatable :: worn(:)
       integer :: k
 
       call memory_is_for("the figures")
@@ -79,8 +81,10 @@ contains
          call statistics_table(self%figures(k), self%statistics, self%items, self%events, self%summary%time_end, &
                                file_heading(self%plan), tables(k))
       end do
+      allocate (worn(0))
+      if (allocated(self%summary%worn)) worn = self%summary%worn
       call make_figures(self%plan%directory, self%plan%title, self%figures, self%items, self%extremes, self%rows, &
-                        self%ideal_rows, tables, self%fields, self%plan%looks%drawing, self%keeper, self%outcome%pictures, &
+                        self%ideal_rows, tables, self%fields, worn, self%plan%looks%drawing, self%keeper, self%outcome%pictures, &
                         missing, error)
       call append_all(self%outcome%warnings, missing)
    end procedure draw_figures

@@ -16,7 +16,8 @@ module statistics
    use kinds, only: not_a_number, wp
    use spectrum, only: amplitude_spectrum
    use archive, only: archive_t
-   use text, only: text_t
+   use text, only: append_text, text_t
+   use worn_surface, only: worn_surface_t
    implicit none (type, external)
    private
    public :: names_of_numbers, number_t, statistics_plan_t
@@ -31,6 +32,13 @@ module statistics
       "impacts_per_second", "impacts_per_period", "impact_speed.mean", "impact_speed.max", "peak_force.mean", "peak_force.max"]
    !> Their units.
    character(*), parameter :: joint_units(n_of_joint) = [character(3) :: "1", "1", "1/s", "1", "m/s", "m/s", "N", "N"]
+
+   integer, parameter :: n_of_wear = 4     !! numbers of a joint that wears
+   !> Their names.
+   character(*), parameter :: wear_words(n_of_wear) = [character(20) :: "bearing_worn_volume", "bearing_worn_depth", &
+      "journal_worn_volume", "journal_worn_depth"]
+   !> Their units.
+   character(*), parameter :: wear_units(n_of_wear) = [character(3) :: "m^3", "m", "m^3", "m"]
 
    !> What is asked for. Lists that are not allocated count as empty.
    type :: statistics_plan_t
@@ -292,21 +300,28 @@ contains
    end function span_of
 
    !> All numbers of the run.
-   function numbers_of_run(self, catalogue, events, t_end) result(list)
+   function numbers_of_run(self, catalogue, events, worn, t_end) result(list)
       class(statistics_t), intent(in) :: self        !! what was gathered
       type(catalogue_t), intent(in) :: catalogue     !! what can be recorded
       type(event_list_t), intent(in) :: events       !! all events
+      type(worn_surface_t), allocatable, intent(in) :: worn(:)   !! (any) bearing and journal of each joint that wears
       real(wp), intent(in) :: t_end                  !! last instant reached [s]
       type(number_t), allocatable :: list(:)         !! (any) numbers
 
       type(joint_statistics_t), allocatable :: contacts(:)
-      type(text_t), allocatable :: joints(:)
-      real(wp) :: span, values(n_of_joint)
+      type(text_t), allocatable :: joints(:), wearing(:)
+      real(wp) :: angle, depth, span, values(n_of_joint)
       integer :: k
 
       allocate (list(0))
       if (.not. self%plan%is_wanted) return
-      call names_of_numbers(self%channels, catalogue, list)
+      allocate (wearing(0))
+      if (allocated(worn)) then
+         do k = 1, size(worn), 2
+            call append_text(wearing, worn(k)%joint)
+         end do
+      end if
+      call names_of_numbers(self%channels, catalogue, wearing, list)
       do k = 1, size(self%channels)
          if (self%lowest(k) > self%highest(k)) cycle
          span = self%span_of(k)
@@ -335,19 +350,26 @@ contains
             list(first + 1:first + n_of_joint)%value = values
          end associate
       end do
+      do k = 1, 2*size(wearing)   ! at the end of the run, with what was worn before
+         call worn(k)%max_depth(depth, angle)
+         associate (first => size(list) - n_of_wear*size(wearing) + 2*(k - 1))
+            list(first + 1:first + 2)%value = [sum(worn(k)%volume), depth]
+         end associate
+      end do
    end function numbers_of_run
 
-   !> Names and units of all numbers: those of the channels, then those of the joints; the values are NaN.
-   subroutine names_of_numbers(channels, catalogue, list)
+   !> Names and units of all numbers: those of the channels, those of the joints, those of joints that wear; the values are NaN.
+   subroutine names_of_numbers(channels, catalogue, wearing, list)
       type(scalar_t), intent(in) :: channels(:)                !! (n) channels
       type(catalogue_t), intent(in) :: catalogue               !! what can be recorded
+      type(text_t), intent(in) :: wearing(:)                   !! (any) joints that wear
       type(number_t), allocatable, intent(out) :: list(:)      !! (any) numbers
 
       type(text_t), allocatable :: joints(:)
       integer :: i, k, n
 
       joints = joints_of(catalogue)
-      allocate (list(n_of_channel*size(channels) + n_of_joint*size(joints)))
+      allocate (list(n_of_channel*size(channels) + n_of_joint*size(joints) + n_of_wear*size(wearing)))
       n = 0
       do k = 1, size(channels)
          do i = 1, n_of_channel
@@ -362,6 +384,14 @@ contains
             n = n + 1
             list(n)%name = joints(k)%s//"."//trim(joint_words(i))
             list(n)%unit = trim(joint_units(i))
+            list(n)%value = not_a_number()
+         end do
+      end do
+      do k = 1, size(wearing)
+         do i = 1, n_of_wear
+            n = n + 1
+            list(n)%name = wearing(k)%s//"."//trim(wear_words(i))
+            list(n)%unit = trim(wear_units(i))
             list(n)%value = not_a_number()
          end do
       end do

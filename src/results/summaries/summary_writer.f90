@@ -29,6 +29,7 @@ module summary_writer
    type :: outcome_t
       type(text_t), allocatable :: files(:)     !! (n) files of data, paths within the directory
       type(text_t), allocatable :: csv(:)       !! (any) those of them that are comma-separated too
+      type(text_t), allocatable :: solids(:)    !! (any) worn surfaces as STL
       type(text_t), allocatable :: pictures(:)  !! (m) pictures, paths within the directory
       type(number_t), allocatable :: numbers(:) !! (l) the statistics
       type(text_t), allocatable :: warnings(:)  !! (k) what a careful reader should know, and what was not made
@@ -95,6 +96,9 @@ contains
       if (plan%with%csv) then
          call lines%line("           "//counted(size(outcome%csv), "comma-separated file", "comma-separated files")//" (.csv)")
       end if
+      do k = 1, size(outcome%solids)
+         call lines%line("           "//outcome%solids(k)%s)
+      end do
       do k = 1, size(outcome%pictures)
          call lines%line("           "//outcome%pictures(k)%s)
       end do
@@ -183,6 +187,7 @@ contains
       call put_tables(json, outcome%tables)
       call json%put_list("files", outcome%files)
       if (plan%with%csv) call json%put_list("csv", outcome%csv)
+      if (plan%with%worn_stl > 0.0_wp) call json%put_list("stl", outcome%solids)
       call json%put_list("figures", outcome%pictures)
       call json%put_list("warnings", outcome%warnings)
       call json%put_list("notes", plan%notes)

@@ -42,8 +42,8 @@ contains
       call table%put("depth_max", "m", "maximum depth of a cell", depth, heading="depth")
       call table%put("depth_angle", "rad", "middle of that cell, in the frame of the body that carries the surface", angle, &
                      heading="at angle")
-      call table%put("arc", "rad", "angle of all cells that have lost something", [(worn(k)%arc(), k=1, size(worn))], &
-                     heading="worn arc")
+      call table%put("arc", "rad", "angle of all that has lost something, at the centre of the surface", &
+                     [(worn(k)%arc(), k=1, size(worn))], heading="worn arc")
       call table%put("distance", "m", "that the surfaces have slid on each other", worn%distance, heading="slid")
    end function table_of_surfaces
 

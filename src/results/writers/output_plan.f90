@@ -42,6 +42,7 @@ module output_plan
       logical :: contact_rows = .false.     !! write rows at the instants of contacts, besides the output instants
       logical :: texts = .true.             !! write time histories and events as text
       logical :: csv = .false.              !! write them as comma-separated values too
+      real(wp) :: worn_stl = 0.0_wp         !! write worn surfaces as solids, depths times this; 0: do not [1]
       logical :: summary = .true.           !! write summary.txt and summary.json
       logical :: motion = .false.           !! write the motion for other programs
       logical :: figures = .true.           !! make the figures at the end
