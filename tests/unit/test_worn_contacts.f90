@@ -44,7 +44,9 @@ contains
       random%state = seed
       do side = 1, 2
          volume = [(random%between(0.0_wp, 1.0_wp), k=1, n)]
-         volume = (volume + cshift(volume, 1) + cshift(volume, -1) + cshift(volume, 2))/4  ! as smooth as wear is
+         do k = 1, 3  ! as smooth as wear is
+            volume = (volume + cshift(volume, 1) + cshift(volume, -1) + cshift(volume, 2))/4
+         end do
          volume = volume*depth*length*hole*2.0_wp*pi/n
          if (side == 1) call new_profile(pair%worn%hole, .true., pair%radius_i, length, volume)
          if (side == 2) call new_profile(pair%worn%pin, .false., pair%radius_j, length, volume)

@@ -13,6 +13,7 @@
 !> Source: this program. Limits: shares are as good as the interpolant; the geometry of contact is that of the start.
 module wear_monitor
    use archive, only: archive_t
+   use gauss_points, only: gauss_places, gauss_weights, n_gauss
    use integrator, only: integrator_t
    use kinds, only: pi, wp
    use mechanism, only: mechanism_t
@@ -25,13 +26,8 @@ module wear_monitor
    private
    public :: new_wear_monitor, wear_monitor_t
 
-   integer, parameter :: n_point = 4   !! Gauss's points of a stretch of a step
-   real(wp), parameter :: root = sqrt(1.2_wp)
-   real(wp), parameter :: inner = sqrt((3.0_wp - 2.0_wp*root)/7.0_wp), outer = sqrt((3.0_wp + 2.0_wp*root)/7.0_wp)
-   real(wp), parameter :: of_inner = (18.0_wp + sqrt(30.0_wp))/72.0_wp, of_outer = (18.0_wp - sqrt(30.0_wp))/72.0_wp
-   real(wp), parameter :: points(n_point) = 0.5_wp*(1.0_wp + [-outer, -inner, inner, outer])   !! places in a stretch [1]
-   real(wp), parameter :: weights(n_point) = [of_outer, of_inner, of_inner, of_outer]          !! their weights, sum 1 [1]
-   real(wp), parameter :: ends(0:n_point) = [0.0_wp, of_outer, 0.5_wp, 1.0_wp - of_outer, 1.0_wp] !! what each stands for [1]
+   real(wp), parameter :: ends(0:n_gauss) = [0.0_wp, gauss_weights(1), 0.5_wp, 1.0_wp - gauss_weights(1), 1.0_wp]
+      !! parts of a stretch that Gauss's points stand for [1]
 
    real(wp), parameter :: sweep = 4.0_wp       !! cells that the arc passes in a stretch, at most [1]
    integer, parameter :: most_stretches = 400  !! of a step
@@ -77,7 +73,7 @@ contains
 
       integer :: i, k, m
 
-      allocate (monitor%worn(0), monitor%samples(n_point), monitor%y(merge(system%n, 0, system%n_wear > 0)))
+      allocate (monitor%worn(0), monitor%samples(n_gauss), monitor%y(merge(system%n, 0, system%n_wear > 0)))
       if (system%n_wear == 0) return
       deallocate (monitor%worn)
       allocate (monitor%worn(sum([(merge(system%clearance_joints%sets(k)%set%n_contact, 0, &
@@ -145,12 +141,12 @@ contains
          worn%owed = min(work, 0.0_wp)
          n = 1
          call take_samples(worn, first, n, samples, y, system, method)
-         do k = 1, n_point
+         do k = 1, n_gauss
             n = max(n, ceiling(maxval(abs(samples(k)%wear%turn))*h*size(worn%volume, 1)/(2.0_wp*pi*sweep)))
          end do
          n = min(n, most_stretches)
          if (n > 1) call take_samples(worn, first, n, samples, y, system, method)
-         n = n*n_point
+         n = n*n_gauss
          if (.not. sum(samples(:n)%weight) > 0.0_wp) samples(:n)%weight = samples(:n)%time
          do side = 1, n_side
             associate (shares => samples(:n)%weight*samples(:n)%kappa(side))
@@ -192,7 +188,7 @@ contains
       type(worn_contact_t), intent(in) :: worn                        !! the contact
       real(wp), intent(in) :: first                                   !! part of the step that is not counted [1]
       integer, intent(in) :: n                                        !! stretches of the step
-      type(sample_t), allocatable, intent(inout) :: samples(:)        !! (n_point n or more) samples, grown
+      type(sample_t), allocatable, intent(inout) :: samples(:)        !! (n_gauss n or more) samples, grown
       real(wp), intent(inout), contiguous :: y(:)                     !! (n) scratch state [any]
       type(mechanism_t), intent(inout) :: system                      !! the system
       class(integrator_t), intent(inout) :: method                    !! the integrator, after a step
@@ -200,25 +196,25 @@ contains
       real(wp) :: distance, part, place
       integer :: g, item, k, m
 
-      if (size(samples) < n*n_point) then
+      if (size(samples) < n*n_gauss) then
          deallocate (samples)
-         allocate (samples(n*n_point))
+         allocate (samples(n*n_gauss))
       end if
       distance = worn%distance
       associate (set => system%clearance_joints%sets(worn%slot)%set, h => (1.0_wp - first)*method%step%h/n)
          item = set%item_of(worn%contact)
          do k = 1, n
-            do g = 1, n_point
-               m = n_point*(k - 1) + g
+            do g = 1, n_gauss
+               m = n_gauss*(k - 1) + g
                associate (sample => samples(m))
-                  place = first + (1.0_wp - first)*(k - 1 + points(g))/n
+                  place = first + (1.0_wp - first)*(k - 1 + gauss_places(g))/n
                   call method%within(system, place, y)
                   call system%linkage%set_motion(method%step%t0 + place*method%step%h, y)
                   call set%wear_at(worn%contact, system%linkage%motion, sample%wear)
-                  sample%time = weights(g)*h
+                  sample%time = gauss_weights(g)*h
                   sample%weight = sample%time*sample%wear%power
-                  sample%from = (ends(g - 1) - points(g))*h
-                  sample%to = (ends(g) - points(g))*h
+                  sample%from = (ends(g - 1) - gauss_places(g))*h
+                  sample%to = (ends(g) - gauss_places(g))*h
                   call find_worn_part(set%laws%wear, set%items%pairs(item), sample%wear, part)
                   sample%kappa = part*set%laws%wear%coefficients(distance - sample%from*sample%wear%speed)
                   distance = distance + sample%time*sample%wear%speed

@@ -11,14 +11,14 @@
 module overlap_rays
    use kinds, only: wp
    use surfaces, only: surfaces_t
-   use surface_profile, only: depth_t
+   use surface_profile, only: depth_t, place_t
    implicit none (type, external)
    private
-   public :: find_ray, follow_ray, pin_t, ray_t
+   public :: find_ray, pin_t, quick_ray, ray_t
 
    !> Where a pin is in its hole, and how it moves.
    type :: pin_t
-      real(wp) :: e(2) = 0.0_wp          !! (2) its centre from the hole's, world frame [m]
+      real(wp) :: e(2) = 0.0_wp          !! (2) its centre from the hole's, axes of the world or of the hole's body [m]
       real(wp) :: e_dot(2) = 0.0_wp      !! (2) its rate [m/s]
       real(wp) :: e_ddot(2) = 0.0_wp     !! (2) and its second derivative [m/s^2]
       real(wp) :: angle(2) = 0.0_wp      !! (2) alpha of the bodies of hole and pin [rad]
@@ -50,6 +50,27 @@ module overlap_rays
    end type ray_t
 
 contains
+
+   !> The ray through a place of the hole where the pin is round, up to the slope. `theta` is left alone.
+   pure subroutine quick_ray(pair, pin, place, ray)
+      type(surfaces_t), intent(in) :: pair   !! the surfaces, the pin round
+      type(pin_t), intent(in) :: pin         !! where the pin is, frame of the hole
+      type(place_t), intent(in) :: place     !! the place
+      type(ray_t), intent(inout) :: ray      !! set
+
+      real(wp) :: q, root, s, versine
+
+      ray%u = place%u
+      s = pin%e(1)*place%u(1) + pin%e(2)*place%u(2)
+      q = pin%e(2)*place%u(1) - pin%e(1)*place%u(2)
+      versine = pin%distance - s
+      if (s > 0.0_wp) versine = q**2/(pin%distance + s)
+      root = sqrt(pair%radius_j**2 - q**2)
+      ray%d = pin%distance - pair%clearance - versine - q**2/(pair%radius_j + root) - place%h
+      ray%w = -q/root
+      ray%slope = q + q*s/root - place%slope
+      ray%by_i = place%slope
+   end subroutine quick_ray
 
    !> The ray in a direction. `with_motion` asks for what changes with time, `with_bend` for derivatives by theta beyond the first.
    pure subroutine find_ray(pair, pin, theta, cell, with_motion, with_bend, ray)

@@ -10,7 +10,6 @@
 module round_moment
    use kinds, only: wp
    use surfaces, only: surfaces_t
-   use wear_arc, only: half_angles
    implicit none (type, external)
    private
    public :: penetration_of_moment
@@ -70,17 +69,20 @@ contains
       real(wp), intent(out) :: slope         !! M' [m.rad]
       real(wp), intent(out) :: bend          !! M'' [rad]
 
-      real(wp) :: angles(2), d, d_e, e, half, root, sine, square
+      real(wp) :: arc, d, d_e, e, half, root, sine, square
       integer :: k, side
 
       e = pair%clearance + delta
-      angles = half_angles(pair%radius_i, pair%radius_j, e)
+      associate (r => pair%radius_j)
+         arc = 2.0_wp*asin(sqrt(0.25_wp*delta*(r + e + pair%radius_i)/(r*e)))  ! at the pin's centre, see `wear_arc`
+         arc = atan2(r*sin(arc), e + r*cos(arc))
+      end associate
       moment = 0.0_wp
       slope = 0.0_wp
       bend = 0.0_wp
       do k = 1, n_half
          do side = -1, 1, 2
-            half = 0.25_wp*angles(1)*(1.0_wp + side*places(k))
+            half = 0.25_wp*arc*(1.0_wp + side*places(k))
             sine = 2.0_wp*sin(half)*cos(half)
             square = sine**2
             root = sqrt(pair%radius_j**2 - e**2*square)
@@ -91,9 +93,9 @@ contains
             bend = bend + weights(k)*2.0_wp*(d_e**2 - d*pair%radius_j**2*square/root**3)
          end do
       end do
-      moment = angles(1)*moment
-      slope = angles(1)*slope
-      bend = angles(1)*bend
+      moment = arc*moment
+      slope = arc*slope
+      bend = arc*bend
    end subroutine moment_of
 
 end module round_moment

@@ -18,8 +18,9 @@
 !> passes one. Signs: delta > 0 in contact. Source: this program. Limits: those of `overlap_rays`; between two edges an
 !> overlap begins at most once and ends at most once, and d has at most one maximum or minimum.
 module surface_overlap
+   use gauss_points, only: gauss_places, gauss_weights, n_gauss
    use kinds, only: pi, wp
-   use overlap_rays, only: find_ray, pin_t, ray_t
+   use overlap_rays, only: find_ray, pin_t, quick_ray, ray_t
    use round_moment, only: penetration_of_moment
    use surfaces, only: surfaces_t
    implicit none (type, external)
@@ -67,24 +68,41 @@ module surface_overlap
       real(wp) :: h_dot = 0.0_wp         !! rate of h
    end type sums_t
 
-   integer, parameter :: n_point = 4   !! Gauss's points between two edges
-   real(wp), parameter :: root = sqrt(1.2_wp)
-   real(wp), parameter :: inner = sqrt((3.0_wp - 2.0_wp*root)/7.0_wp), outer = sqrt((3.0_wp + 2.0_wp*root)/7.0_wp)
-   real(wp), parameter :: of_inner = (18.0_wp + sqrt(30.0_wp))/72.0_wp, of_outer = (18.0_wp - sqrt(30.0_wp))/72.0_wp
-   real(wp), parameter :: points(n_point) = 0.5_wp*(1.0_wp + [-outer, -inner, inner, outer])   !! places [1]
-   real(wp), parameter :: weights(n_point) = [of_outer, of_inner, of_inner, of_outer]          !! weights [1]
    real(wp), parameter :: longest = 0.05_wp       !! part of an arc that these points are right for [rad]
    integer, parameter :: n_part = 4               !! parts of what lies between two edges, where it is looked at closely
    integer, parameter :: most_iterations = 60     !! of a search between two edges, halvings among them
 
 contains
 
-   !> Penetration and what follows of it.
+   !> Penetration and what follows of it: found in the axes of the hole's body, where its cells stand still.
    pure subroutine find_overlap(pair, pin, level, overlap, arc)
+      type(surfaces_t), intent(in) :: pair            !! the surfaces, with profiles
+      type(pin_t), intent(in) :: pin                  !! where the pin is, world frame
+      integer, intent(in) :: level                    !! one of the above
+      type(overlap_t), intent(out) :: overlap         !! set
+      type(arc_t), intent(inout), optional :: arc     !! points of the arc
+
+      type(pin_t) :: here
+      real(wp) :: turn(2, 2)
+
+      turn = reshape([cos(pin%angle(1)), -sin(pin%angle(1)), sin(pin%angle(1)), cos(pin%angle(1))], [2, 2])
+      here = pin
+      here%e = matmul(turn, pin%e)
+      here%e_dot = matmul(turn, pin%e_dot)
+      here%e_ddot = matmul(turn, pin%e_ddot)
+      here%angle = pin%angle - pin%angle(1)
+      here%phi = pin%phi - pin%angle(1)
+      call find_in_hole(pair, here, level, overlap, arc)
+      overlap%gradient = matmul(overlap%gradient, turn)
+      if (level >= to_rates) overlap%gradient_rate = matmul(overlap%gradient_rate, turn)
+   end subroutine find_overlap
+
+   !> The same in axes of the hole's body.
+   pure subroutine find_in_hole(pair, pin, level, overlap, arc)
       type(surfaces_t), intent(in) :: pair            !! the surfaces, with profiles
       type(pin_t), intent(in) :: pin                  !! where the pin is
       integer, intent(in) :: level                    !! one of the above
-      type(overlap_t), intent(out) :: overlap         !! set
+      type(overlap_t), intent(inout) :: overlap       !! set, new
       type(arc_t), intent(inout), optional :: arc     !! points of the arc
 
       type(ray_t) :: deepest, ray
@@ -115,7 +133,7 @@ contains
          call scan(pair, pin, pin%phi - part, pin%phi + part, level, sums, deepest)
          call take_ray(pair, pin, deepest%theta, level, overlap)
       end if
-   end subroutine find_overlap
+   end subroutine find_in_hole
 
    !> The overlap of surfaces that are apart, from the direction of the least gap.
    pure subroutine take_ray(pair, pin, theta, level, overlap)
@@ -175,13 +193,26 @@ contains
       type(ray_t) :: end, left, right, start
       real(wp) :: at_most, edge, middle
       integer :: cell(2), k, passed
+      logical :: is_quick, is_start, is_whole
 
+      is_quick = pair%worn%pin%is_round() .and. level == to_gradient .and. .not. present(arc)
+      is_start = .false.  ! of a cell
       cell = cells_at(pair, pin, from)
       call find_ray(pair, pin, from, cell, .false., .false., left)
       do while (left%theta < to)
          call next_edge(pair, pin, left%theta, cell, edge, passed)
-         edge = min(edge, to)
-         call find_ray(pair, pin, edge, cell, .false., .false., right)
+         if (edge > to) then
+            edge = to
+            passed = 0
+         end if
+         is_whole = passed == 1 .and. is_start .and. is_quick
+         is_start = passed == 1
+         if (is_quick .and. passed == 1) then
+            call quick_ray(pair, pin, pair%worn%hole%starts(modulo(cell(1) + 1, size(pair%worn%hole%starts)) + 1), right)
+            right%theta = edge
+         else
+            call find_ray(pair, pin, edge, cell, .false., .false., right)
+         end if
          at_most = max(left%d, right%d) + 0.5_wp*(edge - left%theta)*max(abs(left%slope), abs(right%slope))
          if (max(left%d, right%d) <= 0.0_wp .and. at_most > min(deepest%d, 0.0_wp)) then
             start = left
@@ -192,6 +223,8 @@ contains
                call look_between(pair, pin, cell, start, end, level, sums, deepest, arc)
                start = end
             end do
+         else if (is_whole .and. min(left%d, right%d) > 0.0_wp .and. (left%slope >= 0.0_wp .or. right%slope <= 0.0_wp)) then
+            call add_cell(pair, pin, modulo(cell(1), size(pair%worn%hole%starts)) + 1, sums)
          else
             call look_between(pair, pin, cell, left, right, level, sums, deepest, arc)
          end if
@@ -348,10 +381,10 @@ contains
       n = max(ceiling((end - start)/longest), 1)
       part = (end - start)/n
       do k = 0, n - 1
-         do g = 1, n_point
-            call find_ray(pair, pin, start + part*(k + points(g)), cell, level >= to_rates, .false., ray)
+         do g = 1, n_gauss
+            call find_ray(pair, pin, start + part*(k + gauss_places(g)), cell, level >= to_rates, .false., ray)
             if (.not. ray%d > 0.0_wp) cycle  ! round-off at an end
-            width = part*weights(g)
+            width = part*gauss_weights(g)
             call add_point(ray, width, level, sums)
             if (present(arc)) call append(arc, ray%theta - pin%angle(1), pin_angle(ray), ray%d, width)
          end do
@@ -367,6 +400,28 @@ contains
       end function pin_angle
 
    end subroutine add_part
+
+   !> Add a cell of the hole that overlaps a round pin all along.
+   pure subroutine add_cell(pair, pin, cell, sums)
+      type(surfaces_t), intent(in) :: pair     !! the surfaces
+      type(pin_t), intent(in) :: pin           !! where the pin is, frame of the hole
+      integer, intent(in) :: cell              !! number of the cell, from 1
+      type(sums_t), intent(inout) :: sums      !! added to
+
+      type(ray_t) :: ray
+      real(wp) :: two_d
+      integer :: g
+
+      do g = 1, n_gauss
+         call quick_ray(pair, pin, pair%worn%hole%points(g, cell), ray)
+         two_d = 2.0_wp*pair%worn%hole%width*gauss_weights(g)*ray%d
+         sums%m = sums%m + 0.5_wp*two_d*ray%d
+         sums%e(1) = sums%e(1) + two_d*(ray%u(1) - ray%w*ray%u(2))
+         sums%e(2) = sums%e(2) + two_d*(ray%u(2) + ray%w*ray%u(1))
+         sums%i = sums%i + two_d*ray%by_i
+         sums%d = sums%d + two_d
+      end do
+   end subroutine add_cell
 
    !> Add a point to the integrals.
    pure subroutine add_point(ray, width, level, sums)

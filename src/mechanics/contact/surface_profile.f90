@@ -10,11 +10,19 @@
 !> are continuous, h'' jumps from cell to cell. Source: see `histospline`.
 !> Limits: cells of one width, at least 4; a pin is nowhere worn through (`worn_surface`).
 module surface_profile
+   use gauss_points, only: gauss_places, n_gauss
    use histospline, only: degree, fit_histospline, value_of_histospline
    use kinds, only: pi, wp
    implicit none (type, external)
    private
-   public :: depth_t, new_profile, profile_t, worn_pair_t
+   public :: depth_t, new_profile, place_t, profile_t, worn_pair_t
+
+   !> A place of a surface, as it is read often.
+   type :: place_t
+      real(wp) :: u(2) = 0.0_wp    !! (2) its direction, frame of its body [1]
+      real(wp) :: h = 0.0_wp       !! depth [m]
+      real(wp) :: slope = 0.0_wp   !! dh/dtheta [m/rad]
+   end type place_t
 
    !> A worn surface, or one without a profile, which is round.
    type :: profile_t
@@ -23,6 +31,8 @@ module surface_profile
       real(wp) :: width = 0.0_wp             !! angle of a cell [rad]
       real(wp), allocatable :: c(:, :)       !! (0:4, cells) coefficients of A; unallocated: the surface is round [m^2]
       real(wp), allocatable :: volume(:)     !! (cells) what each has lost [m^3]
+      type(place_t), allocatable :: starts(:)   !! (cells) where each cell starts
+      type(place_t), allocatable :: points(:, :)  !! (n_gauss, cells) Gauss's points of each cell
    contains
       procedure :: is_round => profile_is_round
       procedure :: at => depth_at
@@ -51,12 +61,32 @@ contains
       real(wp), intent(in) :: length           !! along the axis [m]
       real(wp), intent(in) :: volume(:)        !! (cells) what each has lost, not negative [m^3]
 
+      integer :: g, k
+
       profile%is_hole = is_hole
       profile%radius = radius
       profile%width = 2.0_wp*pi/size(volume)
       profile%volume = volume
       allocate (profile%c(0:degree, size(volume)))
       call fit_histospline(volume/(length*profile%width), profile%c)
+      profile%starts = [(place(k - 1.0_wp), k=1, size(volume))]
+      allocate (profile%points(n_gauss, size(volume)))
+      do k = 1, size(volume)
+         profile%points(:, k) = [(place(k - 1 + gauss_places(g)), g=1, n_gauss)]
+      end do
+
+   contains
+
+      !> A place, in cells from the x axis.
+      pure type(place_t) function place(x)
+         real(wp), intent(in) :: x   !! [1]
+
+         type(depth_t) :: depth
+
+         depth = profile%at(x*profile%width, min(floor(x), size(volume) - 1))
+         place = place_t([cos(x*profile%width), sin(x*profile%width)], depth%h, depth%slope)
+      end function place
+
    end subroutine new_profile
 
    !> Whether there is no profile.
