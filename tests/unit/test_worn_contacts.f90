@@ -113,11 +113,11 @@ contains
          pin = some_pin(random, clearance + delta)
          call find_overlap(pair, pin, to_second, overlap)
          delta = pin%distance - clearance
-         call check_close(error, overlap%delta, delta, 1.0e-12_wp*abs(delta) + 1.0e-18_wp, "penetration")
+         call check_close(error, overlap%delta, delta, 1.0e-12_wp*abs(delta) + 2.0e-19_wp, "penetration")
          if (allocated(error)) return
-         call check_close(error, overlap%gradient, pin%e/pin%distance, 1.0e-10_wp, "normal")
+         call check_close(error, overlap%gradient, pin%e/pin%distance, 1.0e-10_wp + 1.0e-18_wp/abs(delta), "normal")
          if (allocated(error)) return
-         call check_close(error, [overlap%by_i, overlap%by_j, overlap%depth], [0.0_wp, 0.0_wp, 0.0_wp], 1.0e-18_wp, "others")
+         call check_close(error, [overlap%by_i, overlap%by_j, overlap%depth], [0.0_wp, 0.0_wp, 0.0_wp], 1.0e-17_wp, "others")
          if (allocated(error)) return
          associate (n => pin%e/pin%distance)
             call check_close(error, overlap%rate, dot_product(n, pin%e_dot), 1.0e-10_wp, "rate")

@@ -287,7 +287,11 @@ contains
                   call new_profile(pair%worn%pin, .false., pair%radius_j, pair%length, worn(i)%volume)
                end if
             end do
-            set%traits%is_worn = set%traits%is_worn .or. allocated(pair%worn)
+            if (.not. allocated(pair%worn)) cycle
+            set%traits%is_worn = .true.
+            if (pair%worn%hole%is_round()) then  ! `surface_overlap` goes by its cells
+               call new_profile(pair%worn%hole, .true., pair%radius_i, pair%length, 0.0_wp*pair%worn%pin%volume)
+            end if
          end associate
       end do
    end subroutine take_worn

@@ -1,20 +1,22 @@
 !> A ray from the centre of a worn hole through a worn pin: how far the surfaces overlap along it, and how that changes.
 !>
-!> e the pin's centre from the hole's, u = (cos, sin)(theta), q = e . R90 u,  chi = theta - asin(q/r) - alpha_j  the place on the pin:
+!> e the pin's centre from the hole's, u = (cos, sin)(theta), q = e . R90 u,  chi = theta - x - x^3/6 - alpha_j,  x = q/r,  the place
+!> on the pin, f = (1 + x^2/2)/r:
 !>
 !> d(theta) = e . u + S - R - h_i(theta - alpha_i),   S = sqrt(rho^2 - q^2),   rho = r - h_j(chi)
-!> d_e = u + w R90 u,  w = (rho h_j'/(r cos(psi)) - q)/S,  sin(psi) = q/r;   d_alpha_i = h_i',  d_alpha_j = rho h_j'/S
+!> d_e = u + w R90 u,  w = (rho h_j' f - q)/S;   d_alpha_i = h_i',  d_alpha_j = rho h_j'/S
 !>
 !> Derivatives by theta and, along a motion at a fixed theta, by time follow by the chain rule.
 !> Signs: d > 0 where the surfaces overlap; angles counter-clockwise, of the world; alpha the angles of the bodies.
-!> Source: this program. Limits: |e| < r; depths are small against the radii (chi is that of the new pin).
+!> Source: this program. Limits: |e| < r; depths are small against the radii, and so is |e|: chi is that of
+!> the new pin to the fifth power of x.
 module overlap_rays
    use kinds, only: wp
    use surfaces, only: surfaces_t
-   use surface_profile, only: depth_t, place_t
+   use surface_profile, only: depth_t
    implicit none (type, external)
    private
-   public :: find_ray, pin_t, quick_ray, ray_t
+   public :: find_ray, pin_t, quick_rays, ray_t
 
    !> Where a pin is in its hole, and how it moves.
    type :: pin_t
@@ -31,7 +33,6 @@ module overlap_rays
    !> One ray.
    type :: ray_t
       real(wp) :: theta = 0.0_wp         !! its direction [rad]
-      real(wp) :: chi = 0.0_wp           !! where it leaves the pin, frame of the pin's body [rad]
       real(wp) :: u(2) = 0.0_wp          !! (2) along it [1]
       real(wp) :: d = 0.0_wp             !! overlap, negative: a gap [m]
       real(wp) :: slope = 0.0_wp         !! its derivative by theta [m/rad]
@@ -51,147 +52,128 @@ module overlap_rays
 
 contains
 
-   !> The ray through a place of the hole where the pin is round, up to the slope. `theta` is left alone.
-   pure subroutine quick_ray(pair, pin, place, ray)
-      type(surfaces_t), intent(in) :: pair   !! the surfaces, the pin round
-      type(pin_t), intent(in) :: pin         !! where the pin is, frame of the hole
-      type(place_t), intent(in) :: place     !! the place
-      type(ray_t), intent(inout) :: ray      !! set
+   !> Overlap, slope and w of many rays through places of the hole, where the pin is round.
+   pure subroutine quick_rays(n, r, e, clearance, u_x, u_y, h, h_slope, d, slope, w)
+      integer, intent(in) :: n               !! how many
+      real(wp), intent(in) :: r              !! radius of the pin [m]
+      real(wp), intent(in) :: e(2)           !! (2) its centre, frame of the hole [m]
+      real(wp), intent(in) :: clearance      !! radius of the new hole less r [m]
+      real(wp), intent(in) :: u_x(n)         !! (n) cosines of the directions [1]
+      real(wp), intent(in) :: u_y(n)         !! (n) sines [1]
+      real(wp), intent(in) :: h(n)           !! (n) depths of the hole [m]
+      real(wp), intent(in) :: h_slope(n)     !! (n) their derivatives by theta [m/rad]
+      real(wp), intent(out) :: d(n)          !! (n) overlap [m]
+      real(wp), intent(out) :: slope(n)      !! (n) its derivative by theta [m/rad]
+      real(wp), intent(out) :: w(n)          !! (n) see above [1]
 
-      real(wp) :: q, root, s, versine
+      real(wp) :: q, root, s
+      integer :: k
 
-      ray%u = place%u
-      s = pin%e(1)*place%u(1) + pin%e(2)*place%u(2)
-      q = pin%e(2)*place%u(1) - pin%e(1)*place%u(2)
-      versine = pin%distance - s
-      if (s > 0.0_wp) versine = q**2/(pin%distance + s)
-      root = sqrt(pair%radius_j**2 - q**2)
-      ray%d = pin%distance - pair%clearance - versine - q**2/(pair%radius_j + root) - place%h
-      ray%w = -q/root
-      ray%slope = q + q*s/root - place%slope
-      ray%by_i = place%slope
-   end subroutine quick_ray
+      do k = 1, n
+         s = e(1)*u_x(k) + e(2)*u_y(k)
+         q = e(2)*u_x(k) - e(1)*u_y(k)
+         root = sqrt(r**2 - q**2)
+         d(k) = s - clearance - q**2/(r + root) - h(k)
+         w(k) = -q/root
+         slope(k) = q - s*w(k) - h_slope(k)
+      end do
+   end subroutine quick_rays
 
    !> The ray in a direction. `with_motion` asks for what changes with time, `with_bend` for derivatives by theta beyond the first.
    pure subroutine find_ray(pair, pin, theta, cell, with_motion, with_bend, ray)
       type(surfaces_t), intent(in) :: pair   !! the surfaces, with profiles
-      type(pin_t), intent(in) :: pin         !! where the pin is
+      type(pin_t), intent(in) :: pin         !! where the pin is, axes of the hole's body
       real(wp), intent(in) :: theta          !! the direction [rad]
-      integer, intent(in) :: cell(2)         !! cells of hole and pin it is in, from 0, any turn
+      integer, intent(in) :: cell(2)         !! (2) cells of hole and pin it is in, from 0, any turn
       logical, intent(in) :: with_motion     !! rates too
       logical, intent(in) :: with_bend       !! second derivatives by theta too
       type(ray_t), intent(inout) :: ray      !! set
 
       type(depth_t) :: hole, surface
-      real(wp) :: c_psi, q, rho, root, s, versine, x
+      real(wp) :: f, q, rho, root, s, x
 
       ray%theta = theta
       ray%u = [cos(theta), sin(theta)]
       s = pin%e(1)*ray%u(1) + pin%e(2)*ray%u(2)
       q = pin%e(2)*ray%u(1) - pin%e(1)*ray%u(2)
-      associate (r => pair%radius_j)
-         if (s > 0.0_wp) then
-            versine = q**2/(pin%distance + s)  ! |e| - s without cancellation
-         else
-            versine = pin%distance - s
-         end if
-         hole = pair%worn%hole%at(theta - pin%angle(1), cell(1))
-         ray%by_i = hole%slope
-         if (pair%worn%pin%is_round()) then
-            root = sqrt(r**2 - q**2)
-            ray%d = pin%distance - pair%clearance - versine - q**2/(r + root) - hole%h
-            ray%w = -q/root
-            ray%slope = q + q*s/root - hole%slope
-            if (with_bend) then
-               x = q*s/root
-               ray%bend = -s + (q**2 - s**2 - x**2)/root - hole%bend
-               ray%w_slope = s/root - ray%w*x/root
-            end if
-            if (with_motion) call follow_ray(pair, pin, ray, q, s, 1.0_wp, r, root, hole, surface)
-            return
-         end if
-         x = q/r
-         c_psi = sqrt(1.0_wp - x**2)
-         ray%chi = theta - asin(x) - pin%angle(2)
-         surface = pair%worn%pin%at(ray%chi, cell(2))
-         ray%h_j = surface%h
-         rho = r - surface%h
-         root = sqrt(rho**2 - q**2)
-         ray%d = pin%distance - pair%clearance - versine - (q**2 + surface%h*(2.0_wp*r - surface%h))/(r + root) - hole%h
-         ray%w = (rho*surface%slope/(r*c_psi) - q)/root
-         ray%by_j = rho*surface%slope/root
-         x = 1.0_wp + s/(r*c_psi)  ! of chi by theta
-         ray%slope = q + (q*s - rho*surface%slope*x)/root - hole%slope
-         if (with_bend) call bend_worn(r, c_psi, q, s, rho, root, x, hole, surface, ray)
-         if (with_motion) call follow_ray(pair, pin, ray, q, s, c_psi, rho, root, hole, surface)
-      end associate
+      x = q/pair%radius_j
+      f = (1.0_wp + 0.5_wp*x**2)/pair%radius_j
+      hole = pair%worn%hole%at(theta, cell(1))
+      ray%by_i = hole%slope
+      if (.not. pair%worn%pin%is_round()) surface = pair%worn%pin%at(theta - x - x**3/6.0_wp - pin%angle(2), cell(2))
+      ray%h_j = surface%h
+      rho = pair%radius_j - surface%h
+      root = sqrt(rho**2 - q**2)
+      ray%d = s - pair%clearance - q**2/(rho + root) - surface%h - hole%h
+      ray%w = (rho*surface%slope*f - q)/root
+      ray%by_j = rho*surface%slope/root
+      ray%slope = q + (q*s - rho*surface%slope*(1.0_wp + s*f))/root - hole%slope
+      if (with_bend) call bend_ray(pair%radius_j, q, s, rho, root, hole, surface, ray)
+      if (with_motion) call follow_ray(pair%radius_j, pin, q, s, rho, root, hole, surface, ray)
    end subroutine find_ray
 
-   !> Derivatives by theta where the pin is worn.
-   pure subroutine bend_worn(r, c_psi, q, s, rho, root, x, hole, surface, ray)
+   !> Derivatives by theta beyond the first.
+   pure subroutine bend_ray(r, q, s, rho, root, hole, surface, ray)
       real(wp), intent(in) :: r              !! radius of the new pin [m]
-      real(wp), intent(in) :: c_psi          !! cos(psi) [1]
       real(wp), intent(in) :: q              !! e . R90 u [m]
       real(wp), intent(in) :: s              !! e . u [m]
       real(wp), intent(in) :: rho            !! radius of the worn pin [m]
       real(wp), intent(in) :: root           !! S [m]
-      real(wp), intent(in) :: x              !! derivative of chi by theta [1]
       type(depth_t), intent(in) :: hole      !! depth of the hole
       type(depth_t), intent(in) :: surface   !! depth of the pin
       type(ray_t), intent(inout) :: ray      !! bend, w_slope and h_j_slope are set
 
-      real(wp) :: c_slope, rho_bend, rho_slope, root_slope, x_slope
+      real(wp) :: chi_bend, chi_slope, f, f_slope, rho_bend, rho_slope, root_slope
 
-      c_slope = q*s/(r**2*c_psi)
-      x_slope = q/(r*c_psi) - s*c_slope/(r*c_psi**2)
-      rho_slope = -surface%slope*x
-      ray%h_j_slope = -rho_slope
-      rho_bend = -surface%bend*x**2 - surface%slope*x_slope
+      f = (1.0_wp + 0.5_wp*(q/r)**2)/r
+      f_slope = -q*s/r**3
+      chi_slope = 1.0_wp + s*f
+      chi_bend = q*f + s*f_slope
+      rho_slope = -surface%slope*chi_slope
+      rho_bend = -surface%bend*chi_slope**2 - surface%slope*chi_bend
       root_slope = (rho*rho_slope + q*s)/root
+      ray%h_j_slope = -rho_slope
       ray%bend = -s + (rho_slope**2 + rho*rho_bend + q**2 - s**2 - root_slope**2)/root - hole%bend
-      ray%w_slope = ((rho_slope*surface%slope + rho*surface%bend*x)/(r*c_psi) - rho*surface%slope*c_slope/(r*c_psi**2) + s)/root &
+      ray%w_slope = ((rho_slope*surface%slope + rho*surface%bend*chi_slope)*f + rho*surface%slope*f_slope + s)/root &
                     - ray%w*root_slope/root
-   end subroutine bend_worn
+   end subroutine bend_ray
 
    !> What changes with time, at a fixed direction.
-   pure subroutine follow_ray(pair, pin, ray, q, s, c_psi, rho, root, hole, surface)
-      type(surfaces_t), intent(in) :: pair   !! the surfaces
+   pure subroutine follow_ray(r, pin, q, s, rho, root, hole, surface, ray)
+      real(wp), intent(in) :: r              !! radius of the new pin [m]
       type(pin_t), intent(in) :: pin         !! where the pin is
-      type(ray_t), intent(inout) :: ray      !! rates are set
       real(wp), intent(in) :: q              !! e . R90 u [m]
       real(wp), intent(in) :: s              !! e . u [m]
-      real(wp), intent(in) :: c_psi          !! cos(psi) [1]
       real(wp), intent(in) :: rho            !! radius of the worn pin [m]
       real(wp), intent(in) :: root           !! S [m]
       type(depth_t), intent(in) :: hole      !! depth of the hole
       type(depth_t), intent(in) :: surface   !! depth of the pin
+      type(ray_t), intent(inout) :: ray      !! rates are set
 
-      real(wp) :: chi_ddot, chi_dot, q_ddot, q_dot, rho_ddot, rho_dot, root_ddot, root_dot, x
+      real(wp) :: along, chi_ddot, chi_dot, f, f_by_q, q_ddot, q_dot, rho_ddot, rho_dot, root_ddot, root_dot, root_slope
 
-      associate (r => pair%radius_j)
-         q_dot = pin%e_dot(2)*ray%u(1) - pin%e_dot(1)*ray%u(2)
-         q_ddot = pin%e_ddot(2)*ray%u(1) - pin%e_ddot(1)*ray%u(2)
-         chi_dot = -q_dot/(r*c_psi) - pin%omega(2)
-         chi_ddot = -q_ddot/(r*c_psi) - q*q_dot**2/(r*c_psi)**3 - pin%alpha(2)
-         rho_dot = -surface%slope*chi_dot
-         rho_ddot = -surface%bend*chi_dot**2 - surface%slope*chi_ddot
-         root_dot = (rho*rho_dot - q*q_dot)/root
-         root_ddot = (rho_dot**2 + rho*rho_ddot - q_dot**2 - q*q_ddot - root_dot**2)/root
-         ray%d_dot = pin%e_dot(1)*ray%u(1) + pin%e_dot(2)*ray%u(2) + root_dot + hole%slope*pin%omega(1)
-         ray%d_ddot = pin%e_ddot(1)*ray%u(1) + pin%e_ddot(2)*ray%u(2) + root_ddot - hole%bend*pin%omega(1)**2 &
-                      + hole%slope*pin%alpha(1)
-         ray%w_dot = (rho_dot*surface%slope/(r*c_psi) + rho*surface%bend*chi_dot/(r*c_psi) &
-                      + rho*surface%slope*q*q_dot/(r*c_psi)**3 - q_dot)/root - ray%w*root_dot/root
-         ray%h_j_dot = -rho_dot
-         x = 1.0_wp + s/(r*c_psi)
-         ! of the slope: d_e . e' + omega_i h_i' + omega_j rho h_j'/S, differentiated by theta
-         associate (across => q_dot, along => pin%e_dot(1)*ray%u(1) + pin%e_dot(2)*ray%u(2))
-            ray%slope_dot = across - along*ray%w + across*ray%w_slope + pin%omega(1)*hole%bend
-         end associate
-         root_dot = (q*s - rho*surface%slope*x)/root  ! S by theta
-         ray%slope_dot = ray%slope_dot + pin%omega(2)*((-surface%slope**2 + rho*surface%bend)*x/root &
-                                                       - rho*surface%slope*root_dot/root**2)
-      end associate
+      f = (1.0_wp + 0.5_wp*(q/r)**2)/r
+      f_by_q = q/r**3
+      along = pin%e_dot(1)*ray%u(1) + pin%e_dot(2)*ray%u(2)
+      q_dot = pin%e_dot(2)*ray%u(1) - pin%e_dot(1)*ray%u(2)
+      q_ddot = pin%e_ddot(2)*ray%u(1) - pin%e_ddot(1)*ray%u(2)
+      chi_dot = -q_dot*f - pin%omega(2)
+      chi_ddot = -q_ddot*f - q_dot**2*f_by_q - pin%alpha(2)
+      rho_dot = -surface%slope*chi_dot
+      rho_ddot = -surface%bend*chi_dot**2 - surface%slope*chi_ddot
+      root_dot = (rho*rho_dot - q*q_dot)/root
+      root_ddot = (rho_dot**2 + rho*rho_ddot - q_dot**2 - q*q_ddot - root_dot**2)/root
+      ray%d_dot = along + root_dot + hole%slope*pin%omega(1)
+      ray%d_ddot = pin%e_ddot(1)*ray%u(1) + pin%e_ddot(2)*ray%u(2) + root_ddot - hole%bend*pin%omega(1)**2 &
+                   + hole%slope*pin%alpha(1)
+      ray%w_dot = ((rho_dot*surface%slope + rho*surface%bend*chi_dot)*f + rho*surface%slope*f_by_q*q_dot - q_dot)/root &
+                  - ray%w*root_dot/root
+      ray%h_j_dot = -rho_dot
+      ! of the slope: d_e . e' + omega_i h_i' + omega_j rho h_j'/S, differentiated by theta
+      root_slope = (q*s - rho*surface%slope*(1.0_wp + s*f))/root
+      ray%slope_dot = q_dot - along*ray%w + q_dot*ray%w_slope + pin%omega(1)*hole%bend &
+                      + pin%omega(2)*((rho*surface%bend - surface%slope**2)*(1.0_wp + s*f)/root &
+                                      - rho*surface%slope*root_slope/root**2)
    end subroutine follow_ray
 
 end module overlap_rays

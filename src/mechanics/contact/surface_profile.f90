@@ -10,19 +10,19 @@
 !> are continuous, h'' jumps from cell to cell. Source: see `histospline`.
 !> Limits: cells of one width, at least 4; a pin is nowhere worn through (`worn_surface`).
 module surface_profile
-   use gauss_points, only: gauss_places, n_gauss
+   use gauss_points, only: n_three, three_places
    use histospline, only: degree, fit_histospline, value_of_histospline
    use kinds, only: pi, wp
    implicit none (type, external)
    private
-   public :: depth_t, new_profile, place_t, profile_t, worn_pair_t
+   public :: depth_t, new_profile, places_t, profile_t, worn_pair_t
 
-   !> A place of a surface, as it is read often.
-   type :: place_t
-      real(wp) :: u(2) = 0.0_wp    !! (2) its direction, frame of its body [1]
-      real(wp) :: h = 0.0_wp       !! depth [m]
-      real(wp) :: slope = 0.0_wp   !! dh/dtheta [m/rad]
-   end type place_t
+   !> Places of a surface, as they are read often.
+   type :: places_t
+      real(wp), allocatable :: u(:, :)     !! (n, 2) their directions, frame of the body [1]
+      real(wp), allocatable :: h(:)        !! (n) depths [m]
+      real(wp), allocatable :: slope(:)    !! (n) dh/dtheta [m/rad]
+   end type places_t
 
    !> A worn surface, or one without a profile, which is round.
    type :: profile_t
@@ -31,16 +31,16 @@ module surface_profile
       real(wp) :: width = 0.0_wp             !! angle of a cell [rad]
       real(wp), allocatable :: c(:, :)       !! (0:4, cells) coefficients of A; unallocated: the surface is round [m^2]
       real(wp), allocatable :: volume(:)     !! (cells) what each has lost [m^3]
-      type(place_t), allocatable :: starts(:)   !! (cells) where each cell starts
-      type(place_t), allocatable :: points(:, :)  !! (n_gauss, cells) Gauss's points of each cell
+      type(places_t) :: starts               !! (cells) where each cell starts
+      type(places_t) :: points               !! (3 cells) Gauss's three points of each cell
    contains
       procedure :: is_round => profile_is_round
       procedure :: at => depth_at
    end type profile_t
 
-   !> The worn surfaces of a pin in a hole; one of them may be round.
+   !> The worn surfaces of a pin in a hole; the pin may be round.
    type :: worn_pair_t
-      type(profile_t) :: hole   !! of the bearing
+      type(profile_t) :: hole   !! of the bearing; never without a profile
       type(profile_t) :: pin    !! of the journal
    end type worn_pair_t
 
@@ -69,25 +69,31 @@ contains
       profile%volume = volume
       allocate (profile%c(0:degree, size(volume)))
       call fit_histospline(volume/(length*profile%width), profile%c)
-      profile%starts = [(place(k - 1.0_wp), k=1, size(volume))]
-      allocate (profile%points(n_gauss, size(volume)))
-      do k = 1, size(volume)
-         profile%points(:, k) = [(place(k - 1 + gauss_places(g)), g=1, n_gauss)]
-      end do
-
-   contains
-
-      !> A place, in cells from the x axis.
-      pure type(place_t) function place(x)
-         real(wp), intent(in) :: x   !! [1]
-
-         type(depth_t) :: depth
-
-         depth = profile%at(x*profile%width, min(floor(x), size(volume) - 1))
-         place = place_t([cos(x*profile%width), sin(x*profile%width)], depth%h, depth%slope)
-      end function place
-
+      associate (n => size(volume))
+         call take_places(profile, [(real(k - 1, wp), k=1, n)], [(k - 1, k=1, n)], profile%starts)
+         call take_places(profile, [((k - 1 + three_places(g), g=1, n_three), k=1, n)], [((k - 1, g=1, n_three), k=1, n)], &
+                          profile%points)
+      end associate
    end subroutine new_profile
+
+   !> Places of a profile.
+   pure subroutine take_places(profile, x, cell, places)
+      type(profile_t), intent(in) :: profile   !! the profile, fitted
+      real(wp), intent(in) :: x(:)             !! (n) where they are, in cells from the x axis [1]
+      integer, intent(in) :: cell(:)           !! (n) cells they are in, from 0
+      type(places_t), intent(out) :: places    !! the places
+
+      type(depth_t) :: depth
+      integer :: k
+
+      allocate (places%u(size(x), 2), places%h(size(x)), places%slope(size(x)))
+      do k = 1, size(x)
+         depth = profile%at(x(k)*profile%width, cell(k))
+         places%u(k, :) = [cos(x(k)*profile%width), sin(x(k)*profile%width)]
+         places%h(k) = depth%h
+         places%slope(k) = depth%slope
+      end do
+   end subroutine take_places
 
    !> Whether there is no profile.
    pure logical function profile_is_round(self)
