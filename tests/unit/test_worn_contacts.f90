@@ -106,7 +106,7 @@ contains
       integer :: k
 
       random%state = 3_i8
-      call new_pair(90, 0.0_wp, 1_i8, pair)
+      call new_pair(360, 0.0_wp, 1_i8, pair)
       do k = 1, 60
          delta = 10.0_wp**random%between(-10.0_wp, -4.0_wp)
          if (modulo(k, 3) == 0) delta = -random%between(0.0_wp, 0.9_wp)*clearance
