@@ -133,10 +133,15 @@ contains
                m = m + 1
                joints(m)%s = surfaces(k)%joint
                sides(m)%s = surfaces(k)%side
-               columns(m, :) = [life%nodes(j)%cycles, life%nodes(j)%cycles*life%plan%cycle, &
-                                [([life%nodes(j)%measures(i, k), max(life%nodes(j)%measures(i, k) - half(i, k), 0.0_wp), &
-                                   life%nodes(j)%measures(i, k) + half(i, k)], i=1, n_measure)], &
-                                low(measure_depth, k), high(measure_depth, k)]
+               columns(m, 1) = life%nodes(j)%cycles
+               columns(m, 2) = life%nodes(j)%cycles*life%plan%cycle
+               do i = 1, n_measure
+                  columns(m, 3*i) = life%nodes(j)%measures(i, k)
+                  columns(m, 3*i + 1) = max(life%nodes(j)%measures(i, k) - half(i, k), 0.0_wp)
+                  columns(m, 3*i + 2) = life%nodes(j)%measures(i, k) + half(i, k)
+               end do
+               columns(m, 3*n_measure + 3) = low(measure_depth, k)
+               columns(m, 3*n_measure + 4) = high(measure_depth, k)
             end do
          end do
       end associate
@@ -146,11 +151,10 @@ contains
       call table%put("joint", "1", "joint of the surface", texts=joints, formats=in_csv + in_hdf5)
       call table%put("surface", "1", "bearing or journal", texts=sides, formats=in_csv + in_hdf5)
       do i = 1, n_measure
-         associate (name => trim(measure_names(i)), unit => trim(measure_units(i)), at => 3*i)
-            call put(name, unit, measure_help(i), at)
-            call put(name//"_low", unit, "lower end of its 95 % interval of numerical errors", at + 1)
-            call put(name//"_high", unit, "upper end of it", at + 2)
-         end associate
+         call put(trim(measure_names(i)), trim(measure_units(i)), measure_help(i), 3*i)
+         call put(trim(measure_names(i))//"_low", trim(measure_units(i)), &
+                  "lower end of its 95 % interval of numerical errors", 3*i + 1)
+         call put(trim(measure_names(i))//"_high", trim(measure_units(i)), "upper end of it", 3*i + 2)
       end do
       call put("depth_spread_low", "m", "lower end of the 95 % range of depth_max by the wear coefficient", 3*n_measure + 3)
       call put("depth_spread_high", "m", "upper end of it; NaN: not followed so far", 3*n_measure + 4)
