@@ -74,7 +74,7 @@ contains
             rates(:n, k) = rate/n*(1.0_wp + self%random%between(-self%noise, self%noise))
          end do
          rates(size(rates, 1) - 1:, :) = 2.0_wp*pi*shaft
-         values = rate/self%first
+         values = 1.0_wp/(1.0_wp + sum(surfaces(1)%volume)/self%half_volume)
       end associate
    end subroutine find_slowing
 
@@ -149,11 +149,13 @@ contains
       real(wp), intent(in), optional :: e      !! depth [m]
       type(worn_surface_t) :: surfaces(2)      !! both
 
-      surfaces%joint = "pin"
+      surfaces(1)%joint = "pin"
+      surfaces(2)%joint = "pin"
       surfaces(1)%side = "bearing"
       surfaces(2)%side = "journal"
-      surfaces(2)%is_hole = .false.
+      surfaces%is_hole = [.true., .false.]
       surfaces%length = length
+      surfaces%distance = 0.0_wp
       surfaces(1)%radius = radius
       surfaces(2)%radius = shaft
       allocate (surfaces(1)%volume(n), surfaces(2)%volume(n), source=0.0_wp)
@@ -169,8 +171,8 @@ contains
       plan%tolerance = tolerance
       plan%cycle = 2.0_wp
       if (present(starts)) plan%starts = starts
-      plan%clearances = [radius - shaft]
-      plan%spreads = [1.0_wp, 1.0_wp]
+      allocate (plan%clearances(1), source=radius - shaft)
+      allocate (plan%spreads(2), source=1.0_wp)
       allocate (plan%ends%extremes(0))
    end function plan_of
 

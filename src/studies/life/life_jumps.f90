@@ -5,15 +5,21 @@
 !> predictor   x* = x_n + J v_n + J^2 (v_n - v_(n-1))/(2 J_(n-1)),   of the first jump  x* = x_n + J v_n
 !> corrector   x_(n+1) = x_n + J (v_n + v(x*))/2
 !>
-!> The rates v(x*) are those of the next start, so that a jump costs one simulation. The method is of second order (the first jump
-!> is Heun's). Its local error follows from the difference of both formulas,
+!> With an ensemble all predictors are that of the first jump: the difference of two rates that scatter says little. The rates v(x*)
+!> are those of the next start, so that a jump costs one simulation. The method is of second order (the first jump is Heun's). Its
+!> local error follows from the difference of the corrector and the first predictor,
 !>
-!> e = -(x_(n+1) - x*)/(3 (1 + J_(n-1)/J)),   of the first jump the difference itself.
+!> e = -(x_(n+1) - x*)/(3 (1 + J_(n-1)/J)),   of the first jump the difference from x* itself.
 !>
-!> A jump is accepted if e, as depth, is at most  tolerance times what the jump adds to the depth, plus `depth_tolerance`,  for each
-!> surface; else it is made again with fewer cycles. So the depth at the end has about the relative error `tolerance`. What the
-!> scatter between starts explains of e (two standard errors) is not counted: shorter jumps would not reduce it. A jump over the
-!> measured cycles is always accepted: it is the simulation.
+!> A jump is accepted if e, as depth, is for each surface at most
+!>
+!> g (tolerance + depth_tolerance/(h + g)),   g what the jump adds to the maximum depth h,
+!>
+!> wherever the depth exceeds h/2 (at the ends of an arc, which move, cells are worn in part, and their errors have both signs), and
+!> if J |v(x*) - v_n|/2, on average over the surface, is at most a tenth of what the jump adds on average; else it is made again
+!> with fewer cycles. So the depth at the end has about the relative error `tolerance`, and in any case some `depth_tolerance`.
+!> What the scatter between starts explains of both (two standard errors) is not counted: shorter jumps would not reduce it. A jump
+!> over the measured cycles is always accepted: it is the simulation.
 !> Volumes are sums of rates, so that nothing is lost: the volume is what all cycles take, by the trapezoidal rule.
 !>
 !> Within a jump rates are linear in N. Source: E. Hairer, S. P. Norsett, G. Wanner, Solving Ordinary Differential Equations I, 2nd
@@ -38,6 +44,8 @@ module life_jumps
    real(wp), parameter :: careful = 0.9_wp          !! part of the jump that would just be accepted [1]
    real(wp), parameter :: no_error = 1.0e-6_wp      !! part of what is allowed that limits no jump [1]
    real(wp), parameter :: explained = 2.0_wp        !! standard errors of an error that scatter explains [1]
+   real(wp), parameter :: deep = 0.5_wp             !! part of the maximum depth above which errors of cells count [1]
+   real(wp), parameter :: most_change = 0.1_wp      !! mean of J |v(x*) - v_n|/2 over that of what the jump adds, at most [1]
 
    !> Where the life is.
    type :: march_t
@@ -215,6 +223,7 @@ contains
       change = jump*march%rates
       if (march%last > 0.0_wp) change = change + (0.5_wp*jump**2/march%last)*(march%rates - march%before)
       trial%place = march%x + max(mean_of(change), 0.0_wp)
+      if (life%plan%starts > 1) trial%place = march%x + jump*mean_of(march%rates)
       trial%rates = march%rates
       trial%values = march%values
       call source%find(life%state%worn(trial%place), life%simulated + 1, 1, trial%rates, trial%values, error)
@@ -227,36 +236,63 @@ contains
       share = 1.0_wp
       if (march%last > 0.0_wp) share = -1.0_wp/(3.0_wp*(1.0_wp + march%last/jump))
       trial%local = share*(0.5_wp*jump*(march%rates + trial%rates) - change)
-      trial%ratio = error_ratio(life, march%x, 0.5_wp*jump*(mean_of(march%rates) + mean_of(trial%rates)), trial%local)
+      change = 0.5_wp*jump*(trial%rates - march%rates)
+      trial%ratio = error_ratio(life, march%x, 0.5_wp*jump*(mean_of(march%rates) + mean_of(trial%rates)), trial%local, change)
    end subroutine try_jump
 
-   !> Maximum over the surfaces of the error of depth over what is allowed.
-   real(wp) function error_ratio(life, x, gain, local) result(ratio)
+   !> Maximum over the surfaces of the error of depth, and of the change of the rates, over what is allowed. The change falls as J,
+   !> the error over what is added as J^2: the square of the first stands beside the second.
+   real(wp) function error_ratio(life, x, gain, local, change) result(ratio)
       type(life_t), intent(in) :: life       !! the life
       real(wp), intent(in) :: x(:)           !! (n) where the jump starts [m^3, m]
       real(wp), intent(in) :: gain(:)        !! (n) what it adds [m^3, m]
       real(wp), intent(in) :: local(:, :)    !! (n, starts) its local errors [m^3, m]
+      real(wp), intent(in) :: change(:, :)   !! (n, starts) what the change of the rates makes [m^3, m]
 
-      real(wp), allocatable :: added(:), errors(:, :), mean(:), scatter(:)
-      integer :: k, m
+      type(worn_surface_t), allocatable :: surfaces(:)
+      real(wp), allocatable :: added(:), errors(:)
+      real(wp) :: most
+      integer :: k
 
       ratio = 0.0_wp
-      do k = 1, size(life%state%surfaces)
-         associate (n => size(life%state%surfaces(k)%volume), starts => size(local, 2))
-            allocate (added(n), errors(n, starts))
-            call life%state%smooth_depths(k, x + gain, gain, added)
-            do m = 1, starts
-               call life%state%smooth_depths(k, x + gain, local(:, m), errors(:, m))
-            end do
-            mean = mean_of(errors)
-            allocate (scatter(n), source=0.0_wp)
-            if (starts > 1) scatter = sqrt(sum((errors - spread(mean, 2, starts))**2, dim=2)/(starts*(starts - 1.0_wp)))
-            ratio = max(ratio, maxval(abs(mean) - explained*scatter)/ &
-                        (life%plan%tolerance*maxval(added) + life%plan%depth_tolerance))
-            deallocate (added, errors, scatter)
-         end associate
+      surfaces = life%state%worn(x)
+      do k = 1, size(surfaces)
+         allocate (added(size(surfaces(k)%volume)))
+         call life%state%smooth_depths(k, x + gain, gain, added)
+         most = maxval(added)
+         if (most > 0.0_wp) then
+            associate (depths => surfaces(k)%depths() + added)
+               errors = merge(unexplained(life, k, x + gain, local), 0.0_wp, depths > deep*maxval(depths))
+               ratio = max(ratio, maxval(errors)/(most*(life%plan%tolerance + life%plan%depth_tolerance/maxval(depths))))
+            end associate
+            errors = unexplained(life, k, x + gain, change)
+            ratio = max(ratio, (sum(errors)/(most_change*sum(added)))**2)
+         end if
+         deallocate (added)
       end do
    end function error_ratio
+
+   !> Depths of a change of a surface, less what the scatter between starts explains.
+   function unexplained(life, k, x, change) result(errors)
+      type(life_t), intent(in) :: life       !! the life
+      integer, intent(in) :: k               !! number of the surface
+      real(wp), intent(in) :: x(:)           !! (n) where [m^3, m]
+      real(wp), intent(in) :: change(:, :)   !! (n, starts) the change [m^3, m]
+
+      real(wp) :: errors(size(life%state%surfaces(k)%volume))   !! (cells) magnitudes [m]
+
+      real(wp) :: depths(size(errors), size(change, 2)), scatter(size(errors))
+      integer :: m
+
+      do m = 1, size(change, 2)
+         call life%state%smooth_depths(k, x, change(:, m), depths(:, m))
+      end do
+      scatter = 0.0_wp
+      associate (n => size(change, 2))
+         if (n > 1) scatter = sqrt(sum((depths - spread(mean_of(depths), 2, n))**2, dim=2)/(n*(n - 1.0_wp)))
+      end associate
+      errors = max(abs(mean_of(depths)) - explained*scatter, 0.0_wp)
+   end function unexplained
 
    !> Take a jump; a limit that it crosses ends the life there.
    subroutine take_jump(life, march, jump, trial)
