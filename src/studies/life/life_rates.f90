@@ -42,7 +42,7 @@ contains
       integer :: k
 
       one = job
-      one%scene%worn = surfaces
+      one%scene%worn = [surfaces, others(job%scene%worn, surfaces)]
       one%levels = levels_as_written
       one%perturbed%start = start
       one%limits%wear_from = span%from
@@ -74,6 +74,26 @@ contains
          values(k) = merge(keeper%maximum(k), keeper%minimum(k), plan%ends%extremes(k)%is_above)
       end do
    end subroutine simulate
+
+   !> Surfaces that are worn at the start of the deck and do not wear: their joints have no wear law.
+   function others(given, surfaces) result(list)
+      type(worn_surface_t), allocatable, intent(in) :: given(:)   !! (any) worn at the start; unallocated: none
+      type(worn_surface_t), intent(in) :: surfaces(:)             !! (n) those that wear
+      type(worn_surface_t), allocatable :: list(:)                !! (any) the others
+
+      integer :: i, k
+      logical :: wears
+
+      allocate (list(0))
+      if (.not. allocated(given)) return
+      do i = 1, size(given)
+         wears = .false.
+         do k = 1, size(surfaces)
+            wears = wears .or. surfaces(k)%joint == given(i)%joint
+         end do
+         if (.not. wears) list = [list, given(i)]
+      end do
+   end function others
 
    !> Surfaces in the order of others: groups of bodies that are integrated apart have an order of their own.
    function in_order(surfaces, others) result(list)
