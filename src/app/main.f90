@@ -13,6 +13,7 @@ program gudgeon
    use verb_compare, only: compare_runs
    use verb_import, only: import_model
    use verb_help, only: list_kinds, show_help, show_version
+   use verb_life, only: live_deck
    use verb_merge, only: merge_sweep
    use verb_new, only: new_deck
    use verb_precision, only: compare_precision
@@ -41,6 +42,8 @@ program gudgeon
          call sweep_deck(options, error)
       case ("merge")
          call merge_sweep(options, error)
+      case ("life")
+         call live_deck(options, error)
       case ("precision")
          call compare_precision(options, error)
       case ("compare")

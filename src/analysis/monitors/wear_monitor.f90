@@ -92,6 +92,7 @@ contains
                associate (profiles => set%items%pairs(set%item_of(i))%worn)
                   if (.not. profiles%hole%is_round()) monitor%worn(m)%volume(:, of_bearing) = profiles%hole%volume
                   if (.not. profiles%pin%is_round()) monitor%worn(m)%volume(:, of_journal) = profiles%pin%volume
+                  monitor%worn(m)%distance = profiles%distance
                end associate
             end do
          end associate

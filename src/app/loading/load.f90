@@ -16,6 +16,7 @@ module load
    use item, only: item_t, location_t, place_of
    use jobs, only: job_t
    use joint_level, only: make_ideal
+   use life_times, only: check_life
    use legacy_way, only: take_legacy_way
    use kind_info, only: kind_info_t
    use kinds, only: wp
@@ -130,6 +131,7 @@ contains
       end if
       call check_steps(loaded%scene%settings%integration, mistakes)
       call new_time_plan(loaded%scene, loaded%system, loaded%plan, mistakes)
+      if (loaded%scene%settings%life%is_present) call check_life(loaded%scene, loaded%system, mistakes)
       if (mistakes%count() == 0) call check_function_ranges(loaded%scene, loaded%plan%end, mistakes)
       if (has_all_words) then
          if (.not. options%runs%has_known_words) then

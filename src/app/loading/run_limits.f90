@@ -5,7 +5,7 @@ module run_limits
    use channels, only: list_scalars, match_word, selection_t
    use dimension_text, only: dimension_name
    use diagnostics, only: diagnostics_t
-   use item, only: condition_t, place_of
+   use item, only: condition_t, item_t, place_of
    use kind_info, only: dim_none, dim_t, same_dimension
    use run_audit, only: limits_t
    use scene, only: analysis_dynamic, analysis_kinematic, scene_t
@@ -13,7 +13,7 @@ module run_limits
    use units, only: parse_unit, unit_t
    implicit none (type, external)
    private
-   public :: check_conditions, has_conditions, limits_of
+   public :: check_conditions, find_scalars, has_conditions, limits_of, words_of
 
 contains
 
@@ -48,16 +48,28 @@ contains
       end associate
    end subroutine limits_of
 
-   !> Whether a scene has conditions that end a run.
+   !> Whether a scene has conditions that end a run, or a life.
    pure logical function has_conditions(scene)
       type(scene_t), intent(in) :: scene              !! the scene
 
       has_conditions = size(scene%settings%guards%values(place_of(scene%settings%guards, "stop"))%conditions) > 0
+      if (.not. scene%settings%life%is_present) return
+      has_conditions = has_conditions .or. size(scene%settings%life%values(place_of(scene%settings%life, "stop"))%conditions) > 0
    end function has_conditions
 
-   !> Conditions must name one number of a channel of the scene, and compare it with a number of its dimension.
+   !> Check all conditions of a scene.
    subroutine check_conditions(scene, catalogue, mistakes)
       type(scene_t), intent(in) :: scene              !! the scene
+      type(catalogue_t), intent(in) :: catalogue      !! what its clearance joints can report
+      type(diagnostics_t), intent(inout) :: mistakes  !! errors found
+
+      call check_section(scene%settings%guards, catalogue, mistakes)
+      if (scene%settings%life%is_present) call check_section(scene%settings%life, catalogue, mistakes)
+   end subroutine check_conditions
+
+   !> Conditions must name one number of a channel of the scene, and compare it with a number of its dimension.
+   subroutine check_section(section, catalogue, mistakes)
+      class(item_t), intent(in) :: section            !! the section
       type(catalogue_t), intent(in) :: catalogue      !! what its clearance joints can report
       type(diagnostics_t), intent(inout) :: mistakes  !! errors found
 
@@ -66,7 +78,7 @@ contains
       character(:), allocatable :: hint, message
       integer :: k
 
-      associate (conditions => scene%settings%guards%values(place_of(scene%settings%guards, "stop"))%conditions)
+      associate (conditions => section%values(place_of(section, "stop"))%conditions)
          do k = 1, size(conditions)
             call find_scalars(conditions(k), catalogue, scalars, message, hint)
             if (message /= "") then
@@ -80,7 +92,7 @@ contains
                               " is expected")
          end do
       end associate
-   end subroutine check_conditions
+   end subroutine check_section
 
    !> The number that the channel of a condition names.
    subroutine find_scalars(condition, catalogue, scalars, message, hint)

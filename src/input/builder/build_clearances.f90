@@ -281,6 +281,7 @@ contains
             do i = 1, size(worn)
                if (worn(i)%joint /= set%names(k)%s) cycle
                if (.not. allocated(pair%worn)) allocate (pair%worn)
+               pair%worn%distance = max(pair%worn%distance, worn(i)%distance)
                if (worn(i)%side == side_names(of_bearing)) then
                   call new_profile(pair%worn%hole, .true., pair%radius_i, pair%length, worn(i)%volume)
                else

@@ -171,6 +171,7 @@ contains
 
       call read_if_there(kind_named("statistics", .false.), sections%statistics)
       call read_if_there(kind_named("ensemble", .false.), sections%ensemble)
+      call read_if_there(kind_named("life", .false.), sections%life)
       call read_section(deck, kind_named("precision", .false.), sections%precision, diagnostics)
       if (sections%precision%is_present) call check_precision(sections%precision%item_t, diagnostics)
 

@@ -56,7 +56,8 @@ module scene
       logical :: is_present = .false.                !! whether the deck has it
    end type section_t
 
-   !> What a deck sets. `kinematic`, `statistics` and `ensemble` have values only if the deck has them, the others have defaults.
+   !> What a deck sets. `kinematic`, `statistics`, `ensemble` and `life` have values only if the deck has them,
+   !> the others have defaults.
    type :: settings_t
       type(section_t) :: header                       !! of the scene itself
       logical :: is_spatial = .false.                 !! whether bodies move in space, not in the plane x, y
@@ -69,6 +70,7 @@ module scene
       type(section_t) :: output                       !! what is written
       type(section_t) :: statistics                   !! numbers of the motion after its transient
       type(section_t) :: ensemble                     !! runs from perturbed starts
+      type(section_t) :: life                         !! wear over many cycles
       type(section_t) :: precision                    !! settings of an integration to be compared
    end type settings_t
 

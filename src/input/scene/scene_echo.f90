@@ -39,6 +39,7 @@ contains
       call add_section(.true., scene%settings%output)
       call add_section(scene%settings%statistics%is_present, scene%settings%statistics)
       call add_section(scene%settings%ensemble%is_present, scene%settings%ensemble)
+      call add_section(scene%settings%life%is_present, scene%settings%life)
       call add_section(scene%settings%precision%is_present, scene%settings%precision)
 
    contains

@@ -46,6 +46,11 @@ contains
          do k = 1, most_iterations
             delta = min(delta, most)
             call moment_of(pair, delta, here, slope, bend)
+            if (.not. here > 0.0_wp) then  ! e does not resolve the penetration: M goes as its power 1/0.4
+               slope = moment/(power*delta)
+               bend = (1.0_wp/power - 1.0_wp)*slope/delta
+               return
+            end if
             ratio = (moment/here)**power
             step = (ratio - 1.0_wp)*here/(power*slope)
             if (delta + step > most .and. delta >= most) exit

@@ -42,6 +42,7 @@ module surface_profile
    type :: worn_pair_t
       type(profile_t) :: hole   !! of the bearing; never without a profile
       type(profile_t) :: pin    !! of the journal
+      real(wp) :: distance = 0.0_wp   !! that the surfaces have slid on each other before the start [m]
    end type worn_pair_t
 
    !> Depth at a place.

@@ -31,6 +31,7 @@ module wear_law
       real(wp) :: first_coefficient(n_side) = 0.0_wp    !! (2) k_0, of new surfaces [m^2/N]
       real(wp) :: running_in = 0.0_wp                   !! s_0; 0: none [m]
       real(wp) :: threshold = 0.0_wp                    !! pressure below which nothing wears [Pa]
+      real(wp) :: spread = 1.0_wp                       !! factor of k that bounds its 95 % range, up and down; 1: k is known [1]
       real(wp) :: cells = 0.0_wp                        !! cells of each circumference, a whole number [1]
    contains
       procedure(info_interface), nopass, deferred :: info
@@ -72,6 +73,9 @@ contains
       call add_number(info, "bearing_first", dim_wear, "wear coefficient of the surface of i where it is new; read "// &
                       "with running_in", default="0 m^2/N", lower=0.0_wp)
       call add_number(info, "journal_first", dim_wear, "the same of the surface of j", default="0 m^2/N", lower=0.0_wp)
+      call add_number(info, "spread", dim_none, "uncertainty of the wear coefficients, for `gudgeon life`: they lie between " &
+                      //"k/spread and k spread with a probability of 95 %, as a lognormal number; both surfaces together", &
+                      default="1", lower=1.0_wp, upper=1000.0_wp)
       call add_number(info, "cells", dim_none, "cells of each circumference, whose worn volumes are kept", default="360", &
                       lower=8.0_wp, upper=36000.0_wp)
    end subroutine add_wear_columns
@@ -86,6 +90,7 @@ contains
       self%first_coefficient = [item%number("bearing_first"), item%number("journal_first")]
       self%running_in = item%number("running_in")
       self%threshold = item%number("threshold")
+      self%spread = item%number("spread")
       self%cells = item%number("cells")
    end subroutine wear_prepare
 

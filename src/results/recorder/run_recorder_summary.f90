@@ -26,7 +26,7 @@ contains
       associate (summary => self%summary, outcome => self%outcome)
          if (.not. self%plan%with%summary .and. self%plan%show == show_nothing) return
          lines = summary_lines(self%plan, summary, outcome)
-         json = summary_json(self%plan, outcome)
+         json = summary_json(self%plan, self%summary, outcome)
          if (self%plan%with%report) then
             call replace_file(self%plan%directory//"/"//report_name, &
                               report_text(self%plan, summary, outcome, self%figures, lines), error)
@@ -53,7 +53,8 @@ contains
       if (.not. any([(is_of_run(self%figures(k)), k=1, size(self%figures))])) return
       outcome = self%outcome
       call append_text(outcome%warnings, "the run ended before its figures were drawn")
-      call replace_summaries(self, summary_lines(self%plan, self%summary, outcome), summary_json(self%plan, outcome), error)
+      call replace_summaries(self, summary_lines(self%plan, self%summary, outcome), &
+                             summary_json(self%plan, self%summary, outcome), error)
    end procedure write_without_figures
 
    !> Write both summaries, whole.

@@ -19,6 +19,7 @@ module summary_writer
    use text_buffer, only: buffer_t
    use text_of_table, only: add_table
    use text_table, only: one_line
+   use wear_object, only: put_wear_of_run
    implicit none (type, external)
    private
    public :: accuracy_lines, complete_summary, cost_lines, headline, outcome_t, summary_json, summary_lines
@@ -167,8 +168,9 @@ contains
    end subroutine accuracy_lines
 
    !> The summary for scripts.
-   function summary_json(plan, outcome) result(text)
+   function summary_json(plan, summary, outcome) result(text)
       type(output_plan_t), intent(in) :: plan      !! what is known of the run
+      type(summary_t), intent(in) :: summary       !! cost and errors of the run
       type(outcome_t), intent(in) :: outcome       !! what the run left behind
       character(:), allocatable :: text            !! one object
 
@@ -185,6 +187,7 @@ contains
       call json%put_integer("degrees_of_freedom", int(plan%n_freedom, i8))
       call json%put_real("assembly_moved", plan%moved)
       call put_tables(json, outcome%tables)
+      if (allocated(summary%worn)) call put_wear_of_run(json, summary%worn, summary%time_end - summary%time_start)
       call json%put_list("files", outcome%files)
       if (plan%with%csv) call json%put_list("csv", outcome%csv)
       if (plan%with%worn_stl > 0.0_wp) call json%put_list("stl", outcome%solids)

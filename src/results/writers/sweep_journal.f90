@@ -1,14 +1,12 @@
 !> The journal of a sweep: what it is of, and what every run gave, each written as soon as the run has ended.
 !>
 !> It is the memory of a sweep that was killed: a later one of the same model takes from here what is done. And it is what the
-!> parts of a sweep leave behind for `gudgeon merge`. It starts with a line that says what it is, then come blocks: four
-!> characters, the number of bytes, their checksum, the bytes, the four characters again. A block that was cut off or damaged does
-!> not count, and neither does what comes after it: those runs are made again.
+!> parts of a sweep leave behind for `gudgeon merge`. It starts with a line that says what it is, then come blocks
+!> (`journal_blocks`). Runs whose block is damaged, or comes after such a block, are made again.
 module sweep_journal
-   use checksum, only: add_rows
    use errors, only: error_t
    use file_store, only: kept_file_t
-   use, intrinsic :: iso_fortran_env, only: int8
+   use journal_blocks, only: block_of, next_block, tag_length
    use kinds, only: i8
    use member_result, only: member_result_t
    use packed, only: packer_t, unpacker_t
@@ -17,14 +15,13 @@ module sweep_journal
    use text_file, only: replace_file, text_file_t
    implicit none (type, external)
    private
-   public :: differences, journal_name, journal_t, origin_of_sweep_t, run_record_t
+   public :: differences, journal_name, journal_t, origin_of_sweep_t, packed_origin, run_record_t, unpack_origin
 
    character(*), parameter :: journal_name = "sweep.runs"                 !! file in the directory
    character(*), parameter :: first_line = "gudgeon runs of a sweep, format 2"//new_line("a")
-   character(*), parameter :: tag_head = "head"     !! block: what the sweep is of
-   character(*), parameter :: tag_run = "run "      !! block: a run
-   character(*), parameter :: tag_end = "end "      !! block: the results were written
-   integer, parameter :: tag_length = 4             !! characters
+   character(tag_length), parameter :: tag_head = "head"     !! block: what the sweep is of
+   character(tag_length), parameter :: tag_run = "run "      !! block: a run
+   character(tag_length), parameter :: tag_end = "end "      !! block: the results were written
    integer, parameter :: largest_code = 255         !! exit code of a process
    integer(i8), parameter :: largest_journal = 2000000000_i8  !! bytes that are read
 
@@ -112,31 +109,6 @@ contains
       end do
    end function count_runs
 
-   !> The next block; .false.: there is none, or it was cut off.
-   logical function next_block(bytes, at, tag, block) result(is_there)
-      character(*), intent(in) :: bytes                   !! of the journal
-      integer, intent(inout) :: at                        !! bytes before the block; after it on return
-      character(:), allocatable, intent(out) :: tag       !! what it is
-      type(unpacker_t), intent(out) :: block              !! what it holds
-
-      integer(i8) :: length, sum
-      integer :: first
-
-      is_there = .false.
-      first = at + tag_length + 16
-      if (first > len(bytes)) return
-      tag = bytes(at + 1:at + tag_length)
-      length = transfer(bytes(at + tag_length + 1:first - 8), length)
-      sum = transfer(bytes(first - 7:first), sum)
-      if (length < 0 .or. first + length + tag_length > len(bytes)) return
-      if (sum_of(tag, bytes(first + 1:first + int(length))) /= sum) return
-      at = first + int(length)
-      if (bytes(at + 1:at + tag_length) /= tag) return
-      block%bytes = bytes(first + 1:at)
-      at = at + tag_length
-      is_there = .true.
-   end function next_block
-
    !> Write what the journal is of and the runs that it has, whole, before more come.
    subroutine begin_journal(self, directory, error)
       class(journal_t), intent(inout) :: self            !! the journal, its origin and runs are set
@@ -171,24 +143,6 @@ contains
 
       call self%file%append(block_of(tag_end, ""), error)
    end subroutine end_journal
-
-   !> A block.
-   function block_of(tag, bytes) result(block)
-      character(*), intent(in) :: tag         !! what it is
-      character(*), intent(in) :: bytes       !! what it holds
-      character(:), allocatable :: block      !! all of it
-
-      block = tag//transfer(len(bytes, i8), "12345678")//transfer(sum_of(tag, bytes), "12345678")//bytes//tag
-   end function block_of
-
-   !> The checksum of a block.
-   integer(i8) function sum_of(tag, bytes) result(sum)
-      character(*), intent(in) :: tag         !! what it is
-      character(*), intent(in) :: bytes       !! what it holds
-
-      sum = len(bytes, i8)
-      call add_rows(sum, transfer(tag//bytes, [0_int8]), len(tag) + len(bytes))
-   end function sum_of
 
    !> What a run gave, as bytes.
    pure function packed_run(run) result(bytes)
