@@ -97,7 +97,7 @@ contains
       call lines%line("solid "//name)
       do i = 1, n
          from = 2.0_wp*pi*(i - 1)/n
-         to = 2.0_wp*pi*i/n
+         to = 2.0_wp*pi*modulo(i, n)/n   ! the last corner is the first one, to the digit
          r = [radii(i), radii(modulo(i, n) + 1)]
          if (surface%is_hole) then
             call face(at(r(1), from, 0.0_wp), at(r(1), from, top), at(r(2), to, top), at(r(2), to, 0.0_wp))
