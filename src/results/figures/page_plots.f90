@@ -1,8 +1,8 @@
 !> Histories beside an animation: the curves of the deck's figures over its window, thinned for the page. Each ordinate of each
 !> panel is a plot, in the unit of the figure; of a narrow one what is beyond a round value, as there.
 !>
-!> Of a curve with more points than the page shows, the minimum and the maximum of each of equal parts of the window stay, each at
-!> its time: no peak is lost.
+!> Of a curve with more points than the page shows, its ends and the minimum and the maximum of each of equal parts of the window
+!> stay, each at its time: no peak is lost.
 module page_plots
    use catalogue, only: catalogue_t
    use curve_panels, only: make_panel, panel_t
@@ -113,9 +113,11 @@ contains
       type(error_t), allocatable, intent(out) :: error      !! the rows cannot be read
 
       type(row_reader_t) :: reader
-      real(wp) :: low(2, n_part), high(2, n_part), point(2)
+      real(wp) :: ends(2, 2), low(2, n_part), high(2, n_part), point(2)
       integer :: k, n, r
+      logical :: has_any
 
+      has_any = .false.
       low(2, :) = huge(1.0_wp)
       high(2, :) = -huge(1.0_wp)
       call reader%open(folder, curve, error)
@@ -125,23 +127,39 @@ contains
          if (allocated(error)) return
          if (any(ieee_is_nan(point)) .or. point(1) < window(1)) cycle
          if (point(1) > window(2)) exit
+         if (.not. has_any) ends(:, 1) = point
+         has_any = .true.
+         ends(:, 2) = point
          k = 1
          if (window(2) > window(1)) k = min(n_part, 1 + int(n_part*(point(1) - window(1))/(window(2) - window(1))))
          if (point(2) < low(2, k)) low(:, k) = point
          if (point(2) > high(2, k)) high(:, k) = point
       end do
       call reader%close()
-      allocate (points(2, 2*n_part))
+      allocate (points(2, 2*n_part + 2))
       n = 0
       do k = 1, n_part
          if (low(2, k) > high(2, k)) cycle
-         n = n + 1
-         points(:, n) = merge(low(:, k), high(:, k), low(1, k) <= high(1, k))
-         if (abs(high(1, k) - low(1, k)) <= 0.0_wp) cycle
-         n = n + 1
-         points(:, n) = merge(high(:, k), low(:, k), low(1, k) <= high(1, k))
+         if (n == 0) call append(ends(:, 1))
+         call append(merge(low(:, k), high(:, k), low(1, k) <= high(1, k)))
+         call append(merge(high(:, k), low(:, k), low(1, k) <= high(1, k)))
       end do
+      if (n > 0) call append(ends(:, 2))
       points = points(:, :n)
+
+   contains
+
+      !> One more point, unless it is the last again.
+      subroutine append(next)
+         real(wp), intent(in) :: next(2)    !! (2) time and value [s, any]
+
+         if (n > 0) then
+            if (all(abs(points(:, n) - next) <= 0.0_wp)) return
+         end if
+         n = n + 1
+         points(:, n) = next
+      end subroutine append
+
    end subroutine read_thinned
 
 end module page_plots
