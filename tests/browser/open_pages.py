@@ -51,6 +51,14 @@ GUIDE = """found.corners=[];found.walls=[];found.times=[];for(let k=0;k<N;k++){s
 found.corners.push(z.querySelector('polygon').getAttribute('points').split(' ').map(q=>q.split(',').map(Number)));
 found.walls.push([...z.querySelectorAll('.wall')].map(p=>+p.getAttribute('d').match(/M0 ([0-9.e-]+)H/)[1]));found.times.push(times[k])}"""
 
+# the journal in its clearance at rows between two positions, in pixels; a plot of round-off; speeds
+INSET = """found.inset=[];for(let k=4;k<80;k+=8){const t=track.t[Math.floor(k*track.t.length/80)];seek(t);cursors[0](true);
+const c=document.querySelectorAll('.orbit circle')[1];found.inset.push([t,c.getAttribute('cx')-210,200-c.getAttribute('cy')])}
+const svg=element(160);timePlot(svg,{title:'flat',unit:'N',curves:[{n:'f',x:times,y:Array.from(times,(t,k)=>2000+1e-4*(k%2))}]})(true);
+found.flat=svg.querySelector('polyline').getAttribute('points').split(' ').map(p=>+p.split(',')[1]);
+found.labels=[...svg.querySelectorAll('text')].filter(t=>t.textContent=='2000').length;found.speeds=[...$('speed').options].map(o=>[o.text,+o.value]);
+found.per=+$('speed').value*6/span"""
+
 
 def page_of(program, directory, name, changes=(), env=None):
     """A deck's animation, and beside it the page of its run."""
@@ -76,7 +84,7 @@ def check_page(name, path, found):
     assert found["stepped"][0] != found["start"][0] and found["stepped"][2] != found["start"][2], f"{name}: a step shows nothing new"
     assert found["back"][0] == found["start"][0] and found["back"][2] == found["start"][2], f"{name}: back is not where it was"
     assert found["traced"][0] != found["start"][0] or not found["moves"], f"{name}: no trace"
-    assert found["n"] == 24 and found["last"][2] != found["start"][2] and found["playing"] == "stop", name
+    assert found["n"] in (24, 25) and found["last"][2] != found["start"][2] and found["playing"] == "stop", name
     assert found["plots"] > 0 and "polyline" in found["start"][1] and "NaN" not in found["start"][1] + found["last"][1], f"{name}: no plots"
     assert len({view["sum"] for view in found["views"]}) == len(found["views"]) and all(found["names"]), f"{name}: views are the same"
     assert found["wide"] <= 0, f"{name}: wider than the window"
@@ -110,6 +118,21 @@ def check_guide(directory, seen):
     assert touched > 0
 
 
+def check_inset(directory, seen):
+    """The journal lies where the row of the run has it, also between two positions; round-off is a flat line; speeds are round."""
+    with h5py.File(directory / "slider_crank_dry" / "run.h5") as file:
+        times, eccentricity = file["time"][:], file["clearances/eccentricity"][:, 0, :2]
+    places = np.array(seen["inset"])
+    rows = np.array([np.argmin(abs(times - t)) for t in places[:, 0]])
+    want = eccentricity[rows]
+    scale = np.linalg.norm(places[:, 1:]) / np.linalg.norm(want)
+    assert seen["errors"] == [] and np.linalg.norm(want, axis=1).max() > 1e-4
+    np.testing.assert_allclose(places[:, 1:] / scale, want, atol=2e-3 * np.linalg.norm(want, axis=1).max())
+    assert np.ptp(seen["flat"]) < 1 and seen["labels"] == 1, (seen["flat"], seen["labels"])
+    assert ["real time", 1] in seen["speeds"] and all(text == "real time" or "of real time" in text for text, rate in seen["speeds"] if rate <= 1)
+    assert 0.7 < seen["per"] < 1.4, "the usual speed takes about six seconds"
+
+
 def make_pages(program, directory, names, changes=None, env=None):
     """Pages of decks."""
     directory.mkdir(parents=True, exist_ok=True)
@@ -140,12 +163,14 @@ def main(program, directory, rate):
     if rate:
         return 0
     blind = watched(paths["slider_crank_dry"].read_text(encoding="utf-8"), SEEN_BLIND).replace("<style>", BLIND + "<style>", 1)
-    others = {"blind": blind, "guide": watched(paths["slider_crank_translational"].read_text(encoding="utf-8"), GUIDE)}
+    dry = paths["slider_crank_dry"].read_text(encoding="utf-8")
+    others = {"blind": blind, "inset": watched(dry, INSET), "guide": watched(paths["slider_crank_translational"].read_text(encoding="utf-8"), GUIDE)}
     others |= {name: watched((directory / name / "report.html").read_text(encoding="utf-8"), REPORT) for name in REPORTS}
     found = visit(others)
     seen = found["blind"]
     assert seen["errors"] == [] and "WebGL" in seen["text"] and seen["plots"] > 1 and seen["buttons"] and seen["time"] != "t = 0 s", seen
     check_guide(directory, found["guide"])
+    check_inset(directory, found["inset"])
     for name in REPORTS:
         check_report(name, found[name])
     print("browser-test: without WebGL, the guide with clearance and the reports as expected")

@@ -19,11 +19,11 @@ def page_data(path):
     data = json.loads(literal)
     data["t"] = numbers(data["t"], "<f8")
     n = len(data["t"])
-    for key, width in (("r", 3), ("q", 4), ("e", 3), ("f", 3), ("g", 3)):
+    for key, width in (("r", 3), ("q", 4), ("g", 3)):
         data[key] = numbers(data[key]).reshape(n, -1, width)
     data["track"]["t"] = numbers(data["track"]["t"], "<f8")
-    data["track"]["f"] = [numbers(f) for f in data["track"]["f"]]
-    data["track"]["e"] = [numbers(e).reshape(-1, 3) for e in data["track"]["e"]]
+    for key in "fe":
+        data["track"][key] = [numbers(values).reshape(-1, 3) for values in data["track"][key]]
     for plot in data["plots"]:
         for curve in plot["curves"]:
             curve["x"], curve["y"] = numbers(curve["x"], "<f8"), numbers(curve["y"])

@@ -7,7 +7,7 @@ import pytest
 from support import ROOT, scratch
 
 sys.path.insert(0, str(ROOT / "tests" / "browser"))
-from open_pages import BLIND, SEEN_BLIND, check_page, make_pages, seen_in  # noqa: E402
+from open_pages import BLIND, INSET, SEEN_BLIND, check_inset, check_page, make_pages, seen_in  # noqa: E402
 from visit import browser_here, visit, watched  # noqa: E402
 
 END = r"^end( *)= .*"
@@ -36,5 +36,8 @@ def test_pages_of_all_decks(pages):
     for name, path in pages.items():
         check_page(name, path, found[name])
     blind = watched(pages["slider_crank_dry"].read_text(encoding="utf-8"), SEEN_BLIND).replace("<style>", BLIND + "<style>", 1)
-    seen = visit({"blind": blind})["blind"]
+    dry = pages["slider_crank_dry"]
+    found = visit({"blind": blind, "inset": watched(dry.read_text(encoding="utf-8"), INSET)})
+    check_inset(dry.parent.parent.parent, found["inset"])
+    seen = found["blind"]
     assert seen["errors"] == [] and "WebGL" in seen["text"] and seen["plots"] > 1 and seen["buttons"] and seen["time"] != "t = 0 s", seen

@@ -112,7 +112,7 @@ def test_names_are_clear_of_strokes(gudgeon):
 
 
 def test_contours_over_two_parameters(gudgeon):
-    """Means of all cases in their cells, a failed one without a value, round levels; one parameter alone is refused."""
+    """Means of all cases in their cells, written there, a failed one without a value; one parameter alone is refused."""
     directory = scratch()
     call(gudgeon, "sweep", written(directory, GRID), "--out", directory / "out", "--quiet", expect=8)
     table = np.loadtxt(directory / "out/figures/contour.request.product.mean.dat")
@@ -124,12 +124,21 @@ def test_contours_over_two_parameters(gudgeon):
     np.testing.assert_allclose(table[~fails, 2], product[~fails], rtol=1e-12)
     assert np.array_equal(table[:3, 5:], [[0.5, 1.5], [1.5, 3.0], [3.0, 5.0]])
     script = (directory / "out/figures/contour.request.product.mean.gp").read_text()
-    levels = [float(x) for x in re.search(r"levels discrete (.*)", script)[1].split(",")]
-    assert levels and all(1.0 < level < 4.0 for level in levels) and np.allclose(np.diff(levels), 0.5)
-    assert "no value" in script and "with labels" in script
+    assert "no value" in script and "sprintf('%.4g', $3*1))" in script and "with points" in script and "levels" not in script
     assert (directory / "out/figures/contour.request.product.mean.png").stat().st_size > 5000
     alone = GRID.replace("b = 1 2 4\n", "")
     assert "grid of two parameters" in call(gudgeon, "sweep", written(scratch(), alone), expect=3).stderr
+
+
+def test_contour_lines_among_many_cases(gudgeon):
+    """More than 25 cases have lines at round levels instead of their values."""
+    directory = scratch()
+    text = GRID.replace("5.5 - a*b", "50 - a*b").replace("a = 1 3 2", "a = 1 2 3 4 5 6").replace("b = 1 2 4", "b = 1 2 3 4 5").replace("end = 10 ms", "end = 1 ms")
+    call(gudgeon, "sweep", written(directory, text), "--out", directory / "out", "--quiet")
+    script = (directory / "out/figures/contour.request.product.mean.gp").read_text()
+    levels = [float(x) for x in re.search(r"levels discrete (.*)", script)[1].split(",")]
+    assert levels == [5, 10, 15, 20, 25] and "sprintf('%.4g'" not in script and "with points" in script
+    assert (directory / "out/figures/contour.request.product.mean.png").stat().st_size > 5000
 
 
 def test_angles_have_gaps_where_they_jump(gudgeon):

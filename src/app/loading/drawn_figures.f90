@@ -1,8 +1,8 @@
 !> Figures that draw the mechanism: the instants that they need, against the times of the run.
 !>
 !> `mechanism` is at its instants, else at the end. `strip` and `animation` are over the window `last`, else over the last turn of
-!> the first driver that makes one, else over all that is written; of a turn the first and the last position would be one, so the
-!> last is omitted. `coupler` follows a point over its window, else over all that is written, with the mechanism at the end of it.
+!> the first driver that makes one, else over all that is written. Of turns of a driver that turns evenly the first and the last
+!> position are one: a strip omits the last, of an animation the page has it and the GIF, which repeats, has not. `coupler` follows a point over its window, else over all that is written, with the mechanism at the end of it.
 module drawn_figures
    use diagnostics, only: diagnostics_t
    use figure_words, only: draws_mechanism, figure_animation, figure_coupler, figure_mechanism, figure_strip, figure_t
@@ -78,12 +78,12 @@ contains
       type(diagnostics_t), intent(inout) :: mistakes    !! errors found
 
       integer :: k, n
-      logical :: closes
+      logical :: closes, is_even
       real(wp) :: from
 
       wanted%name = figure%name
       wanted%has_end = figure%kind /= figure_mechanism .or. size(figure%motion%times) == 0
-      call find_window(figure, system, times, location, from, closes, mistakes)
+      call find_window(figure, system, times, location, from, closes, is_even, mistakes)
       if (from < times%first_output*(1.0_wp - 1.0e-9_wp) .and. mistakes%count() == 0) then
          call mistakes%add(location, "the window of '"//figure%word//"' starts before the first output time", &
                            "no output is written there", "see 'from' and 'last' of [output]")
@@ -100,8 +100,9 @@ contains
          end if
       case (figure_strip, figure_animation)
          if (n == 0) n = merge(n_strip, n_animation, figure%kind == figure_strip)
-         if (n > 1 .or. closes) wanted%gap = (times%end - from)/real(merge(n, n - 1, closes), wp)
-         wanted%times = [(from + k*wanted%gap, k=0, n - 1)]
+         if (n > 1 .or. is_even) wanted%gap = (times%end - from)/real(merge(n, n - 1, is_even), wp)
+         wanted%repeats = is_even .and. figure%kind == figure_animation
+         wanted%times = [(from + k*wanted%gap, k=0, merge(n, n - 1, wanted%repeats))]
          if (figure%kind == figure_animation) wanted%to = times%end*(1.0_wp + 1.0e-9_wp)
       case (figure_coupler)
          wanted%times = [times%end]
@@ -118,13 +119,14 @@ contains
    end subroutine want
 
    !> Where the window of a figure starts; all windows end with the run.
-   subroutine find_window(figure, system, times, location, from, closes, mistakes)
+   subroutine find_window(figure, system, times, location, from, closes, is_even, mistakes)
       type(figure_t), intent(in) :: figure              !! the figure
       type(mechanism_t), intent(in) :: system           !! drivers
       type(time_plan_t), intent(in) :: times            !! of the run
       type(location_t), intent(in) :: location          !! where its word stands
       real(wp), intent(out) :: from                     !! its start [s]
       logical, intent(out) :: closes                    !! it is one of turns
+      logical, intent(out) :: is_even                   !! of a driver that turns evenly
       type(diagnostics_t), intent(inout) :: mistakes    !! errors found
 
       type(diagnostics_t) :: ignored
@@ -134,6 +136,7 @@ contains
 
       from = times%first_output
       closes = .false.
+      is_even = .false.
       value%location = location
       if (figure%motion%last > 0.0_wp) then
          value%number = figure%motion%last
@@ -141,6 +144,7 @@ contains
          last = seconds(value, figure%word, times%end, system, mistakes)
          from = times%end - last
          closes = figure%motion%driver /= ""
+         is_even = closes .and. turns_evenly(value, last)
          return
       end if
       if (figure%kind /= figure_strip .and. figure%kind /= figure_animation) return
@@ -151,10 +155,27 @@ contains
             value%text = set%names(1)%s
             last = seconds(value, figure%word, times%end, system, ignored)
             closes = ignored%count() == 0 .and. last > 0.0_wp .and. times%end - last >= times%first_output*(1.0_wp - 1.0e-9_wp)
-            if (closes) from = times%end - last
+            if (.not. closes) return
+            from = times%end - last
+            is_even = turns_evenly(value, last)
             return
          end associate
       end do
+
+   contains
+
+      !> Whether half of the turns before the end take half of their time.
+      logical function turns_evenly(turns, duration)
+         type(value_t), intent(in) :: turns        !! turns of a driver
+         real(wp), intent(in) :: duration          !! time that they take [s]
+
+         real(wp), parameter :: even = 1.0e-3_wp   ! difference of the times, of their sum [1]
+         type(value_t) :: half
+
+         half = turns
+         half%number = 0.5_wp*turns%number
+         turns_evenly = abs(2.0_wp*seconds(half, figure%word, times%end, system, ignored) - duration) <= even*duration
+      end function turns_evenly
    end subroutine find_window
 
    !> The point whose path is followed.

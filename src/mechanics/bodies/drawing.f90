@@ -9,7 +9,7 @@ module drawing
    private
    public :: add_mark, add_part, add_stroke, add_teeth, drawing_t, mark_t, part_t, round_part, start_part, stroke_t
    public :: in_both, in_files, in_pictures
-   public :: mark_bearing, mark_damper, mark_guide, mark_link, mark_load, mark_pin, mark_plane, mark_slide, mark_spring
+   public :: mark_bearing, mark_damper, mark_guide, mark_link, mark_load, mark_pin, mark_plane, mark_slide, mark_slot, mark_spring
 
    integer, parameter :: in_both = 0      !! a stroke for files and pictures
    integer, parameter :: in_files = 1     !! a stroke for files only
@@ -24,8 +24,9 @@ module drawing
    integer, parameter :: mark_plane = 7    !! a plane that a body may touch
    integer, parameter :: mark_damper = 8   !! a damper or actuator between two points, without a spring
    integer, parameter :: mark_load = 9     !! a force at a point of body j
+   integer, parameter :: mark_slot = 10    !! a pin of body j in a slot along an axis of body i, of the plane
 
-   integer, parameter :: n_round = 48  !! sides of what is drawn for a circle
+   integer, parameter :: n_round = 96  !! sides of what is drawn for a circle
 
    !> A line or a face.
    type :: stroke_t

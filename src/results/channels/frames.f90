@@ -26,6 +26,7 @@ module frames
       real(wp) :: to = -1.0_wp              !! its end; before the start: it has no paths [s]
       real(wp) :: length = 0.0_wp           !! of a window that is reported from the end of the run; 0: it is not [s]
       real(wp) :: gap = 0.0_wp              !! between its pictures; 0: there is one [s]
+      logical :: repeats = .false.          !! its last picture is like the first: what repeats omits it
       logical :: has_end = .false.          !! whether it ends with the run, whenever that is
       integer :: body = -1                  !! of a point whose path is followed: its body; -1: there is none
       real(wp) :: s(3) = 0.0_wp             !! (3) the point, in the body's own frame [m]
@@ -180,7 +181,7 @@ contains
             if (t < this%from - near .and. .not. this%length > 0.0_wp) cycle
             x = 0.0_wp
             if (this%body >= 0) x = last%r(:, this%body) + matmul(last%a(:, :, this%body), this%s)
-            call self%tracks(k)%add(t, x, last%e, norm2(last%f, 1), merge(t - this%length, this%from, this%length > 0.0_wp) - near)
+            call self%tracks(k)%add(t, x, last%e, last%f, merge(t - this%length, this%from, this%length > 0.0_wp) - near)
          end associate
       end do
    end subroutine follow

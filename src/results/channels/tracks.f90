@@ -7,7 +7,7 @@ module tracks
    use archive, only: archive_t
    implicit none (type, external)
    private
-   public :: track_t
+   public :: greater, track_t
 
    integer, parameter :: longest = 4000  !! rows of a path
 
@@ -19,7 +19,7 @@ module tracks
       real(wp), allocatable :: t(:)         !! (n or more) times [s]
       real(wp), allocatable :: x(:, :)      !! (3, n or more) the point, world frame [m]
       real(wp), allocatable :: e(:, :, :)   !! (3, joints, n or more) eccentricities, world frame [m]
-      real(wp), allocatable :: f(:, :)      !! (joints, n or more) magnitudes of forces [N]
+      real(wp), allocatable :: f(:, :, :)   !! (3, joints, n or more) forces on the journals, world frame [N]
    contains
       procedure :: add
       procedure :: drop
@@ -35,13 +35,13 @@ contains
       real(wp), intent(in) :: t               !! time [s]
       real(wp), intent(in) :: x(3)            !! (3) the point [m]
       real(wp), intent(in) :: e(:, :)         !! (3, joints) eccentricities [m]
-      real(wp), intent(in) :: f(:)            !! (joints) magnitudes of forces [N]
+      real(wp), intent(in) :: f(:, :)         !! (3, joints) forces on the journals [N]
       real(wp), intent(in) :: since           !! rows before it are of no use [s]
 
-      if (.not. allocated(self%t)) call make_storage(size(f), self)
+      if (.not. allocated(self%t)) call make_storage(size(f, 2), self)
       if (self%n > 0 .and. self%skipped < self%stride - 1) then
          self%skipped = self%skipped + 1
-         self%f(:, self%n) = max(self%f(:, self%n), f)
+         self%f(:, :, self%n) = greater(self%f(:, :, self%n), f)
          return
       end if
       if (self%n == longest) then
@@ -53,7 +53,7 @@ contains
       self%t(self%n) = t
       self%x(:, self%n) = x
       self%e(:, :, self%n) = e
-      self%f(:, self%n) = f
+      self%f(:, :, self%n) = f
    end subroutine add
 
    !> Storage for a path.
@@ -61,8 +61,22 @@ contains
       integer, intent(in) :: n_joint          !! joints with clearance
       type(track_t), intent(inout) :: track   !! the path
 
-      allocate (track%t(longest), track%x(3, longest), track%e(3, n_joint, longest), track%f(n_joint, longest))
+      allocate (track%t(longest), track%x(3, longest), track%e(3, n_joint, longest), track%f(3, n_joint, longest))
    end subroutine make_storage
+
+   !> Of two forces of each joint the greater.
+   pure function greater(f, g) result(h)
+      real(wp), intent(in) :: f(:, :)                 !! (3, joints) forces [N]
+      real(wp), intent(in) :: g(:, :)                 !! (3, joints) others [N]
+      real(wp) :: h(3, size(f, 2))                    !! (3, joints) one of both [N]
+
+      integer :: k
+
+      do k = 1, size(f, 2)
+         h(:, k) = f(:, k)
+         if (norm2(g(:, k)) > norm2(f(:, k))) h(:, k) = g(:, k)
+      end do
+   end function greater
 
    !> Two rows become one.
    subroutine thin(track)
@@ -74,7 +88,7 @@ contains
          track%t(k) = track%t(2*k - 1)
          track%x(:, k) = track%x(:, 2*k - 1)
          track%e(:, :, k) = track%e(:, :, 2*k - 1)
-         track%f(:, k) = max(track%f(:, 2*k - 1), track%f(:, 2*k))
+         track%f(:, :, k) = greater(track%f(:, :, 2*k - 1), track%f(:, :, 2*k))
       end do
       track%n = track%n/2
       track%stride = 2*track%stride
@@ -93,7 +107,7 @@ contains
          self%t(k - n) = self%t(k)
          self%x(:, k - n) = self%x(:, k)
          self%e(:, :, k - n) = self%e(:, :, k)
-         self%f(:, k - n) = self%f(:, k)
+         self%f(:, :, k - n) = self%f(:, :, k)
       end do
       self%n = self%n - n
    end subroutine drop
@@ -107,7 +121,8 @@ contains
 
       call archive%put([self%n, self%skipped, self%stride])
       do i = 1, self%n
-         call archive%put([self%t(i), self%x(:, i), reshape(self%e(:, :, i), [size(self%e(:, :, i))]), self%f(:, i)])
+         call archive%put([self%t(i), self%x(:, i), reshape(self%e(:, :, i), [size(self%e(:, :, i))]), &
+                           reshape(self%f(:, :, i), [size(self%f(:, :, i))])])
       end do
    end subroutine save_track
 
@@ -129,7 +144,9 @@ contains
          do k = 1, n_joint
             call archive%get(self%e(:, k, i))
          end do
-         call archive%get(self%f(:, i))
+         do k = 1, n_joint
+            call archive%get(self%f(:, k, i))
+         end do
       end do
    end subroutine load_track
 

@@ -15,11 +15,11 @@ module animation_page
    use page_files, only: page_body, page_file, page_head, page_licence, page_orbit, page_scripts, page_three
    use rotations, only: euler_parameters_of
    use scene_legends, only: long_legend
-   use scene_strokes, only: symbols_t
+   use scene_canvas, only: symbols_t
    use symbol_scales, only: new_symbols
    use text, only: real_text, to_text
    use text_buffer, only: buffer_t
-   use tracks, only: track_t
+   use tracks, only: greater, track_t
    implicit none (type, external)
    private
    public :: page_text
@@ -33,11 +33,12 @@ module animation_page
 contains
 
    !> The page.
-   function page_text(title, catalogue, drawing, list, track, plots, n_left_out) result(text)
+   function page_text(title, catalogue, drawing, list, repeats, track, plots, n_left_out) result(text)
       character(*), intent(in) :: title              !! of the scene, any text
       type(catalogue_t), intent(in) :: catalogue     !! what was recorded
       type(drawing_t), intent(in) :: drawing         !! the scene
       type(frame_t), intent(in) :: list(:)           !! (1 or more) frames
+      logical, intent(in) :: repeats                 !! the last of them is like the first
       type(track_t), intent(in) :: track             !! eccentricities and forces over the window
       character(*), intent(in) :: plots              !! of `plots_text`
       integer, intent(in) :: n_left_out              !! curves that these do not have
@@ -49,8 +50,9 @@ contains
       integer :: k, rest, stride
 
       call new_symbols(catalogue, drawing, list, symbols)
+      if (.not. symbols%force > 0.0_wp .and. track%n > 0) symbols%force = maxval(norm2(track%f(:, :, :track%n), dim=1))
       note = ""
-      call data%line("const D={spatial:"//trim(merge("true ", "false", drawing%is_spatial))//",size:"//number(symbols%size)// &
+      call data%line("const D={spatial:"//truth(drawing%is_spatial)//",repeats:"//truth(repeats)//",size:"//number(symbols%size)// &
                      ",magnified:"//number(symbols%magnified)//",force:"//number(symbols%force)//",legend:"""// &
                      escaped(long_legend(symbols), .false.)//""",")
       call add_names(data, catalogue, drawing)
@@ -97,7 +99,7 @@ contains
       integer :: of_frame
 
       associate (f => list(1))
-         of_frame = of_double + of_float*(7*size(f%r, 2) + size(f%e) + size(f%f) + size(f%load))
+         of_frame = of_double + of_float*(7*size(f%r, 2) + size(f%load))
       end associate
       stride = max(1, min(size(list), 1 + (size(list) - 1)/max(1, bytes/of_frame)))
    end function stride_of
@@ -148,7 +150,8 @@ contains
       call data%line("],")
    end subroutine add_parts
 
-   !> Whether a stroke is drawn: faces but those for pictures, lines but those for files; of a single face (a disc) its diameter.
+   !> Whether a stroke is drawn: faces but those for pictures, lines but those for files; those for
+   !> pictures of a disc (its diameter) and of a shaft (its bar), not of what has several faces.
    pure logical function is_shown(part, stroke)
       type(part_t), intent(in) :: part         !! its part
       type(stroke_t), intent(in) :: stroke     !! the stroke
@@ -156,7 +159,7 @@ contains
       if (stroke%is_face) then
          is_shown = stroke%use /= in_pictures
       else
-         is_shown = stroke%use == in_both .or. (stroke%use == in_pictures .and. count(part%strokes%is_face) == 1)
+         is_shown = stroke%use == in_both .or. (stroke%use == in_pictures .and. count(part%strokes%is_face) <= 1)
       end if
    end function is_shown
 
@@ -221,7 +224,8 @@ contains
             call data%line("{k:"//to_text(mark%kind)//",n:"""//escaped(mark%name, .false.)//""",b:["//to_text(mark%body(1))//","// &
                            to_text(mark%body(2))//"],s:["//triple(mark%s(:, 1))//","//triple(mark%s(:, 2))//"],a:"// &
                            triple(mark%axis)//",w:"//pair(symbols%ways(:, k))//",h:"//pair(symbols%walls(:, k))//",l:"// &
-                           to_text(symbols%clearance_joints(k))//",g:"//pair(mark%gaps)//",d:"//number(mark%half_length)//",aj:"// &
+                           to_text(symbols%clearance_joints(k))//",g:"//pair(mark%gaps)//",R:"//pair(symbols%bearings(:, k))// &
+                           ",d:"//number(mark%half_length)//",aj:"// &
                            triple(mark%axis_j)//",q:"//to_text(symbols%load(k))//",c:"//number(symbols%coils(k))//",z:"// &
                            to_text(symbols%bends(k))//"},")
          end associate
@@ -259,11 +263,11 @@ contains
       character(:), allocatable, intent(inout) :: note     !! says what is thinned
 
       integer :: first, k, n, stride
-      real(wp), allocatable :: peaks(:)
+      real(wp), allocatable :: peaks(:, :, :)
 
       n = 0
       if (n_joint > 0) n = track%n
-      stride = 1 + n/max(2, most_of_track/(of_double + 4*of_float*max(1, n_joint)))
+      stride = 1 + n/max(2, most_of_track/(of_double + 6*of_float*max(1, n_joint)))
       if (stride > 1) note = "Joints: every "//to_text(stride)//". of "//to_text(n)//" rows, with the peaks of the force. "
       call data%add("track:{")
       if (n == 0) then
@@ -271,18 +275,22 @@ contains
          return
       end if
       call data%add("t:"""//doubles_in_base_64(track%t(1:n:stride))//""",f:[")
+      peaks = track%f(:, :, 1:n:stride)
+      do k = 1, n
+         first = 1 + (k - 1)/stride
+         peaks(:, :, first) = greater(peaks(:, :, first), track%f(:, :, k))
+      end do
       do k = 1, n_joint
-         peaks = [(maxval(track%f(k, first:min(n, first + stride - 1))), first=1, n, stride)]
-         call data%line(""""//floats_in_base_64(peaks)//""",")
+         call data%line(""""//floats_in_base_64(reshape(peaks(:, k, :), [3*size(peaks, 3)]))//""",")
       end do
       call data%add("],e:[")
       do k = 1, n_joint
-         call data%line(""""//floats_in_base_64(reshape(track%e(:, k, 1:n:stride), [3*size(peaks)]))//""",")
+         call data%line(""""//floats_in_base_64(reshape(track%e(:, k, 1:n:stride), [3*size(peaks, 3)]))//""",")
       end do
       call data%line("]},")
    end subroutine add_track
 
-   !> Places, turns, eccentricities and forces at each position, one list each with the positions one after the other.
+   !> Places, turns and loads at each position, one list each with the positions one after the other.
    subroutine add_frames(data, list)
       type(buffer_t), intent(inout) :: data    !! the data
       type(frame_t), intent(in) :: list(:)     !! (n) frames
@@ -301,10 +309,16 @@ contains
       end do
       call data%line("q:"""//floats_in_base_64(reshape(turns, [size(turns)]))//""",")
       call data%line("r:"""//floats_in_base_64([(list(k)%r, k=1, size(list))])//""",")
-      call data%line("e:"""//floats_in_base_64([(list(k)%e, k=1, size(list))])//""",")
-      call data%line("f:"""//floats_in_base_64([(list(k)%f, k=1, size(list))])//""",")
       call data%line("g:"""//floats_in_base_64([(list(k)%load, k=1, size(list))])//""",")
    end subroutine add_frames
+
+   !> Yes or no.
+   pure function truth(is_so) result(s)
+      logical, intent(in) :: is_so             !! which
+      character(:), allocatable :: s           !! as JavaScript has it
+
+      s = trim(merge("true ", "false", is_so))
+   end function truth
 
    !> Two numbers.
    function pair(x) result(s)

@@ -25,6 +25,7 @@ module curve_panels
       type(display_unit_t) :: unit(2)           !! (2) of the ordinates
       real(wp) :: less(2) = 0.0_wp              !! (2) what is taken from them, SI [any]
       type(text_t) :: quantity(2)               !! (2) what the ordinates show
+      type(text_t) :: beyond(2)                 !! (2) what is taken from them, in words; blank: nothing
       character(:), allocatable :: label        !! of the ordinate on the left
       character(:), allocatable :: right_label  !! of that on the right; blank: there is none
    end type panel_t
@@ -129,6 +130,7 @@ contains
       call take_round_value(axis, ends, unit, less)
       panel%unit(side) = unit
       panel%less(side) = less%value
+      panel%beyond(side)%s = less%words
       label = with_unit(adjustl(panel%quantity(side)%s//less%words), unit)
       if (side == 1) then
          panel%label = label

@@ -5,7 +5,7 @@
 module drawn_axes
    use body_outline, only: same_place
    use item, only: find_place, item_t
-   use kind_info, only: free_none, free_rotation, free_translation
+   use kind_info, only: free_other, free_rotation, free_spherical, free_translation
    use kinds, only: wp
    use rotations, only: axes_across, rotation_about, rotation_of_parameters
    use scene, only: scene_t, table_t
@@ -104,21 +104,21 @@ contains
 
    end subroutine find_ways
 
-   !> Axes that bodies of space turn about against others, in their own frames, of revolute joints before others; else zero.
+   !> Axes that bodies of space turn about against others, in their own frames: of revolute joints, then of others (cylindrical,
+   !> screw), then of crosses; else zero.
    subroutine find_shafts(scene, axes)
       type(scene_t), intent(in) :: scene      !! the scene
       real(wp), intent(out) :: axes(:, :)     !! (3, bodies) axes [1]
 
       type(tie_t) :: tie
+      integer, parameter :: passes(3) = [free_rotation, free_other, free_spherical]
       integer :: end, i, k, pass
 
       axes = 0.0_wp
       if (.not. scene%settings%is_spatial) return
-      do pass = 1, 2
+      do pass = 1, size(passes)
          do k = 1, size(scene%joints)
-            associate (free => scene%joints(k)%info%free)
-               if (merge(free /= free_rotation, any(free == [free_translation, free_none]), pass == 1)) cycle
-            end associate
+            if (scene%joints(k)%info%free /= passes(pass)) cycle
             do i = 1, size(scene%joints(k)%items)
                if (find_place(scene%joints(k)%items(i), "axis_i") == 0) cycle
                tie = tie_of(scene, scene%joints(k)%info, scene%joints(k)%items(i))

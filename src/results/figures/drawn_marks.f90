@@ -6,7 +6,7 @@
 module drawn_marks
    use body_outline, only: same_place
    use drawing, only: add_mark, add_part, add_stroke, drawing_t, in_files, mark_bearing, mark_damper, mark_guide, mark_link, &
-      mark_load, mark_pin, mark_plane, mark_slide, mark_spring, mark_t, part_t, round_part, start_part
+      mark_load, mark_pin, mark_plane, mark_slide, mark_slot, mark_spring, mark_t, part_t, round_part, start_part
    use drawn_axes, only: axis_of, direction_in_plane, start_frame
    use item, only: find_place, item_t, place_of
    use joint_level, only: level_ideal, level_of
@@ -167,6 +167,8 @@ contains
          kind = mark_guide
       else if (is_round) then
          kind = 0
+      else if (info%free == free_other .and. find_place(item, "axis") > 0 .and. find_place(item, "axis_angle") > 0) then
+         kind = mark_slot
       else if (info%free == free_translation .or. (are_apart .and. norm2(axis_of(item)) > 0.0_wp)) then
          kind = mark_slide
       else

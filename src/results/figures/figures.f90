@@ -218,20 +218,23 @@ contains
       type(error_t), allocatable, intent(out) :: error           !! a file cannot be written
 
       character(:), allocatable :: plots
-      integer :: k, n_left_out
+      integer :: k, n_in_loop, n_left_out
 
       is_written = .false.
       associate (figure => figures(number))
          k = findloc([(keeper%plan%wanted(k)%name == figure%name .and. keeper%n(k) > 0, k=1, size(keeper%n))], .true., dim=1)
          if (k == 0) return
          is_written = .true.
-         associate (list => keeper%frames(:keeper%n(k), k))
-            call write_scene_plot(folder, title, figure, catalogue, drawing, list, keeper%tracks(k), error)
+         associate (list => keeper%frames(:keeper%n(k), k), plan => keeper%plan)
+            n_in_loop = size(list)
+            if (plan%wanted(k)%repeats .and. list(n_in_loop)%t > plan%end - plan%every) n_in_loop = max(1, n_in_loop - 1)
+            call write_scene_plot(folder, title, figure, catalogue, drawing, list(:n_in_loop), keeper%tracks(k), error)
             if (allocated(error) .or. figure%kind /= figure_animation) return
             call plots_text(folder, figures, catalogue, extremes, rows, [list(1)%t, list(size(list))%t], plots, n_left_out, error)
             if (allocated(error)) return
             call write_file(folder//"/"//figure%name//".html", &
-                            page_text(title, catalogue, drawing, list, keeper%tracks(k), plots, n_left_out), error)
+                            page_text(title, catalogue, drawing, list, n_in_loop < size(list), keeper%tracks(k), plots, &
+                                      n_left_out), error)
          end associate
          call append_text(pages, "figures/"//figure%name//".html")
       end associate

@@ -1,19 +1,21 @@
-!> Histories beside an animation: the curves of the deck's figures over its window, thinned for the page.
+!> Histories beside an animation: the curves of the deck's figures over its window, thinned for the page. Each ordinate of each
+!> panel is a plot, in the unit of the figure; of a narrow one what is beyond a round value, as there.
 !>
-!> Of a curve with more points than the page shows, the minimum and the maximum of each of equal parts of the window stay, each at
-!> its time: no peak is lost.
+!> Of a curve with more points than the page shows, its ends and the minimum and the maximum of each of equal parts of the window
+!> stay, each at its time: no peak is lost.
 module page_plots
    use catalogue, only: catalogue_t
-   use display_units, only: choose_unit, display_unit_t
+   use curve_panels, only: make_panel, panel_t
    use drawn_rows, only: drawn_rows_t
    use errors, only: error_t
    use extremes, only: extremes_t
-   use figure_data, only: curve_t, find_curves, is_visible
+   use figure_data, only: curve_t, find_curves
    use figure_words, only: figure_history, figure_t
    use html_text, only: doubles_in_base_64, escaped, floats_in_base_64
    use, intrinsic :: ieee_arithmetic, only: ieee_is_nan
    use kinds, only: wp
    use row_reader, only: row_reader_t
+   use text, only: join
    use text_buffer, only: buffer_t
    implicit none (type, external)
    private
@@ -38,9 +40,9 @@ contains
 
       type(buffer_t) :: list
       type(curve_t), allocatable :: curves(:)
-      logical, allocatable :: is_left(:), is_mine(:)
-      character(:), allocatable :: si
-      integer :: i, k, n
+      type(curve_t) :: no_ideal(0)
+      type(panel_t) :: panel
+      integer :: k, n, p, side
 
       n = 0
       n_left_out = 0
@@ -48,13 +50,12 @@ contains
       do k = 1, size(figures)
          if (figures(k)%kind /= figure_history .or. figures(k)%curves%abscissa > 0) cycle
          call find_curves(figures(k), catalogue, extremes, rows, "", curves)
-         is_left = [(.true., i=1, size(curves))]
-         do while (any(is_left))
-            si = unit_of(curves(findloc(is_left, .true., dim=1)))
-            is_mine = is_left .and. [(unit_of(curves(i)) == si, i=1, size(curves))]
-            is_left = is_left .and. .not. is_mine
-            call add_plot(pack(curves, is_mine), pack([(figures(k)%curves%is_exact(curves(i)%number), i=1, size(curves))], is_mine))
-            if (allocated(error)) return
+         do p = 1, size(figures(k)%curves%panels)
+            call make_panel(figures(k), catalogue, figures(k)%curves%panels(p), curves, no_ideal, panel)
+            do side = 1, 2
+               if (any(panel%side == side)) call add_plot()
+               if (allocated(error)) return
+            end do
          end do
       end do
       call list%add("]")
@@ -62,44 +63,43 @@ contains
 
    contains
 
-      !> The SI unit of a curve.
-      pure function unit_of(curve) result(si)
-         type(curve_t), intent(in) :: curve    !! the curve
-         character(:), allocatable :: si       !! as in files
-
-         si = catalogue%groups(figures(k)%scalars(curve%number)%group)%channel%unit
-      end function unit_of
-
-      !> The curves of a figure that have one unit; components too small to be seen are omitted, unless they were named one by one.
-      subroutine add_plot(mine, is_exact)
-         type(curve_t), intent(in) :: mine(:)      !! (any) the curves
-         logical, intent(in) :: is_exact(:)        !! (any) whether they were named
-
-         type(display_unit_t) :: unit
+      !> One ordinate of a panel.
+      subroutine add_plot()
          real(wp), allocatable :: points(:, :)
-         logical :: is_shown(size(mine))
-         real(wp) :: extent
          integer :: j
 
-         is_shown = is_visible(mine) .or. is_exact
-         if (n >= most_curves) n_left_out = n_left_out + count(is_shown)
+         if (n >= most_curves) n_left_out = n_left_out + count(panel%side == side)
          if (n >= most_curves) return
-         extent = 0.0_wp
-         do j = 1, size(mine)
-            if (is_shown(j)) extent = max(extent, maxval(abs(mine(j)%y_range)))
-         end do
-         unit = choose_unit(si, extent)
-         call list%add("{title:"""//escaped(figures(k)%word, .false.)//""",unit:"""//escaped(unit%symbol, .false.)//""",curves:[")
-         do j = 1, size(mine)
-            if (.not. is_shown(j)) cycle
+         call list%add("{title:"""//escaped(heading()//panel%beyond(side)%s, .false.)//""",unit:"""// &
+                       escaped(panel%unit(side)%symbol, .false.)//""",curves:[")
+         do j = 1, size(panel%curves)
+            if (panel%side(j) /= side) cycle
             n = n + 1
-            call read_thinned(folder, rows, mine(j), window, points, error)
+            call read_thinned(folder, rows, panel%curves(j), window, points, error)
             if (allocated(error)) return
-            call list%line("{n:"""//escaped(mine(j)%name, .false.)//""",x:"""//doubles_in_base_64(points(1, :))//""",y:"""// &
-                           floats_in_base_64(unit%factor*points(2, :))//"""},")
+            call list%line("{n:"""//escaped(panel%curves(j)%name, .false.)//""",x:"""//doubles_in_base_64(points(1, :))// &
+                           """,y:"""//floats_in_base_64(panel%unit(side)%factor*(points(2, :) - panel%less(side)))//"""},")
          end do
          call list%line("]},")
       end subroutine add_plot
+
+      !> The channels of the plot: as the deck names them, or one by one where the panel has two ordinates.
+      function heading() result(words)
+         character(:), allocatable :: words   !! joined by `+`
+
+         integer :: j
+
+         if (all(panel%side == side)) then
+            words = join(figures(k)%phrase%panels(p)%words, " + ")
+            return
+         end if
+         words = ""
+         do j = 1, size(panel%curves)
+            if (panel%side(j) /= side) cycle
+            if (len(words) > 0) words = words//" + "
+            words = words//panel%curves(j)%name
+         end do
+      end function heading
 
    end subroutine plots_text
 
@@ -113,9 +113,11 @@ contains
       type(error_t), allocatable, intent(out) :: error      !! the rows cannot be read
 
       type(row_reader_t) :: reader
-      real(wp) :: low(2, n_part), high(2, n_part), point(2)
+      real(wp) :: ends(2, 2), low(2, n_part), high(2, n_part), point(2)
       integer :: k, n, r
+      logical :: has_any
 
+      has_any = .false.
       low(2, :) = huge(1.0_wp)
       high(2, :) = -huge(1.0_wp)
       call reader%open(folder, curve, error)
@@ -125,23 +127,39 @@ contains
          if (allocated(error)) return
          if (any(ieee_is_nan(point)) .or. point(1) < window(1)) cycle
          if (point(1) > window(2)) exit
+         if (.not. has_any) ends(:, 1) = point
+         has_any = .true.
+         ends(:, 2) = point
          k = 1
          if (window(2) > window(1)) k = min(n_part, 1 + int(n_part*(point(1) - window(1))/(window(2) - window(1))))
          if (point(2) < low(2, k)) low(:, k) = point
          if (point(2) > high(2, k)) high(:, k) = point
       end do
       call reader%close()
-      allocate (points(2, 2*n_part))
+      allocate (points(2, 2*n_part + 2))
       n = 0
       do k = 1, n_part
          if (low(2, k) > high(2, k)) cycle
-         n = n + 1
-         points(:, n) = merge(low(:, k), high(:, k), low(1, k) <= high(1, k))
-         if (abs(high(1, k) - low(1, k)) <= 0.0_wp) cycle
-         n = n + 1
-         points(:, n) = merge(high(:, k), low(:, k), low(1, k) <= high(1, k))
+         if (n == 0) call append(ends(:, 1))
+         call append(merge(low(:, k), high(:, k), low(1, k) <= high(1, k)))
+         call append(merge(high(:, k), low(:, k), low(1, k) <= high(1, k)))
       end do
+      if (n > 0) call append(ends(:, 2))
       points = points(:, :n)
+
+   contains
+
+      !> One more point, unless it is the last again.
+      subroutine append(next)
+         real(wp), intent(in) :: next(2)    !! (2) time and value [s, any]
+
+         if (n > 0) then
+            if (all(abs(points(:, n) - next) <= 0.0_wp)) return
+         end if
+         n = n + 1
+         points(:, n) = next
+      end subroutine append
+
    end subroutine read_thinned
 
 end module page_plots

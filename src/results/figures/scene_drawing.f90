@@ -34,6 +34,7 @@ contains
       drawing%is_spatial = scene%settings%is_spatial
       drawing%size = extent_of_scene(scene)
       if (.not. drawing%size > 0.0_wp) drawing%size = max(size_of_bodies(scene), tiny(1.0_wp))
+      drawing%size = max(drawing%size, largest_bore(scene))
       drawing%points = scene%points%names
       drawing%body = scene%points%body
       allocate (drawing%s(3, scene%points%n))
@@ -51,6 +52,21 @@ contains
       call add_marks(scene, scene%clearances, .false., has_shape, drawing)
       call add_marks(scene, scene%forces, .true., has_shape, drawing)
    end subroutine drawing_of_scene
+
+   !> Diameter of the largest bearing; 0: there is none.
+   pure real(wp) function largest_bore(scene) result(bore)
+      type(scene_t), intent(in) :: scene   !! the scene
+
+      integer :: i, k
+
+      bore = 0.0_wp
+      do k = 1, size(scene%clearances)
+         do i = 1, size(scene%clearances(k)%items)
+            if (find_place(scene%clearances(k)%items(i), "bearing_radius") == 0) cycle
+            bore = max(bore, 2.0_wp*scene%clearances(k)%items(i)%number("bearing_radius"))
+         end do
+      end do
+   end function largest_bore
 
    !> A point of the deck in its body's own frame.
    pure function own_point(scene, point) result(own)

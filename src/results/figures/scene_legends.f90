@@ -2,7 +2,7 @@
 module scene_legends
    use display_units, only: choose_unit, display_unit_t
    use kinds, only: wp
-   use scene_strokes, only: symbols_t
+   use scene_canvas, only: symbols_t
    use text, only: real_text
    implicit none (type, external)
    private
@@ -31,7 +31,7 @@ contains
       if (symbols%magnified > 0.0_wp) words = words//"; clearance of joints magnified "//real_text(symbols%magnified, 2)// &
                                               " times"
       if (symbols%force > 0.0_wp) words = words//"; arrows: loads and forces on journals, longest "// &
-                                          quantity_text("N", symbols%force, 3)
+                                          quantity_text("N", symbols%force, 3)//" at the positions shown"
    end function long_legend
 
    !> A time that reads well.

@@ -8,7 +8,7 @@ module scene_names
    use frames, only: frame_t
    use kinds, only: wp
    use scene_colours, only: body_colour, dark, grey
-   use scene_strokes, only: add_disc, bearing_size, canvas_t, n_style, pin_size, style_name, style_pin, symbols_t
+   use scene_canvas, only: add_disc, bearing_size, canvas_t, n_style, pin_size, style_name, style_pin, symbols_t
    use scene_views, only: extents_t, projected, view_t
    use text, only: real_text, text_t, to_text
    implicit none (type, external)
@@ -70,7 +70,7 @@ contains
       do k = 1, drawing%n_mark
          associate (mark => drawing%marks(k))
             name = new_name(mark%name, mark%body, mark%s, pin_size*size_of_symbols, dark)
-            if (mark%kind == mark_bearing) name%radius = bearing_size*size_of_symbols
+            if (mark%kind == mark_bearing) name%radius = max(bearing_size*size_of_symbols, mark%radius)
             if (all(mark%kind /= [mark_spring, mark_damper, mark_link])) then
                name%body = mark%body(2)
                name%s = spread(mark%s(:, 2), 2, 2)

@@ -17,8 +17,9 @@ module scene_plot
    use scene_legends, only: short_legend, time_text
    use scene_names, only: add_names, count_names, start_names
    use scene_sheet, only: frame_lines, height_of, letter_size, scene_sheet_t, width_moving, width_still
-   use scene_strokes, only: canvas_t, draw_scene, n_style, style_arrow, style_body, style_ground, &
-      style_hole, style_journal, style_line, style_name, style_path, style_pin, style_symbol
+   use scene_canvas, only: canvas_t, n_style, style_arrow, style_body, style_ground, style_hole, style_journal, style_line, &
+      style_name, style_path, style_pin, style_symbol
+   use scene_strokes, only: draw_scene
    use scene_views, only: lay_out_views, projected, view_t
    use script_parts, only: preamble
    use symbol_scales, only: arrow_tips, largest_force, new_symbols

@@ -7,7 +7,7 @@ module scene_sheet
    use kinds, only: wp
    use plot_text, only: quoted
    use scene_names, only: names_t
-   use scene_strokes, only: symbols_t
+   use scene_canvas, only: symbols_t
    use scene_views, only: extents_t, view_t
    use text, only: real_text
    use text_buffer, only: buffer_t

@@ -1,64 +1,26 @@
 !> A mechanism as strokes in a picture: bodies, joints by their symbols, clearance joints magnified, forces as arrows.
 !>
 !> Each style has lines `x y colour` for gnuplot, polylines apart by a blank line. A round joint with clearance is a bearing with a
-!> journal in it, larger than a pin; the eccentricity is magnified by one factor for all, so that the largest clearance fills the
-!> symbol.
+!> journal in it, in its size where that is larger than the symbol; the eccentricity is magnified by one factor for all. In the
+!> plane a journal in its size has a diameter that shows its turn.
 !> The ground is hatched where joints stand on it.
 module scene_strokes
    use drawing, only: drawing_t, in_files, mark_bearing, mark_damper, mark_link, mark_pin, mark_plane, mark_slide, &
-      mark_spring, mark_t
+      mark_slot, mark_spring, mark_t
    use frames, only: frame_t
    use kinds, only: wp
+   use rotations, only: axes_across
+   use scene_canvas, only: add_disc, add_line, add_ring, bearing_size, canvas_t, pin_size, style_arrow, style_body, style_ground, &
+      style_hole, style_journal, style_line, style_pin, style_symbol, symbols_t
    use scene_colours, only: body_colour, dark, red
    use scene_views, only: projected, view_t
-   use text, only: real_text, to_text
-   use text_buffer, only: buffer_t
    implicit none (type, external)
    private
-   public :: add_disc, arrow_at, bearing_size, canvas_t, draw_scene, journal_part, n_style, pin_size, symbols_t
-   public :: style_arrow, style_body, style_ground, style_hole, style_journal, style_line, style_name, style_path, style_pin, &
-      style_symbol
-
-   ! styles, in the order in which they are drawn
-   integer, parameter :: style_ground = 1    !! lines of the ground
-   integer, parameter :: style_body = 2      !! filled outlines
-   integer, parameter :: style_line = 3      !! lines of bodies
-   integer, parameter :: style_path = 4      !! path of a point
-   integer, parameter :: style_pin = 5       !! filled symbols of joints
-   integer, parameter :: style_symbol = 6    !! lines of symbols, springs and links
-   integer, parameter :: style_hole = 7      !! filled holes of clearance joints
-   integer, parameter :: style_journal = 8   !! filled journals
-   integer, parameter :: style_arrow = 9     !! forces
-   integer, parameter :: style_name = 10     !! names, of bodies, joints and points
-   integer, parameter :: n_style = 10        !! styles
+   public :: arrow_at, draw_scene
 
    real(wp), parameter :: seen_aside = 0.1_wp      !! of a plane's normal in the view, below which it is observed from above [1]
-   real(wp), parameter :: pin_size = 0.014_wp      !! radius of a pin, of the size of the scene [1]
-   real(wp), parameter :: arm_size = 0.035_wp      !! half length of the arm of a cross, of that size [1]
-   real(wp), parameter :: bearing_size = 0.034_wp  !! radius of a magnified bearing, of that size [1]
-   real(wp), parameter :: journal_part = 0.62_wp   !! radius of its journal, of that of the bearing [1]
-   real(wp), parameter :: arrow_size = 0.25_wp     !! of the maximum force, of the size of the scene [1]
-   integer, parameter :: n_round = 24              !! sides of a symbol's circle
-   real(wp), parameter :: turn = 8.0_wp*atan(1.0_wp)  !! [rad]
-
-   !> What is common to all frames of a figure.
-   type :: symbols_t
-      real(wp) :: size = 1.0_wp                   !! of the scene [m]
-      real(wp) :: scale = 1.0_wp                  !! numbers of the picture over lengths [any/m]
-      real(wp) :: magnified = 0.0_wp              !! factor of eccentricities; 0: no round joints with clearance [1]
-      real(wp) :: force = 0.0_wp                  !! force of the longest arrow; 0: there are none [N]
-      real(wp), allocatable :: ways(:, :)         !! (2, marks) of slides: minimum and maximum place of j along the axis [m]
-      real(wp), allocatable :: walls(:, :)        !! (2, marks) of slides: from the guide's line to its walls, as `gaps` [m]
-      real(wp), allocatable :: coils(:)           !! (marks) of springs and dampers: half their width [m]
-      integer, allocatable :: bends(:)            !! (marks) of springs: corners of their zigzag
-      integer, allocatable :: clearance_joints(:)            !! (marks) number of the joint with clearance, 0: none
-      integer, allocatable :: load(:)             !! (marks) of a load: number of the force element, 0: none
-   end type symbols_t
-
-   !> What is drawn.
-   type :: canvas_t
-      type(buffer_t) :: styles(n_style)  !! lines of each style
-   end type canvas_t
+   real(wp), parameter :: arm_size = 0.035_wp      !! half length of the arm of a cross, of the size of the scene [1]
+   real(wp), parameter :: arrow_size = 0.25_wp     !! of the maximum force, of that size [1]
 
 contains
 
@@ -102,10 +64,10 @@ contains
                   end do
                end associate
                if (part%strokes(j)%is_face) then
-                  if (paleness <= 0.0_wp) call add(canvas, style_body, symbols, p, colour)
-                  call add(canvas, style_line, symbols, reshape([p, p(:, 1)], [2, size(p, 2) + 1]), colour)
+                  if (paleness <= 0.0_wp) call add_line(canvas, style_body, symbols, p, colour)
+                  call add_line(canvas, style_line, symbols, reshape([p, p(:, 1)], [2, size(p, 2) + 1]), colour)
                else
-                  call add(canvas, style_line, symbols, p, colour)
+                  call add_line(canvas, style_line, symbols, p, colour)
                end if
                deallocate (p)
             end do
@@ -143,7 +105,7 @@ contains
          end if
       case (mark_link)
          if (any(mark%body == 0)) call draw_support(canvas, symbols, p(:, merge(1, 2, mark%body(1) == 0)))
-         call add(canvas, style_symbol, symbols, p, dark)
+         call add_line(canvas, style_symbol, symbols, p, dark)
          call add_disc(canvas, style_pin, symbols, p(:, 1), radius)
          call add_disc(canvas, style_pin, symbols, p(:, 2), radius)
       case (mark_spring, mark_damper)
@@ -164,16 +126,49 @@ contains
          axis = projected(view, x(:, 1) + x(:, 2)) - p(:, 1)
          if (norm2(axis) > 0.1_wp) call draw_guide(canvas, symbols, p(:, 1), axis, way, symbols%walls(:, number), &
                                                 mark%body(1) == 0)
+      case (mark_slot)
+         if (mark%body(2) == 0) call draw_support(canvas, symbols, p(:, 2))
+         x(:, 2) = matmul(frame%a(:, :, mark%body(1)), mark%axis)
+         call draw_slot(canvas, symbols, p(:, 1), projected(view, x(:, 1) + x(:, 2)) - p(:, 1), way, symbols%walls(1, number))
+         call add_disc(canvas, style_pin, symbols, p(:, 2), radius)
       case (mark_bearing)
          if (any(mark%body == 0)) call draw_support(canvas, symbols, p(:, merge(1, 2, mark%body(1) == 0)))
-         radius = bearing_size*symbols%size
          e = 0.0_wp
          if (clearance_joints > 0) e = projected(view, frame%e(:, clearance_joints)) - view%shift
-         call add_disc(canvas, style_hole, symbols, p(:, 1), radius)
-         call add_disc(canvas, style_journal, symbols, p(:, 1) + symbols%magnified*e, journal_part*radius)
+         call draw_bearing(canvas, symbols, mark, frame, view, symbols%bearings(:, number), p(:, 1), symbols%magnified*e)
       end select
       call draw_arrow(canvas, symbols, p(:, 2), projected(view, arrow_at(symbols, frame, number)) - view%shift)
    end subroutine draw_mark
+
+   !> A bearing and its journal. In space, in their size, across their axis, else facing the eye.
+   subroutine draw_bearing(canvas, symbols, mark, frame, view, radii, p, e)
+      type(canvas_t), intent(inout) :: canvas  !! gets lines
+      type(symbols_t), intent(in) :: symbols   !! scales
+      type(mark_t), intent(in) :: mark         !! the joint
+      type(frame_t), intent(in) :: frame       !! where it is
+      type(view_t), intent(in) :: view         !! from where it is seen
+      real(wp), intent(in) :: radii(2)         !! (2) of hole and journal, as drawn [m]
+      real(wp), intent(in) :: p(2)             !! (2) centre of the hole [m]
+      real(wp), intent(in) :: e(2)             !! (2) from there to that of the journal [m]
+
+      real(wp) :: across(3, 3), half(2, 2)
+      integer :: k
+      logical :: has_size
+
+      half = reshape([1.0_wp, 0.0_wp, 0.0_wp, 1.0_wp], [2, 2])
+      has_size = mark%radius > bearing_size*symbols%size
+      if (has_size .and. norm2(mark%axis) > 0.0_wp) then
+         across = matmul(frame%a(:, :, mark%body(1)), axes_across(mark%axis))
+         do k = 1, 2
+            half(:, k) = projected(view, across(:, k)) - view%shift
+         end do
+      end if
+      call add_ring(canvas, style_hole, symbols, p, radii(1)*half)
+      call add_ring(canvas, style_journal, symbols, p + e, radii(2)*half)
+      if (.not. (has_size .and. symbols%is_planar)) return
+      half(:, 1) = radii(2)*frame%a(:2, 1, mark%body(2))
+      call add_line(canvas, style_journal, symbols, reshape([p + e - half(:, 1), p + e + half(:, 1)], [2, 2]), dark)
+   end subroutine draw_bearing
 
    !> An arm of a cross.
    subroutine draw_arm(canvas, symbols, view, x, way)
@@ -186,7 +181,7 @@ contains
       real(wp) :: half(3)
 
       half = arm_size*symbols%size*way/norm2(way)
-      call add(canvas, style_symbol, symbols, reshape([projected(view, x - half), projected(view, x + half)], [2, 2]), dark)
+      call add_line(canvas, style_symbol, symbols, reshape([projected(view, x - half), projected(view, x + half)], [2, 2]), dark)
    end subroutine draw_arm
 
    !> The arrow of the force at a mark, from the second point of the mark; zero if none is drawn.
@@ -216,7 +211,7 @@ contains
 
       h = 0.035_wp*symbols%size
       base = p - [0.0_wp, 1.5_wp*h]
-      call add(canvas, style_ground, symbols, reshape([base - [h, 0.0_wp], p, base + [h, 0.0_wp]], [2, 3]), dark)
+      call add_line(canvas, style_ground, symbols, reshape([base - [h, 0.0_wp], p, base + [h, 0.0_wp]], [2, 3]), dark)
       call draw_hatch(canvas, symbols, base - [1.5_wp*h, 0.0_wp], base + [1.5_wp*h, 0.0_wp])
    end subroutine draw_support
 
@@ -230,7 +225,7 @@ contains
       real(wp) :: along(2), at(2), back(2), step
       integer :: k, n
 
-      call add(canvas, style_ground, symbols, reshape([from, to], [2, 2]), dark)
+      call add_line(canvas, style_ground, symbols, reshape([from, to], [2, 2]), dark)
       step = min(0.018_wp*symbols%size, 0.25_wp*norm2(to - from))
       n = max(1, nint(norm2(to - from)/step))
       if (.not. norm2(to - from) > 0.0_wp) return
@@ -238,7 +233,7 @@ contains
       back = step*[along(2), -along(1)] - step*along
       do k = 1, n
          at = from + (to - from)*real(k, wp)/real(n, wp)
-         call add(canvas, style_ground, symbols, reshape([at, at + back], [2, 2]), dark)
+         call add_line(canvas, style_ground, symbols, reshape([at, at + back], [2, 2]), dark)
       end do
    end subroutine draw_hatch
 
@@ -261,7 +256,7 @@ contains
       do side = -1, 1, 2
          across = real(side, wp)*walls(merge(1, 2, side > 0))*[-axis(2), axis(1)]/norm2(axis)
          if (.not. is_ground) then
-            call add(canvas, style_symbol, symbols, reshape([ends(:, 1) + across, ends(:, 2) + across], [2, 2]), dark)
+            call add_line(canvas, style_symbol, symbols, reshape([ends(:, 1) + across, ends(:, 2) + across], [2, 2]), dark)
          else if (side < 0) then
             call draw_hatch(canvas, symbols, ends(:, 1) + across, ends(:, 2) + across)
          else
@@ -269,6 +264,24 @@ contains
          end if
       end do
    end subroutine draw_guide
+
+   !> A slot: its outline over the way of the pin.
+   subroutine draw_slot(canvas, symbols, p, axis, way, half)
+      type(canvas_t), intent(inout) :: canvas  !! gets lines
+      type(symbols_t), intent(in) :: symbols   !! scales
+      real(wp), intent(in) :: p(2)             !! (2) point of its line [m]
+      real(wp), intent(in) :: axis(2)          !! (2) its direction [1]
+      real(wp), intent(in) :: way(2)           !! (2) minimum and maximum place of the pin along it [m]
+      real(wp), intent(in) :: half             !! half its width [m]
+
+      real(wp) :: across(2), ends(2, 2)
+
+      across = half*[-axis(2), axis(1)]
+      ends(:, 1) = p + (way(1) - 2.0_wp*half)*axis
+      ends(:, 2) = p + (way(2) + 2.0_wp*half)*axis
+      call add_line(canvas, style_symbol, symbols, reshape([ends(:, 1) + across, ends(:, 2) + across, ends(:, 2) - across, &
+                                                       ends(:, 1) - across, ends(:, 1) + across], [2, 5]), dark)
+   end subroutine draw_slot
 
    !> A spring between two points.
    subroutine draw_spring(canvas, symbols, p, coil, n)
@@ -290,7 +303,7 @@ contains
          q(:, k) = p(:, 1) + (p(:, 2) - p(:, 1))*(0.15_wp + 0.7_wp*real(k - 1, wp)/real(n - 1, wp))
          if (k > 1 .and. k < n) q(:, k) = q(:, k) + real(2*mod(k, 2) - 1, wp)*across
       end do
-      call add(canvas, style_symbol, symbols, q, dark)
+      call add_line(canvas, style_symbol, symbols, q, dark)
    end subroutine draw_spring
 
    !> A damper or actuator between two points: a piston in a cylinder.
@@ -306,13 +319,14 @@ contains
       along = p(:, 2) - p(:, 1)
       if (.not. norm2(along) > 0.0_wp) return
       across = half*[-along(2), along(1)]/norm2(along)
-      call add(canvas, style_symbol, symbols, reshape([p(:, 1), p(:, 1) + bottom*along], [2, 2]), dark)
+      call add_line(canvas, style_symbol, symbols, reshape([p(:, 1), p(:, 1) + bottom*along], [2, 2]), dark)
       ends = reshape([p(:, 1) + bottom*along, p(:, 1) + mouth*along], [2, 2])
-      call add(canvas, style_symbol, symbols, reshape([ends(:, 2) + across, ends(:, 1) + across, ends(:, 1) - across, &
+      call add_line(canvas, style_symbol, symbols, reshape([ends(:, 2) + across, ends(:, 1) + across, ends(:, 1) - across, &
                                                        ends(:, 2) - across], [2, 4]), dark)
       across = 0.8_wp*across
-      call add(canvas, style_symbol, symbols, reshape([p(:, 1) + head*along + across, p(:, 1) + head*along - across], [2, 2]), dark)
-      call add(canvas, style_symbol, symbols, reshape([p(:, 1) + head*along, p(:, 2)], [2, 2]), dark)
+      ends = reshape([p(:, 1) + head*along + across, p(:, 1) + head*along - across], [2, 2])
+      call add_line(canvas, style_symbol, symbols, ends, dark)
+      call add_line(canvas, style_symbol, symbols, reshape([p(:, 1) + head*along, p(:, 2)], [2, 2]), dark)
    end subroutine draw_damper
 
    !> A wall across the line from a point that is fixed to another, hatched behind.
@@ -345,43 +359,7 @@ contains
       head = min(0.03_wp*symbols%size, 0.5_wp*norm2(way))
       back = -head*way/norm2(way)
       side = 0.4_wp*[-back(2), back(1)]
-      call add(canvas, style_arrow, symbols, reshape([from, tip, tip + back + side, tip, tip + back - side], [2, 5]), red)
+      call add_line(canvas, style_arrow, symbols, reshape([from, tip, tip + back + side, tip, tip + back - side], [2, 5]), red)
    end subroutine draw_arrow
-
-   !> A circle that faces the eye, filled, with its line.
-   subroutine add_disc(canvas, style, symbols, p, radius)
-      type(canvas_t), intent(inout) :: canvas  !! gets lines
-      integer, intent(in) :: style             !! of the filling
-      type(symbols_t), intent(in) :: symbols   !! scales
-      real(wp), intent(in) :: p(2)             !! (2) its centre [m]
-      real(wp), intent(in) :: radius           !! its radius [m]
-
-      real(wp) :: angle, q(2, 0:n_round)
-      integer :: k
-
-      do k = 0, n_round
-         angle = turn*real(k, wp)/real(n_round, wp)
-         q(:, k) = p + radius*[cos(angle), sin(angle)]
-      end do
-      call add(canvas, style, symbols, q, dark)
-   end subroutine add_disc
-
-   !> A polyline.
-   subroutine add(canvas, style, symbols, p, colour)
-      type(canvas_t), intent(inout) :: canvas  !! gets lines
-      integer, intent(in) :: style             !! its style
-      type(symbols_t), intent(in) :: symbols   !! scales
-      real(wp), intent(in) :: p(:, :)          !! (2, n) its points [m]
-      integer, intent(in) :: colour            !! red, green, blue in one number
-
-      integer :: k
-
-      associate (buffer => canvas%styles(style))
-         do k = 1, size(p, 2)
-            call buffer%line(real_text(symbols%scale*p(1, k), 6)//" "//real_text(symbols%scale*p(2, k), 6)//" "//to_text(colour))
-         end do
-         call buffer%line("")
-      end associate
-   end subroutine add
 
 end module scene_strokes

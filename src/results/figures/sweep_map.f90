@@ -1,5 +1,5 @@
-!> A number over two swept parameters: a coloured cell for each case, contour lines with their values, cells without a value
-!> hatched.
+!> A number over two swept parameters: a coloured cell for each case with a dot where the case is, the values of few cases or
+!> contour lines among many, cells without a value hatched.
 !>
 !> The table `NAME.dat` has a row for each case: both parameters, the number (mean over the runs of the case; NaN: no run has it),
 !> and the edges of its cell, halfway to the neighbours (on a logarithmic axis the geometric mean); a block for each value of the
@@ -22,6 +22,7 @@ module sweep_map
    public :: write_sweep_map
 
    real(wp), parameter :: most_levels = 8.0_wp   !! contour lines, about
+   integer, parameter :: most_written = 25       !! cases whose values are written; among more there are contour lines
 
 contains
 
@@ -176,16 +177,22 @@ contains
 
       type(buffer_t) :: lines
       type(display_unit_t) :: unit
-      character(:), allocatable :: cell, grid
+      character(:), allocatable :: cell, cell_place, grid
       real(wp), allocatable :: levels(:)
       real(wp) :: range(2)
+      integer :: k
+      logical :: has_values
 
+      has_values = size(values) <= most_written
       range = [minval(values, mask=ieee_is_finite(values)), maxval(values, mask=ieee_is_finite(values))]
       unit = choose_unit(si, maxval(abs(range)))
       range = unit%factor*range
       levels = levels_in(range)
-      if (size(axes(1)%categories) + size(axes(2)%categories) > 0 .or. any(shape(values) < 2)) levels = [real(wp) ::]
+      if (size(axes(1)%categories) + size(axes(2)%categories) > 0 .or. any(shape(values) < 2) .or. has_values) then
+         levels = [real(wp) ::]
+      end if
       cell = column_of(1, 1)//":"//column_of(2, 2)
+      cell_place = cell
       grid = cell//":"//scaled(3, unit%factor)
       cell = cell//":"//column_of(4, 1)//":"//column_of(5, 1)//":"//column_of(6, 2)//":"//column_of(7, 2)
       call preamble(lines, name, 1200, 900)
@@ -206,6 +213,17 @@ contains
          call lines%add("     '' using (strcol(3) eq 'NaN' ? "//column_of(1, 1)//" : NaN):"// &
                         cell(len(column_of(1, 1)) + 2:)//" with boxxyerror fillstyle pattern 4 border linecolor rgb '#808080' "// &
                         "title 'no value'")
+      end if
+      do k = 1, 2  ! black dots within white ones
+         call lines%line(", \")
+         call lines%add("     '' using (strcol(3) eq 'NaN' ? NaN : "//column_of(1, 1)//"):"//column_of(2, 2)// &
+                        " with points pointtype 7 pointsize "//trim(merge("1.1 linecolor rgb '#ffffff'", &
+                                                                          "0.7 linecolor rgb '#000000'", k == 1))//" notitle")
+      end do
+      if (has_values) then
+         call lines%line(", \")
+         call lines%add("     '' using "//cell_place//":(strcol(3) eq 'NaN' ? '' : sprintf('%.4g', $3*"// &
+                        real_text(unit%factor, 9)//")) with labels boxed offset 0,0.9 font ',13' notitle")
       end if
       if (size(levels) > 0) then
          call lines%line(", \")

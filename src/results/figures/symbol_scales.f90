@@ -2,14 +2,16 @@
 module symbol_scales
    use catalogue, only: catalogue_t
    use groups_of_catalogue, only: group_clearances, group_forces
-   use drawing, only: drawing_t, mark_bearing, mark_damper, mark_load, mark_plane, mark_slide, mark_spring, mark_t
+   use drawing, only: drawing_t, mark_bearing, mark_damper, mark_load, mark_plane, mark_slide, mark_slot, mark_spring, mark_t
    use frames, only: frame_t
    use kinds, only: wp
-   use scene_strokes, only: arrow_at, bearing_size, journal_part, symbols_t
+   use scene_canvas, only: bearing_size, journal_part, pin_size, symbols_t
+   use scene_strokes, only: arrow_at
    implicit none (type, external)
    private
    public :: arrow_tips, largest_force, new_symbols
 
+   real(wp), parameter :: slot_size = 1.3_wp*pin_size  !! half the width of a slot, of the size of the scene [1]
    real(wp), parameter :: min_wall = 0.0425_wp  !! from the middle of a guide to its walls, of the size of the scene, at least [1]
 
 contains
@@ -26,7 +28,8 @@ contains
       integer :: f, i, k
 
       symbols%size = max(drawing%size, of_way*extent_of_motion(drawing, list))
-      symbols%magnified = magnification(drawing, symbols%size)
+      symbols%is_planar = .not. drawing%is_spatial
+      call measure_bearings(drawing, symbols)
       allocate (symbols%ways(2, drawing%n_mark), symbols%clearance_joints(drawing%n_mark))
       allocate (symbols%load(drawing%n_mark), source=0)
       symbols%ways = 0.0_wp
@@ -38,7 +41,7 @@ contains
                if (names(i)%s == mark%name) symbols%clearance_joints(k) = i
             end do
             if (mark%kind == mark_load) symbols%load(k) = number_of(catalogue, mark%name)
-            if (mark%kind /= mark_slide .and. mark%kind /= mark_plane) cycle
+            if (all(mark%kind /= [mark_slide, mark_plane, mark_slot])) cycle
             symbols%ways(:, k) = [huge(1.0_wp), -huge(1.0_wp)]
             do f = 1, size(list)
                do i = 1, 2
@@ -54,6 +57,7 @@ contains
                end if
                symbols%ways(:, k) = [min(symbols%ways(1, k), across), max(symbols%ways(2, k), along)]
             end do
+            if (mark%kind == mark_slot) symbols%walls(:, k) = slot_size*symbols%size
             if (drawing%is_spatial .or. mark%kind /= mark_slide) cycle
             half = mark%sides
             if (maxval(half) > 0.0_wp) then
@@ -164,21 +168,31 @@ contains
       if (half(2) > widest*size_of_symbols) half = 0.0_wp
    end function half_sides
 
-   !> Factor by which eccentricities are magnified: the largest clearance fills the gap of the symbol.
-   pure real(wp) function magnification(drawing, size) result(factor)
-      type(drawing_t), intent(in) :: drawing  !! the scene
-      real(wp), intent(in) :: size            !! of its symbols [m]
+   !> Bearings: each in its size where that is larger than the symbol, with a journal that touches it at its clearance, magnified by
+   !> one factor for all: the largest clearance fills the gap of the symbol, or a part of the smallest bearing that is drawn.
+   pure subroutine measure_bearings(drawing, symbols)
+      type(drawing_t), intent(in) :: drawing        !! the scene
+      type(symbols_t), intent(inout) :: symbols     !! scales, with the size
 
-      real(wp) :: clearance
+      real(wp), parameter :: gap = 0.1_wp   ! of the radius of the smallest bearing [1]
+      real(wp) :: clearance, smallest
       integer :: k
 
+      allocate (symbols%bearings(2, drawing%n_mark), source=0.0_wp)
       clearance = 0.0_wp
+      smallest = huge(1.0_wp)
       do k = 1, drawing%n_mark
-         if (drawing%marks(k)%kind == mark_bearing) clearance = max(clearance, drawing%marks(k)%clearance)
+         if (drawing%marks(k)%kind /= mark_bearing) cycle
+         symbols%bearings(:, k) = max(bearing_size*symbols%size, drawing%marks(k)%radius)
+         smallest = min(smallest, symbols%bearings(1, k))
+         clearance = max(clearance, drawing%marks(k)%clearance)
       end do
-      factor = 0.0_wp
-      if (clearance > 0.0_wp) factor = (1.0_wp - journal_part)*bearing_size*size/clearance
-   end function magnification
+      if (.not. clearance > 0.0_wp) return
+      symbols%magnified = max((1.0_wp - journal_part)*bearing_size*symbols%size, gap*smallest)/clearance
+      do k = 1, drawing%n_mark
+         symbols%bearings(2, k) = symbols%bearings(2, k) - symbols%magnified*drawing%marks(k)%clearance
+      end do
+   end subroutine measure_bearings
 
    !> Where the arrows of some frames end.
    pure function arrow_tips(drawing, symbols, list) result(tips)

@@ -7,12 +7,12 @@ const f32 = s => new Float32Array(bytes(s)), f64 = s => new Float64Array(bytes(s
 const S = D.size;                      // size of the symbols [m]
 const times = f64(D.t), N = times.length;
 const places = f32(D.r), turns = f32(D.q);               // (frame, body, 3) [m], (frame, body, 4) quaternions x y z w
-const eccentricities = f32(D.e), forces = f32(D.f), loads = f32(D.g);
+const loads = f32(D.g);                                  // (frame, force element, 3) [N]
+const track = {t: f64(D.track.t), e: D.track.e.map(f32), f: D.track.f.map(f32)};   // rows of joints with clearance: (row, 3) [m], [N]
 const nBody = D.bodies.length;
 
 let at = 0;                            // position that is shown: a whole number, or between two of them
 const below = () => Math.min(Math.floor(at), N - 1);
-const nearest = () => Math.min(Math.round(at), N - 1);
 const timeAt = u => {
   const k = Math.min(Math.floor(u), N - 1), w = u - k;
   return k + 1 < N ? times[k] * (1 - w) + times[k + 1] * w : times[k];
@@ -21,6 +21,20 @@ const timeAt = u => {
 // A vector of a list (frame, item, 3), linear between two positions
 function vectorAt(list, count, item) {
   const k = below(), w = at - k, i = 3 * (k * count + item), j = k + 1 < N ? i + 3 * count : i;
+  return [0, 1, 2].map(c => list[i + c] * (1 - w) + list[j + c] * w);
+}
+
+// Where a time is among increasing ones: the last that is not later, and the part of the way to the next
+function placeOf(x, t) {
+  let a = 0, b = x.length - 1;
+  while (b - a > 1) { const m = (a + b) >> 1; if (x[m] <= t) a = m; else b = m; }
+  return [a, b > a && x[b] > x[a] ? Math.min(1, Math.max(0, (t - x[a]) / (x[b] - x[a]))) : 0];
+}
+
+// Eccentricity or force of a joint with clearance, linear between two rows of the run: impacts are shorter than a position lasts
+function rowVector(list) {
+  if (!track.t.length) return [0, 0, 0];
+  const [k, w] = placeOf(track.t, timeAt(at)), i = 3 * k, j = k + 1 < track.t.length ? i + 3 : i;
   return [0, 1, 2].map(c => list[i + c] * (1 - w) + list[j + c] * w);
 }
 

@@ -1,6 +1,13 @@
 // Controls: play, scrub, views, names, forces, traces.
 let playing = false, before = 0;
-const seconds = 6;                     // of the whole motion at speed 1
+// Seconds of the motion in one of the playback: round numbers. The usual one takes about six seconds for all.
+const rates = [];
+for (let p = 0; p <= 12; p++) [1, 1.5, 2, 3, 5, 7].forEach(m => rates.push(m * 10 ** p, 1 / (m * 10 ** p)));
+rates.sort((a, b) => a - b);
+const usual = rates.reduce((a, r, k) => Math.abs(Math.log(r * 6 / span)) < Math.abs(Math.log(rates[a] * 6 / span)) ? k : a, 0);
+const rateName = r => r > 0.999 && r < 1.001 ? 'real time' : r >= 1 ? short(r) + ' \u00d7 real time' : '1/' + short(1 / r) + ' of real time';
+const pause = 0.6;                     // seconds that the end stands, unless it is where the motion starts again
+let resting = 0;
 const tracePoint = () => D.points[+$('trace').value] || null;
 
 let shown = 0;                         // when all numbers were shown last: ten times a second are enough while it plays
@@ -30,9 +37,11 @@ function stop() {
 function tick(now) {
   if (playing) {
     if (renderer) keepPace(now - before);
-    const next = at + (now - before) / 1000 * N / seconds * $('speed').value;
-    show(next >= N ? 0 : next);
-    if (next > N - 1 && next < N) at = next;   // the last position stands as long as every other
+    const passed = (now - before) / 1000, next = at + passed * $('speed').value * (N - 1) / span;
+    if (next < N - 1) show(next);
+    else if (D.repeats) show(next % (N - 1));
+    else if ((resting = at < N - 1 ? 0 : resting + passed) < pause) show(N - 1);
+    else show(0);
   }
   before = now;
   if (renderer && needsDraw) { needsDraw = false; draw(); if (D.spatial && D.joints.length && !playing) cursors[0](true); }
@@ -43,6 +52,9 @@ function start() {
   D.plots.forEach(p => p.curves.forEach(c => { c.x = f64(c.x); c.y = f32(c.y); }));
   $('slider').max = N - 1;
   const option = (id, name, value) => $(id).add(new Option(name, value));
+  const offered = [-6, -3, 0, 3].map(k => rates[usual + k]).filter(r => r).concat(1).sort((a, b) => a - b);
+  offered.filter((r, k) => !(Math.abs(r / offered[k - 1] - 1) < 1e-3)).forEach(r => option('speed', rateName(r), r));
+  $('speed').selectedIndex = [...$('speed').options].findIndex(o => Math.abs(o.value / rates[usual] - 1) < 1e-3);
   option('trace', 'trace: none', -1);
   D.points.forEach((p, k) => option('trace', 'trace: ' + p.n, k));
   D.joints.forEach((j, k) => option('joint', 'joint: ' + j.n, k));
@@ -55,6 +67,7 @@ function start() {
     if (playing) return stop();
     playing = true;
     if (at >= N - 1) at = 0;
+    resting = 0;
     $('play').textContent = 'stop';
   };
   $('step').onclick = () => { stop(); show(Math.floor(at) + 1 > N - 1 ? 0 : Math.floor(at) + 1); };
@@ -80,9 +93,10 @@ function start() {
     resize();
     if (D.spatial) setView('isometric');
   }
-  const span = last - first, slow = seconds / span;
-  $('legend').textContent = D.legend + '; ' + N + ' positions, straight between them' + (N > 1 ? '; speed \u00d7 1 is ' +
-    (slow >= 1 ? short(slow) + ' times slower' : short(1 / slow) + ' times faster') + ' than the motion' : '') + '. ' + D.note +
+  const peak = Math.max(0, ...track.f.map(f => magnitudes(f).reduce((a, b) => Math.max(a, b), 0)));
+  $('legend').textContent = D.legend + (D.force > 0 && peak > 1.001 * D.force ? '; larger ones are cut and have two heads' : '') + '; ' + N +
+    ' positions, straight between them' + (D.joints.length ? '; joints with clearance and their forces at ' + track.t.length + ' rows' : '') +
+    '. ' + D.note +
     (is3D ? (D.spatial ? 'Drag: orbit; right button or two fingers: move' : 'Drag: move') + '; wheel: zoom; arrow keys: step; space: play.' : '');
   show(0);
   requestAnimationFrame(tick);

@@ -1,5 +1,5 @@
 // Plots beside the picture: histories of the figures of the deck, force and path of a joint with clearance, motion of a point.
-const side = $('side'), first = times[0], last = Math.max(times[N - 1], first + Number.MIN_VALUE);
+const side = $('side'), first = times[0], last = Math.max(times[N - 1], first + Number.MIN_VALUE), span = last - first;
 const strokes = ['#1f6fb4', '#d1495b', '#2e8b57', '#c98a00', '#7b4fa3', '#17a2b8'];
 const text = (x, y, s, anchor, colour) =>
   `<text x="${x}" y="${y}" font-size="12" text-anchor="${anchor || 'start'}" fill="${colour || '#333'}">${s}</text>`;
@@ -25,10 +25,12 @@ function timePlot(svg, plot) {
     if (v === v && c.x[k] >= first && c.x[k] <= last) { lo = Math.min(lo, v); hi = Math.max(hi, v); }
   }));
   if (!(lo <= hi)) { lo = 0; hi = 1; }
-  const pad = hi > lo ? 0.06 * (hi - lo) : Math.abs(hi) || 1, rows = Math.ceil(plot.curves.length / 2), top = 22 + 16 * rows, bottom = top + 120;
+  const least = 1e-4 * Math.max(Math.abs(lo), Math.abs(hi)), isFlat = !(hi - lo > least);   // less would be round-off of what is written
+  const pad = isFlat ? least || 1 : 0.06 * (hi - lo), rows = Math.ceil(plot.curves.length / 2), top = 22 + 16 * rows, bottom = top + 120;
   const Y = v => bottom - 120 * (v - lo + pad) / (hi - lo + 2 * pad);
   svg.setAttribute('viewBox', `0 0 420 ${bottom + 24}`);
   const label = v => Math.abs(v) < 1e-6 * (hi - lo) ? '0' : short(v);
+  const heading = plot.title.length > 46 ? plot.title.slice(0, 45) + '\u2026' : plot.title;
   const lines = plot.curves.map((c, i) => {
     const pieces = [[]];
     c.y.forEach((v, k) => {
@@ -37,9 +39,9 @@ function timePlot(svg, plot) {
     });
     return pieces.map(p => `<polyline points="${points(p)}" fill="none" stroke="${strokes[i % strokes.length]}" stroke-width="1.3"/>`).join('');
   });
-  svg.innerHTML = text(6, 15, safe(plot.title + (plot.unit ? ' [' + plot.unit + ']' : ''))) +
+  svg.innerHTML = text(6, 15, safe(heading + (plot.unit ? ' [' + plot.unit + ']' : ''))) +
     (lo < 0 && hi > 0 ? `<path d="M62 ${Y(0)}H408" stroke="#ddd"/>` : '') + lines.join('') +
-    `<path d="M62 ${top}V${bottom}H408" stroke="#404040" fill="none"/>` + text(58, Y(hi) + 4, label(hi), 'end') + text(58, Y(lo) + 4, label(lo), 'end') +
+    `<path d="M62 ${top}V${bottom}H408" stroke="#404040" fill="none"/>` + text(58, Y(hi) + 4, label(hi), 'end') + (isFlat ? '' : text(58, Y(lo) + 4, label(lo), 'end')) +
     text(62, bottom + 16, unit(first, 's')) + text(408, bottom + 16, unit(last, 's'), 'end') +
     plot.curves.map((c, i) => `<text class="value" x="${10 + 205 * (i % 2)}" y="${31 + 16 * Math.floor(i / 2)}" font-size="12" fill="${strokes[i % strokes.length]}"></text>`).join('');
   const cursor = document.createElement('i'), values = svg.querySelectorAll('.value');
@@ -60,10 +62,8 @@ function timePlot(svg, plot) {
 
 // A curve's value at a time, linear between its points
 function valueAt(c, t) {
-  let a = 0, b = c.x.length - 1;
-  while (b - a > 1) { const m = (a + b) >> 1; if (c.x[m] <= t) a = m; else b = m; }
-  const w = c.x[b] > c.x[a] ? Math.min(1, Math.max(0, (t - c.x[a]) / (c.x[b] - c.x[a]))) : 0;
-  return c.y[a] * (1 - w) + c.y[b] * w;
+  const [k, w] = placeOf(c.x, t);
+  return w > 0 ? c.y[k] * (1 - w) + c.y[k + 1] * w : c.y[k];
 }
 
 // Two directions across the view: x to the right, y upward
@@ -77,7 +77,7 @@ const isGuide = j => D.marks.find(m => m.k === 2 && m.l === j + 1 && m.d > 0);
 
 // A joint with clearance in the view of the picture, its clearance filling the plot
 function orbit(svg, j) {
-  const joint = D.joints[j], t = f64(D.track.t), e = f32(D.track.e[j]);
+  const joint = D.joints[j], t = track.t, e = track.e[j];
   const m = isGuide(j);
   let big = joint.c;
   for (let k = 0; k < e.length; k += 3) big = Math.max(big, Math.hypot(e[k], e[k + 1], e[k + 2]));
@@ -85,13 +85,14 @@ function orbit(svg, j) {
   const circle = (x, y, q, fill) => `<circle cx="${x}" cy="${y}" r="${q}" fill="${fill}" stroke="#404040"/>`;
   return all => {
     if (!all) return;
-    const [u, v] = across(), now = vectorAt(eccentricities, D.joints.length, j), path = [];
+    const [u, v] = across(), now = rowVector(e), path = [];
     if (m) { svg.innerHTML = slider(m, joint, now, u, v); return; }
     for (let k = 0; k < t.length && t[k] <= timeAt(at); k++) {
       const s = [e[3 * k], e[3 * k + 1], e[3 * k + 2]];
       path.push([210 + g * dot(u, s), 200 - g * dot(v, s)]);
     }
     const x = 210 + g * dot(u, now), y = 200 - g * dot(v, now);
+    path.push([x, y]);
     svg.innerHTML = circle(210, 200, R, '#fff4d6') + circle(x, y, r, journal) +
       `<polyline points="${points(path.slice(-400))}" fill="none" stroke="${red}"/>` + circle(x, y, 4, red) + title +
       text(210, 392, 'path of the journal (drawn smaller than the hole)', 'middle');
@@ -121,6 +122,8 @@ function pointPlot(point) {
     curves: ['x', 'y', 'z'].slice(0, D.spatial ? 3 : 2).map((n, c) => ({n, x: times, y: xyz[c].map(v => v * f)}))};
 }
 
+const magnitudes = list => Array.from({length: list.length / 3}, (_, k) => Math.hypot(list[3 * k], list[3 * k + 1], list[3 * k + 2]));
+
 let cursors = [];
 function buildPlots() {
   side.innerHTML = '';
@@ -132,9 +135,9 @@ function buildPlots() {
       svg.setAttribute('class', 'orbit');
       cursors.push(orbit(svg, j));
     }
-    const y = Array.from(f32(D.track.f[j])), most = y.reduce((a, b) => Math.max(a, b), 0), f = most >= 1e4 ? 1e-3 : 1;
+    const y = magnitudes(track.f[j]), most = y.reduce((a, b) => Math.max(a, b), 0), f = most >= 1e4 ? 1e-3 : 1;
     cursors.push(timePlot(element(160), {title: 'force in ' + D.joints[j].n, unit: f < 1 ? 'kN' : 'N',
-      curves: [{n: 'force', x: f64(D.track.t), y: y.map(v => v * f)}]}));
+      curves: [{n: 'force', x: track.t, y: y.map(v => v * f)}]}));
   }
   if (point) cursors.push(timePlot(element(160), pointPlot(point)));
   D.plots.forEach(p => cursors.push(timePlot(element(160), p)));

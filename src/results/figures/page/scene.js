@@ -62,12 +62,15 @@ function addPart(part, solid) {
 function addMark(m, parts) {
   const [i, j] = m.b, p = m.s.map(vec), ground = m.b.indexOf(0);
   if (m.k === 1 || m.k === 3 || m.k === 5) { if (ground >= 0) stand(parts[0], p[ground]); }
+  if (m.k === 1 && D.spatial && m.aj.some(v => v)) { arm(parts[i], p[0], m.a); arm(parts[j], p[1], m.aj); }
   if (m.k === 1) pin(parts[j], p[1], m.a.some(v => v) && j === 0 ? vec(m.a) : null);
   if (m.k === 3) { pin(parts[i], p[0]); pin(parts[j], p[1]); movingRod(m, 0.5 * rodRadius, dark); }
   if (m.k === 2) guide(m, parts[i]);
+  if (m.k === 10) { slot(m, parts[i]); pin(parts[j], p[1]); if (j === 0) stand(parts[0], p[1]); }
   if (m.k === 7) plane(m, parts[i]);
   if (m.k === 4 || m.k === 8) {
     m.b.forEach((b, k) => { if (!b && D.spatial) parts[0].lit.add(new THREE.BoxBufferGeometry(0.03 * S, 0.03 * S, 0.03 * S), new THREE.Matrix4().setPosition(p[k]), grey); });
+    if (!D.spatial && ground >= 0) anchor(m, ground, parts[0]);
     if (m.k === 4) spring(m); else damper(m);
   }
   if (m.k === 5) bearing(m, parts[i]);
@@ -78,6 +81,28 @@ function pin(solid, p, axis) {
   if (!D.spatial) solid.flat.disc(raised(p, 3), 0.014 * S, '#ffffff', dark);
   else if (axis) solid.lit.add(new THREE.CylinderBufferGeometry(0.012 * S, 0.012 * S, 0.05 * S, 18), along(p, axis), '#d8dde2');
   else solid.lit.ball(p, 0.0125 * S, '#d8dde2');
+}
+
+// An arm of a cross
+function arm(solid, p, axis) {
+  const way = vec(axis).normalize().multiplyScalar(0.035 * S);
+  solid.lit.rod(p.clone().sub(way), p.clone().add(way), 0.007 * S, dark);
+}
+
+// A slot over the way of its pin
+function slot(m, solid) {
+  const p = raised(vec(m.s[0]), 1.5), u = vec(m.a), n = V3(-u.y, u.x, 0).multiplyScalar(m.h[0]), h = 2 * m.h[0];
+  const at = (x, side) => p.clone().addScaledVector(u, x).addScaledVector(n, side);
+  solid.flat.strip([at(m.w[0] - h, 1), at(m.w[1] + h, 1), at(m.w[1] + h, -1), at(m.w[0] - h, -1)], true, V3(0, 0, 1), 0.004 * S, dark);
+}
+
+// The wall at the fixed end of a spring or damper, across where it points at the first position
+function anchor(m, end, solid) {
+  const b = m.b[1 - end], p = raised(vec(m.s[end]), -1), q = vec(turned(b, m.s[1 - end])).add(vec(vectorAt(places, nBody, b)));
+  const d = p.clone().sub(q).setZ(0);
+  if (!(d.length() > 0)) return;
+  const n = d.normalize(), across = V3(-n.y, n.x, 0).multiplyScalar(2 * m.c);
+  wall(solid, p.clone().sub(across), p.clone().add(across), n);
 }
 
 // The ground at a point
@@ -168,12 +193,13 @@ function damper(m) {
   stretched(m, solid.mesh(lit));
 }
 
-// A joint with clearance: hole and journal in sizes that are seen, the eccentricity magnified
+// A joint with clearance: hole and journal in their size or larger, the eccentricity magnified
 function bearing(m, solid) {
-  const p = vec(m.s[0]), R = 0.034 * S, r = 0.021 * S, axis = m.a.some(v => v) ? vec(m.a) : null, inner = new Solid();
+  const p = vec(m.s[0]), [R, r] = m.R, hasSize = R > 0.0341 * S, axis = m.a.some(v => v) ? vec(m.a) : null, inner = new Solid();
   if (!D.spatial) {
     solid.flat.disc(raised(p, 2), R, '#fff4d6', dark);
     inner.disc(V3(0, 0, 0), r, journal, dark);
+    if (hasSize) inner.strip([V3(-r, 0, 0.002 * S), V3(r, 0, 0.002 * S)], false, V3(0, 0, 1), 0.004 * S, dark);   // its turn is seen
   } else if (axis) {
     solid.pale.add(new THREE.CylinderBufferGeometry(R, R, 0.07 * S, 28), along(p, axis), hole);
     inner.add(new THREE.CylinderBufferGeometry(r, r, 0.09 * S, 24), along(V3(0, 0, 0), axis), journal);
@@ -184,27 +210,35 @@ function bearing(m, solid) {
   const mesh = inner.mesh(D.spatial ? lit : flat);
   world.add(mesh);
   moving.push(() => {
-    const e = m.l ? vec(vectorAt(eccentricities, D.joints.length, m.l - 1)).multiplyScalar(D.magnified) : V3(0, 0, 0);
+    const e = m.l ? vec(rowVector(track.e[m.l - 1])).multiplyScalar(D.magnified) : V3(0, 0, 0);
     mesh.position.copy(raised(place(m.b[0], m.s[0]), 3).add(e));
-    if (D.spatial) mesh.quaternion.setFromRotationMatrix(groups[m.b[0]].matrix);
+    mesh.quaternion.setFromRotationMatrix(groups[m.b[D.spatial ? 0 : 1]].matrix);
   });
 }
 
-// A force at the second point, in proportion to the largest
+// A force as it is drawn: in proportion to the largest at the positions; what is beyond is cut there and has a second head
+const longestArrow = 0.25 * S;
+function arrowOf(force) {
+  const d = vec(force).multiplyScalar(longestArrow / D.force), l = d.length(), isCut = l > 1.001 * longestArrow;
+  return {d: isCut ? d.multiplyScalar(1.2 * longestArrow / l) : d, isCut};
+}
+const forceOf = m => m.l ? rowVector(track.f[m.l - 1]) : vectorAt(loads, loads.length / 3 / N, m.q - 1);
+
+// A force at the second point
 function arrow(m) {
   const shaft = new Solid(), head = new Solid();
   shaft.add(new THREE.CylinderBufferGeometry(0.0045 * S, 0.0045 * S, 1, 12), new THREE.Matrix4().makeTranslation(0, 0.5, 0), red);
   head.add(new THREE.ConeBufferGeometry(0.014 * S, 0.04 * S, 18), new THREE.Matrix4().makeTranslation(0, -0.02 * S, 0), red);
-  const meshes = [shaft.mesh(lit), head.mesh(lit)];
+  const meshes = [shaft.mesh(lit), head.mesh(lit), head.mesh(lit)];
   meshes.forEach(mesh => { mesh.matrixAutoUpdate = false; arrows.add(mesh); });
   moving.push(() => {
-    const f = m.l ? vectorAt(forces, D.joints.length, m.l - 1) : vectorAt(loads, loads.length / 3 / N, m.q - 1);
-    const d = vec(f).multiplyScalar(0.25 * S / D.force), l = d.length(), a = raised(place(m.b[1], m.s[1]), 5);
-    meshes.forEach(mesh => { mesh.visible = l > 1e-3 * S; });
+    const {d, isCut} = arrowOf(forceOf(m)), l = d.length(), a = raised(place(m.b[1], m.s[1]), 5);
+    meshes.forEach((mesh, k) => { mesh.visible = l > 1e-3 * S && (k < 2 || isCut); });
     if (!(l > 1e-3 * S)) return;
-    const size = Math.min(1, l / (0.06 * S));
+    const size = Math.min(1, l / (0.06 * S)), second = d.clone().setLength(Math.max(0, l - 0.05 * S));
     meshes[0].matrix.copy(along(a, d)).scale(V3(size, Math.max(l - 0.03 * S * size, 0.01 * l), size));
     meshes[1].matrix.copy(along(a.clone().add(d), d)).scale(V3(size, size, size));
+    meshes[2].matrix.copy(along(a.clone().add(second), d));
     meshes.forEach(mesh => { mesh.matrixWorldNeedsUpdate = true; });
   });
 }

@@ -59,8 +59,8 @@ class Solid {
 
   // A disc with a rim, across z
   disc(p, radius, colour, rim) {
-    this.add(new THREE.CircleBufferGeometry(radius, 28), new THREE.Matrix4().setPosition(p), colour);
-    this.add(new THREE.RingBufferGeometry(radius * 0.86, radius, 28), new THREE.Matrix4().setPosition(p.clone().setZ(p.z + 1e-3 * S)), rim);
+    this.add(new THREE.CircleBufferGeometry(radius, 96), new THREE.Matrix4().setPosition(p), colour);
+    this.add(new THREE.RingBufferGeometry(radius - Math.min(0.14 * radius, 0.005 * S), radius, 96), new THREE.Matrix4().setPosition(p.clone().setZ(p.z + 1e-3 * S)), rim);
   }
 
   mesh(material) {

@@ -92,7 +92,10 @@ function fit() {
         take(corner.applyMatrix4(g.matrix));
       }
     });
-    D.marks.forEach(m => { if (m.k !== 7) m.b.forEach((b, e) => take(place(b, m.s[e]))); });
+    D.marks.forEach(m => {
+      if (m.k !== 7) m.b.forEach((b, e) => take(place(b, m.s[e])));
+      if ((m.l || m.q) && D.force > 0) forcesUntil(m, k, stride).forEach(f => take(place(m.b[1], m.s[1]).add(arrowOf(f).d)));
+    });
   }
   at = kept;
   showPoses();
@@ -105,6 +108,14 @@ function fit() {
   controls.update();
   isFitted = true;
   needsDraw = isTurned = true;
+}
+
+// Forces at a mark from a position to the next that is looked at
+function forcesUntil(m, k, stride) {
+  if (!m.l) return [forceOf(m)];
+  const list = [], f = track.f[m.l - 1], end = times[Math.min(k + stride, N - 1)];
+  for (let i = placeOf(track.t, times[k])[0]; i < track.t.length && track.t[i] <= end; i++) list.push(f.subarray(3 * i, 3 * i + 3));
+  return list;
 }
 
 // Names of bodies and joints as text over the picture
@@ -123,7 +134,7 @@ function buildLabels() {
     if (used.has(m.n)) return;
     used.add(m.n);
     add(m.n, '#333', () => m.k === 3 || m.k === 4 || m.k === 8 ? place(m.b[0], m.s[0]).add(place(m.b[1], m.s[1])).multiplyScalar(0.5)
-      : m.k === 2 ? place(m.b[1], m.s[1]) : place(m.b[0], m.s[0]));
+      : m.k === 2 || m.k === 10 ? place(m.b[1], m.s[1]) : place(m.b[0], m.s[0]));
   });
 }
 
