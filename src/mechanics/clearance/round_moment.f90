@@ -46,7 +46,7 @@ contains
          do k = 1, most_iterations
             delta = min(delta, most)
             call moment_of(pair, delta, here, slope, bend)
-            if (.not. here > 0.0_wp) then  ! e does not resolve the penetration: M goes as its power 1/0.4
+            if (.not. here > 0.0_wp) then  ! below the smallest number: M goes as the power 1/0.4 of delta
                slope = moment/(power*delta)
                bend = (1.0_wp/power - 1.0_wp)*slope/delta
                return
