@@ -41,8 +41,8 @@ contains
       call load_text("deck = 1"//nl//"[scene]"//nl//"gravity = 0 0 m/s^2"//nl//"[bodies]"//nl// &
                      "name mass[kg] inertia[kg.m^2]"//nl//"shaft 1 1e-3"//nl//"[points]"//nl//"name body"//nl// &
                      "bush ground"//nl//"centre shaft"//nl//"[material]"//nl//"name young[GPa] poisson"//nl//"steel 207 0.3"//nl// &
-                     "[clearance.revolute]"//nl//"name bearing journal bearing_radius[mm] clearance[mm] length[mm] material law "// &
-                     "wear"//nl//"joint bush centre 10 0.5 15 steel dry slow"//nl//"[contact.hertz]"//nl//"name"//nl//"dry"//nl// &
+                     "[clearance.revolute]"//nl//"name bearing journal bearing_radius[mm] clearance[mm] length[mm] material "// &
+                     "law wear"//nl//"joint bush centre 10 0.5 15 steel dry slow"//nl//"[contact.hertz]"//nl//"name"//nl//"dry"//nl// &
                      "[wear.archard]"//nl//"name bearing[m^2/N] journal[m^2/N] cells"//nl//"slow 1e-15 1e-15 "//to_text(cells)// &
                      nl//tables//nl//"[analysis.dynamic]"//nl//"end = 1 ms"//nl, loaded, error)
       if (.not. allocated(error)) call move_alloc(loaded%scene%worn, worn)

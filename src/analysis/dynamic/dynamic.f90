@@ -96,7 +96,6 @@ contains
       call system_clock(clock_0, ticks)
       run%stop = limits%stop
       call new_whole_motion(system, method, subsystems, limits, plan%output_times, run%whole)
-      run%whole%parts%monitor%wear%from = limits%wear_from
       allocate (run%waiting(size(run%whole%parts)))
       call new_sampler(system, plan, run%sampler, catalogue)
       call recorder%start(run%sampler%catalogue, error)

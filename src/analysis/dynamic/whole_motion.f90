@@ -70,6 +70,7 @@ contains
       call whole%queue%start(n)
       if (size(subsystems) == 0) then
          call new_part(system, method, output_times, limits%guards, whole%parts(1))
+         whole%parts(1)%monitor%wear%from = limits%wear_from
          return
       end if
       whole%places => subsystems
@@ -81,6 +82,7 @@ contains
       do k = 1, n
          call limits%guards%share(contacts_of(system, subsystems(k)), guards)
          call new_part(subsystems(k)%system, subsystems(k)%method, subsystems(k)%output_times, guards, whole%parts(k))
+         whole%parts(k)%monitor%wear%from = limits%wear_from
       end do
    end subroutine new_whole_motion
 

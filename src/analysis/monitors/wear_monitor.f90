@@ -71,7 +71,7 @@ contains
       type(mechanism_t), intent(in) :: system        !! the system
       type(wear_monitor_t), intent(out) :: monitor   !! the monitor
 
-      integer :: i, k, m
+      integer :: i, item, k, m
 
       allocate (monitor%worn(0), monitor%samples(n_gauss), monitor%y(merge(system%n, 0, system%n_wear > 0)))
       if (system%n_wear == 0) return
@@ -88,8 +88,9 @@ contains
                monitor%worn(m)%slot = k
                monitor%worn(m)%contact = i
                allocate (monitor%worn(m)%volume(nint(set%laws%wear%cells), n_side), source=0.0_wp)
-               if (.not. allocated(set%items%pairs(set%item_of(i))%worn)) cycle
-               associate (profiles => set%items%pairs(set%item_of(i))%worn)
+               item = set%item_of(i)
+               if (.not. allocated(set%items%pairs(item)%worn)) cycle
+               associate (profiles => set%items%pairs(item)%worn)
                   if (.not. profiles%hole%is_round()) monitor%worn(m)%volume(:, of_bearing) = profiles%hole%volume
                   if (.not. profiles%pin%is_round()) monitor%worn(m)%volume(:, of_journal) = profiles%pin%volume
                   monitor%worn(m)%distance = profiles%distance

@@ -66,6 +66,7 @@ contains
                n = n + 1
                call take_items(items, chosen, some)
                call add_clearance_set(scene, k, some, is_driven, slots(n), system)
+               if (allocated(scene%worn)) call take_worn(scene%worn, slots(n)%set)
             end do
             if (any(is_twin)) then
                chosen = pack([(i, i=1, size(items))], is_twin)
@@ -183,7 +184,6 @@ contains
       ties = [(tie_of(scene, scene%clearances(kind)%info, items(i)), i=1, size(items))]
       call slot%set%new(items, ties%point(1), ties%point(2), scene%points, law, friction)
       call slot%set%take_surfaces(items, scene%materials, scene%bodies%mass, is_driven)
-      if (allocated(scene%worn)) call take_worn(scene%worn, slot%set)
       if (face_law > 0) allocate (slot%set%laws%face, source=scene%laws(face_law)%law)
       call choose_wear(scene, scene%clearances(kind)%info, items(1), slot%set%laws%wear)
       slot%set%items%free = [(0, i=1, size(items))]

@@ -9,8 +9,8 @@
 !> Signs: the reported force is that on the journal, world frame; the friction force is its component along t = R90 n; the
 !> eccentricity is the journal's centre from the bearing's, world frame.
 !> Wear (`wear_law`): the driving work is that of the resultant; it is shared out over the arc in which the surfaces overlap, by the
-!> cosine of the angle from the normal where they are round (`wear_arc`), by the overlap where they are worn (`surface_overlap`). The
-!> geometry of contact is that of the start within a run.
+!> cosine of the angle from the normal where they are round (`wear_arc`), by the overlap where they are worn (`surface_overlap`).
+!> The geometry of contact is that of the start within a run.
 !> Source: Flores et al. (2008), section 4.2, corrected: see `round_contacts`; `form = book` does as the book prints.
 !> Limits: surfaces round, or round but for wear; one contact per joint.
 module clearance_revolute
@@ -173,8 +173,8 @@ contains
       if (abs(self%stick_slip%slip(k)) == 1) speed = self%stick_slip%slip(k)*v_t
    end function speed_of
 
-   !> What a contact does to its surfaces at a motion: its arc is that in which the surfaces overlap, of round ones in the directions
-   !> of the normal. Friction that remembers is taken as that of steady sliding.
+   !> What a contact does to its surfaces at a motion: its arc is that in which the surfaces overlap, of round ones in the
+   !> directions of the normal. Friction that remembers is taken as that of steady sliding.
    subroutine revolute_wear_at(self, k, motion, wear)
       class(clearance_revolute_t), intent(in) :: self   !! the set, with a wear law
       integer, intent(in) :: k                          !! contact of the set, which touches

@@ -1,7 +1,7 @@
 !> A ray from the centre of a worn hole through a worn pin: how far the surfaces overlap along it, and how that changes.
 !>
-!> e the pin's centre from the hole's, u = (cos, sin)(theta), q = e . R90 u,  chi = theta - x - x^3/6 - alpha_j,  x = q/r,  the place
-!> on the pin, f = (1 + x^2/2)/r:
+!> e the pin's centre from the hole's, u = (cos, sin)(theta), q = e . R90 u,  chi = theta - x - x^3/6 - alpha_j,  x = q/r,  the
+!> place on the pin, f = (1 + x^2/2)/r:
 !>
 !> d(theta) = e . u + S - R - h_i(theta - alpha_i),   S = sqrt(rho^2 - q^2),   rho = r - h_j(chi)
 !> d_e = u + w R90 u,  w = (rho h_j' f - q)/S;   d_alpha_i = h_i',  d_alpha_j = rho h_j'/S
@@ -41,11 +41,10 @@ module overlap_rays
       real(wp) :: by_i = 0.0_wp          !! derivative of d by alpha_i [m/rad]
       real(wp) :: by_j = 0.0_wp          !! and by alpha_j [m/rad]
       real(wp) :: h_j = 0.0_wp           !! depth of the pin there [m]
+      real(wp) :: h_j_by(2) = 0.0_wp     !! (2) its derivatives by theta and by time [m/rad, m/s]
       real(wp) :: d_dot = 0.0_wp         !! rate of d [m/s]
       real(wp) :: d_ddot = 0.0_wp        !! its second derivative [m/s^2]
       real(wp) :: w_dot = 0.0_wp         !! rate of w [1/s]
-      real(wp) :: h_j_dot = 0.0_wp       !! rate of the depth [m/s]
-      real(wp) :: h_j_slope = 0.0_wp     !! its derivative by theta [m/rad]
       real(wp) :: slope_dot = 0.0_wp     !! rate of the slope [m/(rad.s)]
       real(wp) :: w_slope = 0.0_wp       !! derivative of w by theta [1/rad]
    end type ray_t
@@ -121,7 +120,7 @@ contains
       real(wp), intent(in) :: root           !! S [m]
       type(depth_t), intent(in) :: hole      !! depth of the hole
       type(depth_t), intent(in) :: surface   !! depth of the pin
-      type(ray_t), intent(inout) :: ray      !! bend, w_slope and h_j_slope are set
+      type(ray_t), intent(inout) :: ray      !! bend, w_slope and that of h_j by theta are set
 
       real(wp) :: chi_bend, chi_slope, f, f_slope, rho_bend, rho_slope, root_slope
 
@@ -132,7 +131,7 @@ contains
       rho_slope = -surface%slope*chi_slope
       rho_bend = -surface%bend*chi_slope**2 - surface%slope*chi_bend
       root_slope = (rho*rho_slope + q*s)/root
-      ray%h_j_slope = -rho_slope
+      ray%h_j_by(1) = -rho_slope
       ray%bend = -s + (rho_slope**2 + rho*rho_bend + q**2 - s**2 - root_slope**2)/root - hole%bend
       ray%w_slope = ((rho_slope*surface%slope + rho*surface%bend*chi_slope)*f + rho*surface%slope*f_slope + s)/root &
                     - ray%w*root_slope/root
@@ -168,7 +167,7 @@ contains
                    + hole%slope*pin%alpha(1)
       ray%w_dot = ((rho_dot*surface%slope + rho*surface%bend*chi_dot)*f + rho*surface%slope*f_by_q*q_dot - q_dot)/root &
                   - ray%w*root_dot/root
-      ray%h_j_dot = -rho_dot
+      ray%h_j_by(2) = -rho_dot
       ! of the slope: d_e . e' + omega_i h_i' + omega_j rho h_j'/S, differentiated by theta
       root_slope = (q*s - rho*surface%slope*(1.0_wp + s*f))/root
       ray%slope_dot = q_dot - along*ray%w + q_dot*ray%w_slope + pin%omega(1)*hole%bend &

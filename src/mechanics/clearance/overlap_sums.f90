@@ -25,16 +25,16 @@ module overlap_sums
 
    !> Integrals over the overlap.
    type :: sums_t
-      real(wp) :: m = 0.0_wp             !! of d^2
-      real(wp) :: e(2) = 0.0_wp          !! (2) its derivative by e
-      real(wp) :: j = 0.0_wp             !! by the angle of the pin's body
-      real(wp) :: d = 0.0_wp             !! of 2 d
-      real(wp) :: h = 0.0_wp             !! of 2 d h_j
-      real(wp) :: m_dot = 0.0_wp         !! rate of m
-      real(wp) :: m_ddot = 0.0_wp        !! second derivative of m by time
-      real(wp) :: e_dot(2) = 0.0_wp      !! (2) rate of e
-      real(wp) :: d_dot = 0.0_wp         !! rate of d
-      real(wp) :: h_dot = 0.0_wp         !! rate of h
+      real(wp) :: m = 0.0_wp             !! of d^2 [m^2.rad]
+      real(wp) :: e(2) = 0.0_wp          !! (2) its derivative by e [m.rad]
+      real(wp) :: j = 0.0_wp             !! by the angle of the pin's body [m^2]
+      real(wp) :: d = 0.0_wp             !! of 2 d [m.rad]
+      real(wp) :: h = 0.0_wp             !! of 2 d h_j [m^2.rad]
+      real(wp) :: m_dot = 0.0_wp         !! rate of m [m^2.rad/s]
+      real(wp) :: m_ddot = 0.0_wp        !! second derivative of m by time [m^2.rad/s^2]
+      real(wp) :: e_dot(2) = 0.0_wp      !! (2) rate of e [m.rad/s]
+      real(wp) :: d_dot = 0.0_wp         !! rate of d [m.rad/s]
+      real(wp) :: h_dot = 0.0_wp         !! rate of h [m^2.rad/s]
    end type sums_t
 
 contains
@@ -120,7 +120,7 @@ contains
          sums%m_dot = sums%m_dot + two_d*ray%d_dot
          sums%e_dot = sums%e_dot + two_rate*d_e + two_d*ray%w_dot*[-ray%u(2), ray%u(1)]
          sums%d_dot = sums%d_dot + two_rate
-         sums%h_dot = sums%h_dot + two_rate*ray%h_j + two_d*ray%h_j_dot
+         sums%h_dot = sums%h_dot + two_rate*ray%h_j + two_d*ray%h_j_by(2)
          sums%m_ddot = sums%m_ddot + two_rate*ray%d_dot + two_d*ray%d_ddot
       end associate
    end subroutine add_point

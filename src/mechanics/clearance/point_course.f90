@@ -49,7 +49,8 @@ contains
       if (has_forces) has_forces = self%contact(k)%is_touching .or. self%laws%normal%acts_apart
    end function has_forces
 
-   !> Normal force of a touching contact and its rate, F' = dF/ddelta delta' + dF/drate delta'', and F lambda'/lambda of worn surfaces.
+   !> Normal force of a touching contact and its rate, F' = dF/ddelta delta' + dF/drate delta'', of worn surfaces also
+   !> F lambda'/lambda.
    module procedure point_monitor
       type(point_contact_t) :: contact
       real(wp), dimension(1) :: d, d_rate, elastic, f, impact_speed, slope_delta, slope_rate

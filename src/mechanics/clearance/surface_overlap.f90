@@ -1,7 +1,7 @@
 !> How deep a worn pin is in a worn hole: a penetration by the energy of a foundation, and its derivatives.
 !>
-!> A worn arc has no deepest point. The second moment of the overlap d(theta) of `overlap_rays` is, but for a factor, the energy of a
-!> foundation of springs along the surface; the penetration is that of round surfaces with the same moment:
+!> A worn arc has no deepest point. The second moment of the overlap d(theta) of `overlap_rays` is, but for a factor, the energy of
+!> a foundation of springs along the surface; the penetration is that of round surfaces with the same moment:
 !>
 !> M = int_{d > 0} d^2 dtheta,   M_round(delta) = M,   grad delta = grad M / M_round'(delta)
 !>
@@ -142,7 +142,7 @@ contains
          overlap%rate = ray%d_dot
          overlap%second = ray%d_ddot + ray%slope_dot*turn
          overlap%gradient_rate = ray%w_dot*across + turn*((1.0_wp + ray%w_slope)*across - ray%w*ray%u)
-         overlap%depth_rate = ray%h_j_dot + ray%h_j_slope*turn
+         overlap%depth_rate = ray%h_j_by(2) + ray%h_j_by(1)*turn
       end associate
    end subroutine take_ray
 

@@ -1,7 +1,7 @@
 !> The profile of a worn surface, as contact geometry reads it: depth, slope and bend at any place of its circumference.
 !>
-!> V_k the volume that cell k has lost, w its angle, L the length:  A = V_k/(L w), mean area of its section per angle; A(theta) is the
-!> histospline of these means, so that the area of each cell is kept, and
+!> V_k the volume that cell k has lost, w its angle, L the length:  A = V_k/(L w), mean area of its section per angle; A(theta) is
+!> the histospline of these means, so that the area of each cell is kept, and
 !>
 !> h = sqrt(R^2 + 2 A) - R of a hole,   h = r - sqrt(r^2 - 2 A) of a pin
 !> h' = A'/(R + h),  h'' = (A'' - h'^2)/(R + h);   of a pin h' = A'/(r - h),  h'' = (A'' + h'^2)/(r - h)
