@@ -20,7 +20,9 @@ module overlap_sums
    type :: edges_t
       integer :: first = 0                              !! the first cell
       integer :: next = -huge(1)                        !! the cell behind the last one
-      real(wp), dimension(most_at_once) :: d, slope, w  !! of the rays
+      real(wp) :: d(most_at_once) = 0.0_wp              !! (32) overlap [m]
+      real(wp) :: slope(most_at_once) = 0.0_wp          !! (32) its derivative by theta [m/rad]
+      real(wp) :: w(most_at_once) = 0.0_wp              !! (32) see `overlap_rays` [1]
    end type edges_t
 
    !> Integrals over the overlap.
