@@ -12,20 +12,20 @@ import pytest
 from support import assert_close, call, changed, scratch, written
 from test_wear import LENGTH, LOAD, RADIUS, SHAFT, shaft
 
-DEPTH = 1e-4
+DEPTH, GROOVE = 1e-4, 9.8e-3
 ARC = """
 [worn.arc]
-name     joint     surface   depth[m]   direction[deg]
-groove   bearing   bearing   {depth}    -90
+name     joint     surface   radius[mm]   depth[m]   direction[deg]
+groove   bearing   bearing   9.8          {depth}    -90
 """
 
 
 def volume_of_arc(depth):
-    """Of a shaft worn into a bush: areas of two segments."""
-    d = RADIUS - SHAFT + depth
-    a = math.acos((RADIUS**2 - SHAFT**2 - d**2) / (2 * SHAFT * d))
-    b = math.atan2(SHAFT * math.sin(a), d + SHAFT * math.cos(a))
-    return LENGTH * (SHAFT**2 * (a - math.sin(a) * math.cos(a)) - RADIUS**2 * (b - math.sin(b) * math.cos(b)))
+    """Of a circle worn into the bush: areas of two segments."""
+    d = RADIUS - GROOVE + depth
+    a = math.acos((RADIUS**2 - GROOVE**2 - d**2) / (2 * GROOVE * d))
+    b = math.atan2(GROOVE * math.sin(a), d + GROOVE * math.cos(a))
+    return LENGTH * (GROOVE**2 * (a - math.sin(a) * math.cos(a)) - RADIUS**2 * (b - math.sin(b) * math.cos(b)))
 
 
 def deck(tables="", end="0.02 s", cells=360, depth=0.0):
