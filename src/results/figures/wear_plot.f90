@@ -117,7 +117,7 @@ contains
 
       type(buffer_t) :: lines
       type(display_unit_t) :: length
-      character(:), allocatable :: outer, polygon
+      character(:), allocatable :: outer, polygon, words
       integer :: k
 
       length = choose_unit("m", pair(1)%radius)
@@ -125,7 +125,9 @@ contains
       polygon = " using ($3*"//real_text(length%factor, 9)//"*cos($1)):($3*"//real_text(length%factor, 9)// &
                 "*sin($1)) with filledcurves closed fillcolor rgb "
       call preamble(lines, name, 1400, 760)
-      call lines%line("set multiplot title "//quoted(title//": wear of "//pair(1)%joint)//" font ',17'")
+      words = "wear of "//pair(1)%joint
+      if (len_trim(title) > 0) words = title//": "//words
+      call lines%line("set multiplot title "//quoted(words)//" font ',17'")
       call lines%line("set origin 0, 0; set size 0.5, 0.94; set size ratio -1; unset grid")
       call lines%line("set style fill solid 1 noborder; set parametric; set trange [-pi:pi]; set samples 361")
       call lines%line("set xrange [-"//outer//":"//outer//"]; set yrange [-"//outer//":"//outer//"]")
@@ -144,7 +146,8 @@ contains
                          "rgb '"//colours(k)//"' title "//quoted(pair(k)%side//", new")//trim(merge(", \", "   ", k == 1)))
       end do
       call lines%line("unset parametric; set grid linetype 1 linewidth 0.7 linecolor rgb '#dcdcdc'; set size noratio; unset key")
-      call lines%line("set xrange [-180:180]; set xtics 45; set autoscale y; set style fill solid 0.25 noborder")
+      call lines%line("set lmargin at screen 0.58; set rmargin at screen 0.97; set xrange [-180:180]; set xtics 45; "// &
+                      "set autoscale y; set style fill solid 0.25 noborder")
       do k = 1, 2
          call depth_panel(lines, pair(k), name, k)
       end do
