@@ -190,7 +190,8 @@ def test_runs_that_do_not_fit(gudgeon, first):
     for rows, words in cases:
         told = call(gudgeon, "check", written(directory, text + f"\n[worn.run]\n{rows}\n"), expect=3).stderr
         assert words in told, told
-    other = text.replace("\nbearing   bush", "\nother   bush").replace("bearing.normal_force", "other.normal_force")
+    other = text.replace("\nbearing   bush", "\nother   bush")
+    other = other.replace("bearing.normal_force", "other.normal_force")
     told = call(gudgeon, "check", written(directory, other + f"\n[worn.run]\nname   run\nbefore   {first / 'run.h5'}\n"), expect=3).stderr
     assert "the earlier run wore 'bearing', which is no joint with clearance of this deck" in told and "joints with clearance: other" in told
 
