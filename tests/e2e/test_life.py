@@ -18,17 +18,20 @@ title = "pin that hops"
 gravity = 0 0 m/s^2
 [bodies]
 name    mass[kg]   inertia[kg.m^2]   y[mm]   omega[rad/s]
-shaft   1          1e-3              -0.5    100
+shaft   0.1        1e-5              -0.5    100
 [points]
 name     body
 bush     ground
 centre   shaft
+[material]
+name    young[GPa]   poisson   density[kg/m^3]
+steel   207          0.3       7850
 [clearance.revolute]
-name      bearing   journal   bearing_radius[mm]   clearance[mm]   length[mm]   law      wear
-pin       bush      centre    10                   0.5             15           spring   dry
+name      bearing   journal   bearing_radius[mm]   clearance[mm]   length[mm]   material   law      wear
+pin       bush      centre    10                   0.5             15           steel      spring   dry
 [contact.kelvin_voigt]
 name     stiffness[N/m]   restitution
-spring   1e7              0.3
+spring   1e7              0.1
 [wear.archard]
 name   bearing[m^2/N]   journal[m^2/N]   WORDS
 dry    BEARING          JOURNAL          NUMBERS
@@ -37,10 +40,11 @@ name   point    fy
 pull   centre   {-100 N - FORCE}
 [analysis.dynamic]
 start = given
+overlap = preload
 end   = 1 s
-tolerance = 1e-7
+tolerance = 1e-6
 [life]
-cycle = 20 ms
+cycle = 2 ms
 LIFE
 """
 
@@ -71,9 +75,12 @@ def volume(radius, shaft, length, depth):
     return length * (shaft**2 * (a - math.sin(a) * math.cos(a)) - radius**2 * (b - math.sin(b) * math.cos(b)))
 
 
-@pytest.mark.parametrize("radius, shaft, first, depth", [(10, 9.5, 10, 100), (20, 19.7, 20, 60)])
-def test_bush(gudgeon, radius, shaft, first, depth):
-    """Time, volume and arc at a depth from a first depth, by default settings: the closed form to 1e-3, and within the interval."""
+@pytest.mark.parametrize("radius, shaft, first, depth, close", [
+    (10, 9.5, 10, 16, 2e-2), pytest.param(10, 9.5, 10, 100, 1e-3, marks=pytest.mark.slow),
+])
+def test_bush(gudgeon, radius, shaft, first, depth, close):
+    """Time, volume and arc at a depth from a first depth, by default settings: the closed form; what is left is the overlap of the
+    surfaces, 2 um, against the depth."""
     summary, place = life_of(gudgeon, BUSH, "--set", f"R={radius}mm", "--set", f"r={shaft}mm", "--set", f"first_depth={first}um",
                              "--set", f"depth={depth}um")
     radius, shaft, first, depth = radius * 1e-3, shaft * 1e-3, first * 1e-6, depth * 1e-6
@@ -81,9 +88,9 @@ def test_bush(gudgeon, radius, shaft, first, depth):
     time = (end - volume(radius, shaft, 15e-3, first)) / (1e-15 * 100 * 100 * shaft)
     wear = summary["wear"]["bearing"]
     assert_close(wear["bearing"]["depth_max"]["value"], depth, relative=1e-9, what="depth")
-    assert_close(wear["time"], time, relative=1e-3, what="time")
-    assert_close(wear["bearing"]["volume"]["value"], end, relative=1e-3, what="volume")
-    assert_close(wear["bearing"]["arc"]["value"], 2 * arcs(radius, shaft, depth)[1], relative=1e-3, what="arc")
+    assert_close(wear["time"], time, relative=close, what="time")
+    assert_close(wear["bearing"]["volume"]["value"], end, relative=close, what="volume")
+    assert_close(wear["bearing"]["arc"]["value"], 2 * arcs(radius, shaft, depth)[1], relative=2 * close, what="arc")
     for measure in ("depth_max", "volume", "arc"):
         assert all(value == 0 for value in wear["journal"][measure].values()), "the shaft does not wear"
         assert wear["bearing"][measure]["low"] <= wear["bearing"][measure]["value"] <= wear["bearing"][measure]["high"]
@@ -95,60 +102,63 @@ def test_bush(gudgeon, radius, shaft, first, depth):
     assert_close(cells - first, 1e-15 * 100 * distance, relative=1e-4, what="conservation: k F s")
 
 
-@pytest.fixture(scope="session")
+ONCE = functools.cache(life_of)
+
+
+@pytest.fixture
 def lives(gudgeon):
-    """Lives by deck and options, each found once."""
-    return functools.cache(lambda *given: life_of(gudgeon, *given))
+    """Lives by deck, each found once."""
+    return lambda text: ONCE(gudgeon, text)
 
 
 def test_shaft_only(lives):
     """A shaft that wears under a load fixed in space: its radius shrinks linearly, dr/dt = k omega F/(2 pi L), in few simulations."""
-    summary, place = lives(pin("depth = 0.1 mm"))
+    summary, place = lives(pin("depth = 4 um").replace("cycle = 2 ms", "cycle = 62.8318530718 ms"))
     wear = summary["wear"]["pin"]
     rate = 1e-15 * 100 * 100 / (2 * math.pi * 15e-3)
-    assert_close(wear["time"], 1e-4 / rate, relative=1e-2, what="time")
+    assert_close(wear["time"], 4e-6 / rate, relative=1e-2, what="time")
     assert_close(wear["journal"]["arc"]["value"], 2 * math.pi, relative=1e-12, what="arc")
     assert wear["journal"]["volume"]["low"] <= wear["journal"]["volume"]["value"] <= wear["journal"]["volume"]["high"]
     with h5py.File(place / "life.h5") as file:
         depth = file["life_profiles/pin/journal/depth"][-1]
-        assert np.ptp(depth) < 1e-2 * depth.mean(), "worn all round"
+        assert np.ptp(depth) < 5e-2 * depth.mean(), "worn all round"
         time, value = file["life_jumps/time"][()], file["life_jumps/depth_max"][()]
         mine = file["life_jumps/surface"][()] == b"journal"
-        assert_close(value[mine], rate * time[mine], absolute=1e-6, what="linear")
+        assert_close(value[mine], rate * time[mine], absolute=1e-7, what="linear")
     assert summary["life"]["profiles"] < 60
 
 
 def test_spread(gudgeon):
     """With `spread = 2` the range of a measure is that of lives with half and twice the coefficient; of a life, half and twice."""
-    life = "cycles = 1e7"
+    life = "cycles = 5e5"
     summary, _ = life_of(gudgeon, pin(life, "spread", "2"))
     rows = {(row["surface"], row["measure"]): row for row in summary["life"]["measures"]}
     for factor, end in ((0.5, "spread_low"), (2, "spread_high")):
         other, _ = life_of(gudgeon, pin(life, journal=f"{factor}e-15"))
         assert_close(rows["journal", "volume"][end], other["wear"]["pin"]["journal"]["volume"]["value"], relative=1e-3, what=end)
-    summary, _ = life_of(gudgeon, pin("depth = 20 um", "spread", "2"))
+    summary, _ = life_of(gudgeon, pin("depth = 1 um", "spread", "2"))
     assert_close(summary["life"]["cycles_spread_low"], summary["wear"]["pin"]["cycles"] / 2, relative=1e-12)
     assert_close(summary["life"]["cycles_spread_high"], summary["wear"]["pin"]["cycles"] * 2, relative=1e-12)
 
 
 def test_ends(lives):
     """Time, clearance and a condition on a channel end a life, each with its reason."""
-    summary, _ = lives(pin("time = 1e5 s"))
+    summary, _ = lives(pin("time = 5e3 s"))
     assert summary["life"]["ended_by"] == "number of cycles"
-    assert_close(summary["life"]["time"], 1e5, relative=1e-9, what="time")
+    assert_close(summary["life"]["time"], 5e3, relative=1e-9, what="time")
     depth = summary["wear"]["pin"]["journal"]["depth_max"]["value"]
     summary, _ = lives(pin(f"clearance = {0.5e-3 + depth} m"))
     assert summary["life"]["ended_by"].startswith("clearance")
-    assert_close(summary["life"]["time"], 1e5, relative=1e-3, what="time at the same depth")
-    summary, _ = lives(pin(f"stop = shaft.position.y < {-0.5e-3 - depth - 1e-5} m"))
+    assert_close(summary["life"]["time"], 5e3, relative=1e-3, what="time at the same depth")
+    summary, _ = lives(pin(f"stop = shaft.position.y < {-0.51e-3 - depth / 2} m"))
     assert summary["life"]["ended_by"].startswith("shaft.position.y <")
-    assert_close(summary["life"]["time"], 1e5, relative=1e-2, what="time at the same position")
+    assert 0 < summary["life"]["time"] < 5e3, "half the depth comes earlier"
 
 
 def test_resume(gudgeon):
     """A life whose journal was cut off continues from there, to the same results; one of another deck starts anew."""
     directory = scratch()
-    deck = written(directory, pin("cycles = 1e7"))
+    deck = written(directory, pin("cycles = 2e6"))
     call(gudgeon, "life", deck, "--out", directory / "out", "--quiet")
     whole = json.loads((directory / "out/summary.json").read_text())
     journal = directory / "out/life.runs"
@@ -176,17 +186,17 @@ def test_ensemble(gudgeon):
 
 
 @pytest.mark.parametrize("change, options, code, words", [
-    (("cycle = 20 ms", "cycle = 1 turns of motor"), (), 3, "unknown driver 'motor' in 'cycle'"),
+    (("cycle = 2 ms", "cycle = 1 turns of motor"), (), 3, "unknown driver 'motor' in 'cycle'"),
     (("depth = 1 um", ""), (), 3, "[life] has no limit"),
     (("depth = 1 um", "depth = 1 um\nsettle = 1.5"), (), 3, "'settle' is not a whole number of cycles"),
     (("depth = 1 um", "depth = 1 um\nmeasure = 0.5"), (), 3, "measure"),
     (("depth = 1 um", "stop = pin.nothing > 1 N"), (), 3, "pin.nothing"),
     (("depth = 1 um", "stop = pin.normal_force > 1 m"), (), 3, "wrong dimension in a condition"),
-    (("cycle = 20 ms", "cycle = -1 s"), (), 3, "the cycle must be a positive time"),
-    (("[life]\ncycle = 20 ms\ndepth = 1 um", ""), (), 2, "the deck has no section [life]"),
+    (("cycle = 2 ms", "cycle = -1 s"), (), 3, "the cycle must be a positive time"),
+    (("[life]\ncycle = 2 ms\ndepth = 1 um", ""), (), 2, "the deck has no section [life]"),
     (("wear\npin", "level\npin"), (), 2, "nothing wears"),
     (("depth = 1 um", "depth = 1 um\nsimulations = 2\ndepth_tolerance = 1e-12 m"), (), 5, "the limit of 2 simulated profiles"),
-    (("end   = 1 s", "end   = 1 s\n[guards]\nspeed = 1 mm/s"), (), 5, "simulation of profile 1 failed"),
+    (("[life]", "[guards]\nspeed = 1 mm/s\n[life]"), (), 5, "simulation of profile 1 failed"),
 ])
 def test_refused(gudgeon, change, options, code, words):
     """What is wrong is said, with its exit code."""
@@ -211,7 +221,7 @@ def test_what_was_reached(gudgeon):
 
 def test_pages(lives):
     """Every dataset of life.h5 and every key of the object `life` stands in the reference."""
-    summary, place = lives(pin("depth = 0.1 mm"))
+    summary, place = lives(pin("time = 5e3 s"))
     page = (ROOT / "docs/reference/output.md").read_text()
     names = []
     with h5py.File(place / "life.h5") as file:

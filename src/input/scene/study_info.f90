@@ -66,7 +66,7 @@ contains
       call add_condition(info, "stop", "limit: an extreme of a channel in the measured cycles, as `crank.force > 500 N`; " &
                          //"several joined by or")
       call add_number(info, "tolerance", dim_none, "error of a jump relative to the depth that it adds, so that the depth at the " &
-                      //"end has about this relative error", default="5e-4", lower=1.0e-8_wp, upper=0.1_wp)
+                      //"end has about this relative error", default="2e-4", lower=1.0e-8_wp, upper=0.1_wp)
       call add_number(info, "depth_tolerance", dim_length, "error of the depth that is accepted in any case", default="1e-9 m", &
                       lower=1.0e-15_wp)
       call add_number(info, "simulations", dim_none, "maximum number of profiles that are simulated", default="10000", &
