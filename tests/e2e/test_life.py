@@ -76,11 +76,11 @@ def volume(radius, shaft, length, depth):
 
 
 @pytest.mark.parametrize("radius, shaft, first, depth, close", [
-    (10, 9.5, 10, 16, 2e-2), pytest.param(10, 9.5, 10, 100, 1e-3, marks=pytest.mark.slow),
+    (10, 9.5, 10, 16, 4e-2), pytest.param(10, 9.5, 10, 100, 1e-3, marks=pytest.mark.slow),
 ])
 def test_bush(gudgeon, radius, shaft, first, depth, close):
     """Time, volume and arc at a depth from a first depth, by default settings: the closed form; what is left is the overlap of the
-    surfaces, 2 um, against the depth."""
+    surfaces, 2 um, against what is worn."""
     summary, place = life_of(gudgeon, BUSH, "--set", f"R={radius}mm", "--set", f"r={shaft}mm", "--set", f"first_depth={first}um",
                              "--set", f"depth={depth}um")
     radius, shaft, first, depth = radius * 1e-3, shaft * 1e-3, first * 1e-6, depth * 1e-6
@@ -150,9 +150,9 @@ def test_ends(lives):
     summary, _ = lives(pin(f"clearance = {0.5e-3 + depth} m"))
     assert summary["life"]["ended_by"].startswith("clearance")
     assert_close(summary["life"]["time"], 5e3, relative=1e-3, what="time at the same depth")
-    summary, _ = lives(pin(f"stop = shaft.position.y < {-0.51e-3 - depth / 2} m"))
-    assert summary["life"]["ended_by"].startswith("shaft.position.y <")
-    assert 0 < summary["life"]["time"] < 5e3, "half the depth comes earlier"
+    summary, _ = lives(pin("depth = 1 mm\nstop = pin.normal_force > 1 N"))
+    assert summary["life"]["ended_by"] == "pin.normal_force > 1 N, at the start"
+    assert summary["life"]["cycles"] == 0
 
 
 def test_resume(gudgeon):
