@@ -5,6 +5,7 @@
 module life_plots
    use display_units, only: choose_unit, display_unit_t
    use errors, only: error_t
+   use, intrinsic :: ieee_arithmetic, only: ieee_is_finite
    use kinds, only: pi, wp
    use life_results, only: life_t
    use life_spread, only: spread_of_measures
@@ -74,6 +75,7 @@ contains
          do j = 1, life%last
             half = life%nodes(j)%half()
             call spread_of_measures(life, j, low, high)
+            where (.not. ieee_is_finite(high)) low = high  ! a band has both ends
             associate (depth => life%nodes(j)%measures(measure_depth, list(i)), error => half(measure_depth, list(i)))
                call lines%line(number_row([life%nodes(j)%cycles, depth, max(depth - error, 0.0_wp), depth + error, &
                                            low(measure_depth, list(i)), high(measure_depth, list(i))]))
