@@ -251,7 +251,7 @@ contains
 
    end subroutine test_profiles
 
-   !> Volumes in other cells: cells of cells have the sum, halves have half, and none is lost between numbers without common factors.
+   !> Volumes in other cells: cells of cells have the sum, halves have half, and none is lost between numbers that share no factor.
    subroutine test_resampled(error)
       type(error_t), allocatable, intent(out) :: error  !! what failed
 
