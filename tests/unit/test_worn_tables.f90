@@ -40,11 +40,13 @@ contains
 
       call load_text("deck = 1"//nl//"[scene]"//nl//"gravity = 0 0 m/s^2"//nl//"[bodies]"//nl// &
                      "name mass[kg] inertia[kg.m^2]"//nl//"shaft 1 1e-3"//nl//"[points]"//nl//"name body"//nl// &
-                     "bush ground"//nl//"centre shaft"//nl//"[material]"//nl//"name young[GPa] poisson"//nl//"steel 207 0.3"//nl// &
-                     "[clearance.revolute]"//nl//"name bearing journal bearing_radius[mm] clearance[mm] length[mm] material "// &
-                     "law wear"//nl//"joint bush centre 10 0.5 15 steel dry slow"//nl//"[contact.hertz]"//nl//"name"//nl//"dry"//nl// &
-                     "[wear.archard]"//nl//"name bearing[m^2/N] journal[m^2/N] cells"//nl//"slow 1e-15 1e-15 "//to_text(cells)// &
-                     nl//tables//nl//"[analysis.dynamic]"//nl//"end = 1 ms"//nl, loaded, error)
+                     "bush ground"//nl//"centre shaft"//nl//"[material]"//nl//"name young[GPa] poisson"//nl// &
+                     "steel 207 0.3"//nl//"[clearance.revolute]"//nl// &
+                     "name bearing journal bearing_radius[mm] clearance[mm] length[mm] material law wear"//nl// &
+                     "joint bush centre 10 0.5 15 steel dry slow"//nl//"[contact.hertz]"//nl//"name"//nl//"dry"//nl// &
+                     "[wear.archard]"//nl//"name bearing[m^2/N] journal[m^2/N] cells"//nl// &
+                     "slow 1e-15 1e-15 "//to_text(cells)//nl//tables//nl// &
+                     "[analysis.dynamic]"//nl//"end = 1 ms"//nl, loaded, error)
       if (.not. allocated(error)) call move_alloc(loaded%scene%worn, worn)
    end subroutine worn_of
 
@@ -79,7 +81,7 @@ contains
          call check_close(error, sum(worn(1)%volume), expected(k), 1.0e-10_wp, "volume", relative=.true.)
          if (allocated(error)) return
          call worn(1)%max_depth(depth, angle)
-         call check_close(error, depth, depths(k), 0.01_wp*depths(k), "depth of the deepest cells")
+         call check_close(error, depth, depths(k), 0.03_wp*depths(k), "depth of the deepest cells")
          if (allocated(error)) return
          call check_true(error, abs(angle + 0.5_wp*pi) < 0.02_wp, "where it is deepest")
          if (allocated(error)) return
@@ -197,7 +199,7 @@ contains
       type(worn_surface_t), allocatable :: turned(:), worn(:)
       real(wp) :: area(7), angle(7), theta, total
       real(wp), allocatable :: expected(:)
-      character(:), allocatable :: text(:)
+      character(60) :: text(4)
       integer :: i, k, m
 
       area(:6) = hole*depths + 0.5_wp*depths**2
@@ -249,7 +251,7 @@ contains
 
    end subroutine test_profiles
 
-   !> Volumes in other cells: cells of cells have the sum, halves have half, and none is lost between numbers without a common factor.
+   !> Volumes in other cells: cells of cells have the sum, halves have half, and none is lost between numbers that share no factor.
    subroutine test_resampled(error)
       type(error_t), allocatable, intent(out) :: error  !! what failed
 
@@ -259,7 +261,7 @@ contains
       volume = [(real(k*k, wp), k=1, 12)]
       call check_close(error, resampled(volume, 4), [(sum(volume(3*k - 2:3*k)), k=1, 4)], 1.0e-13_wp, "coarser")
       if (allocated(error)) return
-      call check_close(error, resampled(volume, 24), 0.5_wp*[(volume((k + 1)/2), k=1, 24)], 1.0e-13_wp, "finer")
+      call check_close(error, resampled(volume, 24), 0.5_wp*[(volume(k), volume(k), k=1, 12)], 1.0e-13_wp, "finer")
       if (allocated(error)) return
       do k = 1, 40
          call check_close(error, sum(resampled(volume, k)), sum(volume), 1.0e-14_wp, "sum", relative=.true.)

@@ -31,7 +31,8 @@ contains
       info%name = "worn.run"
       info%help = "surfaces that are worn at the start as an earlier run left them"
       info%source = ""
-      call add_file(info, "run", "run.h5 of the earlier run, relative to the deck, with the joints of this deck")
+      call add_file(info, "run", "run.h5 of an earlier run, or life.h5 of a life, relative to the deck, with the joints of this " &
+                    //"deck")
       info%columns(size(info%columns))%size = columns_of_profiles
       call add_reference(info, "joint", "clearance.", "joint whose surfaces are taken; omitted: all that the run wore", default="")
       call add_word(info, "surface", "the surface that is taken; omitted: both", default="", choices="bearing journal")

@@ -7,7 +7,7 @@ module plot_table
    use, intrinsic :: ieee_arithmetic, only: ieee_is_finite
    use kinds, only: wp
    use plot_text, only: quoted
-   use script_parts, only: colours, edges, key_below, long_tics, open_range, preamble, with_unit
+   use script_parts, only: colours, edges, key_below, label_words, long_tics, open_range, preamble, with_unit
    use text, only: append_text, real_text, text_t, to_text
    use text_buffer, only: buffer_t
    use text_file, only: write_file
@@ -240,7 +240,7 @@ contains
       integer :: k
 
       y = choose_unit(panel%y_unit, largest(table, panel%curves%y))
-      call lines%line("set ylabel "//quoted(with_unit(panel%y_name, y)))
+      call lines%line("set ylabel "//label_words(with_unit(panel%y_name, y), merge(600, 360, size(table%panels) < 2)))
       call lines%line(merge("set logscale y; set format y '%g'  ", "unset logscale y; set format y '%h'", panel%is_log_y)// &
                       "; set ytics autofreq; set yrange [*:*]")
       if (all(.not. is_line(panel%curves%style) .and. panel%curves%style /= draw_boxes) .and. .not. panel%is_log_y) then
