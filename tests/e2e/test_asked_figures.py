@@ -207,7 +207,7 @@ def test_scale_of_the_ideal_joints_holds_their_curve(gudgeon, tmp_path):
     """A block thrown against the upper side of its guide: the force on it is downward, that of the ideal guide m g upward."""
     call(gudgeon, "run", written(tmp_path, BLOCK), "--out", tmp_path / "run", "--quiet")
     script = (tmp_path / "run" / "figures" / "loose.force.gp").read_text(encoding="utf-8")
-    second = script.split("range of the ideal joints")[1]
+    second = script.split("zoom on the ideal curves")[1]
     unit = {"N": 1.0, "kN": 1e3}[re.search(r"force \[(.*?)\]", second).group(1)]
     least, greatest = (float(end) * unit for end in re.search(r"set yrange \[(.*?):(.*?)\]", second).groups())
     assert least < 0.0 and greatest > 0.5 * 9.81
@@ -231,7 +231,7 @@ def test_prefixes_follow_what_is_drawn(gudgeon, figure, changes, first, second):
     text = text.replace("FORCE", "{0.02N*sin(2*pi*t*2/1ms)}" if "kN" in figure else "{0.02mN*sin(2*pi*t*2/1ms)}")
     folder = drawn(gudgeon, text, figure)
     script = only(folder, "*.gp").read_text(encoding="utf-8")
-    parts = script.split("range of the ideal joints")
+    parts = script.split("zoom on the ideal curves")
     units = [re.search(r"set ylabel 'force \[(.*?)\]'", part).group(1) for part in parts]
     assert units == [first, second][: len(parts)] and len(parts) == (2 if second else 1)
 
@@ -351,3 +351,16 @@ def test_long_legends_have_room(gudgeon):
         assert len(sizes) == 2 and places[1] == 0 and abs(places[0] - sizes[1]) < 1.5
         rows.append((sizes[1] - sizes[0] - 55) / 28)
     assert abs(rows[1]) < 0.1 and abs(rows[0] - 1.0) < 0.1  # energies of contacts and friction, kinetic, drive_work: two columns
+
+
+def test_names_of_figures(gudgeon, tmp_path):
+    """`as NAME` names the files of any figure; a backslash continues a line; a name for two figures, or a bad one, is an error."""
+    figures = "slider.velocity + slider.acceleration as motion_of-slider.1 \\\n  panels(slider.velocity, slider.position) against time in ms as all \\\n strip(n=3) as positions"
+    base = changed(DECK.read_text(encoding="utf-8"), "analysis.dynamic", end="1 ms")
+    call(gudgeon, "run", written(tmp_path, changed(base, "output", figures=figures)), "--out", tmp_path / "run", "--quiet")
+    assert {path.name for path in (tmp_path / "run/figures").glob("*.png")} == {"motion_of-slider.1.png", "all.png", "positions.png"}
+    for wrong, message in (("slider.velocity as a/b", "is not a name of files"), ("slider.velocity as", "missing argument after 'as'"),
+                           ("slider.velocity as x slider.position as x", "have the same name of files, x"),
+                           ("slider.velocity \\\n", "nothing follows the backslash")):
+        done = call(gudgeon, "check", written(tmp_path, changed(base, "output", figures=wrong)), expect=3)
+        assert message in done.stderr, done.stderr

@@ -134,6 +134,16 @@ def test_list(gudgeon):
     text = call(gudgeon, "list").stdout
     for word in ("revolute", "translational", "lankarani_nikravesh", "hertz", "ambrosio", "verner"):
         assert word in text, word
+    lines = [line for line in text.splitlines() if line.split()[0] == "joint.revolute"]
+    assert [line[32:].split(":")[0] for line in lines] == ["in the plane", "in space"]
+
+
+@pytest.mark.parametrize(("word", "hint"), [
+    ("figures", "did you mean key figures of [output]? gudgeon help output"), ("contour", "did you mean key figures of [output]? gudgeon help output"),
+    ("animation", "did you mean key figures of [output]?"), ("bearing_radius", "did you mean column bearing_radius of [clearance.revolute]?")])
+def test_help_on_a_key(gudgeon, word, hint):
+    """help of a key, a column or a figure names the table that has it."""
+    assert hint in call(gudgeon, "help", word, expect=USAGE).stderr
 
 
 def test_list_of_a_group(gudgeon):

@@ -209,3 +209,22 @@ guide  floor  foot  y
     (tmp_path / "example.deck").write_text(around + example + "[analysis.dynamic]\nend = 2 s\n")
     done = subprocess.run([str(gudgeon), "check", "example.deck"], cwd=tmp_path, capture_output=True, text=True, check=False)
     assert done.returncode == 0, done.stderr
+
+
+def test_every_table_is_linked_from_the_reference(root):
+    """A page of a table is two clicks from the first page."""
+    text = (root / "docs/reference/index.md").read_text(encoding="utf-8")
+    linked = set(re.findall(r"\]\(tables/([\w.]+)\.md\)", text))
+    assert linked - {"index"} == {page.stem for page in (root / "docs/reference/tables").glob("*.md")} - {"index"}
+
+
+def test_rows_of_tables_belong_to_a_table(root):
+    """A blank line within a table would make the rows after it text with bars."""
+    for page in (root / "docs").rglob("*.md"):
+        before = ["", ""]
+        for number, line in enumerate(prose(page.read_text(encoding="utf-8")).splitlines(), 1):
+            if line.startswith("|") and not before[1].startswith("|"):
+                head = number
+            if line.startswith("|") and number == head + 1:
+                assert set(line) <= set("|-: "), f"{page.relative_to(root)}: row {line[:60]} has no table"
+            before = [before[1], line]

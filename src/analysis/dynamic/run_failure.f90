@@ -238,7 +238,8 @@ contains
       case (events_without_end)
          words = "reduce the tolerance; with stick-slip friction, use method = radau or a friction law without sticking"
       case (guard_reached)
-         words = "check loads, drivers and clearances, or change the guard in section [guards]"
+         words = "check loads, drivers and clearances, or change the guard in section [guards]; a driver may turn the "// &
+                 "mechanism through a dead centre: --analysis kinematic finds the time"
       case (off_branch)
          words = "reduce the tolerance or the step; if this motion is intended, choose a joint that permits it"
       case (film_ended)

@@ -63,7 +63,7 @@ module command_words
       option_t("--quiet", "", "print errors only"), &
       option_t("--json", "", "print summary.json only"), &
       option_t("--member", "K", "run number K of the ensemble of the deck"), &
-      option_t("--write", "W", "omit output that takes long to write"), &
+      option_t("--write", "W", "what to write: numbers (the summary only), channels (no text files, no figures), all"), &
       option_t("--csv", "", "write time histories and events as comma-separated values too"), &
       option_t("--horizon", "", "Lyapunov exponent (divergence of neighbouring trajectories) and the horizon of predictability"), &
       option_t("--resume", "", "resume from the checkpoint in the output directory; without one, start at t = 0"), &

@@ -58,8 +58,8 @@ contains
                   end if
                   call say("duration of an elastic impact at "//to_text(speeds(v))//" m/s: about "// &
                            real_text(1.0e6_wp*contact_time(loaded%system, set, c, speeds(v)), 3)//" us, "// &
-                           real_text(contact_time(loaded%system, set, c, speeds(v))/loaded%plan%every, 2)// &
-                           " output intervals"//steps_of(contact_time(loaded%system, set, c, speeds(v)), step), 4)
+                           intervals_text(contact_time(loaded%system, set, c, speeds(v))/loaded%plan%every)// &
+                           steps_of(contact_time(loaded%system, set, c, speeds(v)), step), 4)
                end do
                call explain_validity(set%items%pairs(i)%speed_limit)
             end do
@@ -83,6 +83,15 @@ contains
                   real_text(worn(k)%arc()*180.0_wp/pi, 5)//" deg in "//to_text(size(worn(k)%volume))//" cells", 4)
       end do
    end subroutine explain_wear
+
+   !> A number of output intervals.
+   function intervals_text(n) result(words)
+      real(wp), intent(in) :: n                  !! the number [1]
+      character(:), allocatable :: words         !! with its noun
+
+      words = real_text(n, 2)
+      words = words//trim(merge(" output interval ", " output intervals", words == "1"))
+   end function intervals_text
 
    !> Whether a film alone is between the surfaces.
    pure logical function is_film_alone(set)

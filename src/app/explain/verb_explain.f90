@@ -53,6 +53,7 @@ contains
                counted(loaded%system%clearance_joints%n, "joint with clearance", "joints with clearance")//"; assembled to "// &
                real_text(assembly%residual, 2)//" m or rad, maximum displacement of a body "//real_text(assembly%moved, 3)//" m"// &
                sweep_text(loaded)//comparison_text(loaded))
+      call explain_notes(loaded%scene, loaded%system, assembly)
    end subroutine check_deck
 
    !> How many cases and runs a sweep of the deck has; blank if it has none.

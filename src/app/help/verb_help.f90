@@ -7,11 +7,12 @@ module verb_help
    use dimension_text, only: unit_text
    use errors, only: error_t, exit_usage, set_error
    use explain_floors, only: floors_manual
+   use figure_words, only: call_words
    use expression_functions, only: n_signature, signature_help, signatures
    use integrator, only: integrator_t
    use integrator_registry, only: n_integrator_kinds, new_integrator
    use kind_info, only: cell_condition, cell_duration, cell_expression, cell_file, cell_flag, cell_formula, cell_list, &
-      cell_number, cell_reference, cell_vector, cell_words, column_t, in_space, kind_info_t, no_bound
+      cell_number, cell_reference, cell_vector, cell_words, column_t, in_plane, in_space, kind_info_t, no_bound
    use kind_list, only: all_kinds
    use libraries, only: library_versions
    use man_page, only: write_man_page
@@ -78,9 +79,19 @@ contains
          end associate
       end do
       do k = 1, size(kinds)
-         if (is_wanted(k)) call say(kinds(k)%name, second=kinds(k)%help, column=32)
+         if (is_wanted(k)) call say(kinds(k)%name, second=where_it_is(kinds(k))//kinds(k)%help, column=32)
       end do
    end subroutine list_kinds
+
+   !> Whether a kind is one of decks in the plane or in space only.
+   function where_it_is(info) result(words)
+      type(kind_info_t), intent(in) :: info     !! the kind
+      character(:), allocatable :: words        !! before its help; blank: both
+
+      words = ""
+      if (info%space == in_plane) words = "in the plane: "
+      if (info%space == in_space) words = "in space: "
+   end function where_it_is
 
    !> `gudgeon --version`.
    subroutine show_version()
@@ -97,7 +108,7 @@ contains
 
       type(kind_info_t), allocatable :: kinds(:)
       type(text_t), allocatable :: names(:)
-      character(:), allocatable :: last, near, wanted
+      character(:), allocatable :: last, wanted
       integer :: k
       logical :: is_found
 
@@ -146,11 +157,34 @@ contains
          end if
       end do
       if (is_found) return
-      near = nearest_word(wanted, names)
-      if (near /= "") near = "did you mean '"//near//"'? "
-      call set_error(error, exit_usage, "no help for '"//wanted//"'"//new_line("a")//"  = "//near//"see 'gudgeon list' for all "// &
-         "types")
+      call set_error(error, exit_usage, "no help for '"//wanted//"'"//new_line("a")//"  = "//hint_for(wanted, names, kinds)// &
+                     "see 'gudgeon list' for all types")
    end subroutine show_help
+
+   !> What may have been meant by a word without help: a figure, a key or column of a kind, or the name of one.
+   function hint_for(wanted, names, kinds) result(hint)
+      character(*), intent(in) :: wanted          !! the word
+      type(text_t), intent(in) :: names(:)        !! (n) names that have help
+      type(kind_info_t), intent(in) :: kinds(:)   !! (kinds) all of them
+      character(:), allocatable :: hint           !! blank: nothing is near
+
+      integer :: i, k
+
+      if (any([(call_words(i) == wanted//"(", i=lbound(call_words, 1), ubound(call_words, 1))]) .or. &
+          any(wanted == ["orbit ", "panels"])) then
+         hint = "a figure: did you mean key figures of [output]? gudgeon help output; "
+         return
+      end if
+      do k = 1, size(kinds)
+         if (.not. allocated(kinds(k)%columns)) cycle
+         if (.not. any([(kinds(k)%columns(i)%name == wanted, i=1, size(kinds(k)%columns))])) cycle
+         hint = trim(merge("column", "key   ", kinds(k)%is_table))
+         hint = "did you mean "//hint//" "//wanted//" of ["//kinds(k)%name//"]? gudgeon help "//kinds(k)%name//"; "
+         return
+      end do
+      hint = nearest_word(wanted, names)
+      if (hint /= "") hint = "did you mean '"//hint//"'? "
+   end function hint_for
 
    !> What the program can do.
    subroutine write_usage()

@@ -2,7 +2,8 @@
 !>
 !> `mechanism` is at its instants, else at the end. `strip` and `animation` are over the window `last`, else over the last turn of
 !> the first driver that makes one, else over all that is written. Of turns of a driver that turns evenly the first and the last
-!> position are one: a strip omits the last, of an animation the page has it and the GIF, which repeats, has not. `coupler` follows a point over its window, else over all that is written, with the mechanism at the end of it.
+!> position are one: a strip omits the last, of an animation the page has it and the GIF, which repeats, has not. `coupler` follows
+!> a point over its window, else over all that is written, with the mechanism at the end of it.
 module drawn_figures
    use diagnostics, only: diagnostics_t
    use figure_words, only: draws_mechanism, figure_animation, figure_coupler, figure_mechanism, figure_strip, figure_t

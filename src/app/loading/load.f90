@@ -244,7 +244,7 @@ contains
          return
       end do
       call set_error(error, exit_usage, "the deck has no section [analysis."//options%change%analysis//"]"//new_line("a")// &
-                     "  = analyses in the deck:"//known)
+                     "  = a line [analysis."//options%change%analysis//"] is enough; analyses in the deck:"//known)
    end subroutine choose_analysis
 
    !> What the command line changes in the deck.

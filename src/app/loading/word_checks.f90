@@ -37,12 +37,30 @@ contains
          allocate (figures(size(value%words)))
          do k = 1, size(figures)
             call read_figure(value%words(k)%s, figures(k), mistake)
+            if (.not. allocated(mistake)) call look_for_name(figures(:k), mistake)
             if (.not. allocated(mistake)) cycle
             figures(k)%kind = 0
             call report_mistake(deck, value, k, mistake, mistakes)
          end do
       end associate
    end subroutine read_figures
+
+   !> Whether the files of the last figure are those of an earlier one that draws something else.
+   subroutine look_for_name(figures, mistake)
+      type(figure_t), intent(in) :: figures(:)                   !! (n) figures
+      type(mistake_t), allocatable, intent(inout) :: mistake     !! what is wrong
+
+      integer :: k
+
+      associate (last => figures(size(figures)))
+         do k = 1, size(figures) - 1
+            if (figures(k)%name /= last%name .or. figures(k)%word == last%word) cycle
+            call set_mistake(mistake, "'"//figures(k)%word//"' and '"//last%word//"' have the same name of files, "//last%name, &
+                             "write another name: A as NAME", "")
+            return
+         end do
+      end associate
+   end subroutine look_for_name
 
    !> Show a mistake of a figure where it stands.
    subroutine report_mistake(deck, value, k, mistake, mistakes)

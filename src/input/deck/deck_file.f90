@@ -36,6 +36,8 @@ module deck_file
       logical :: is_new = .true.          !! no line with content was read in this file
       logical :: is_lost = .false.        !! a line outside any section was reported
       logical :: is_over = .false.        !! the rest is not worth reading
+      logical :: continues = .false.      !! the last line ended with a backslash: the next belongs to it
+      type(location_t) :: backslash       !! where that stands
       type(name_table_t) :: files         !! files read so far
       integer(i8) :: n_byte = 0_i8        !! their size
    end type reading_t
@@ -92,6 +94,7 @@ contains
       do k = 1, n_line_of(deck%sources(file))
          line = line_of(deck%sources(file), k)
          call has_content(line, first)
+         if (reading%continues .and. scan(line(max(1, first):max(1, first)), "[") + merge(1, 0, first == 0) > 0) call end_line()
          if (first == 0) cycle
          if (line(first:first) == "[") then
             if (reading%is_new .and. file == 1) call report_version(location_t(file, k, first, len_trim(line)), mistakes)
@@ -102,7 +105,18 @@ contains
          reading%is_new = .false.
          if (reading%is_over) return
       end do
+      if (reading%continues) call end_line()
       reading%depth = reading%depth - 1
+
+   contains
+
+      !> Nothing follows a backslash.
+      subroutine end_line()
+         call mistakes%add(reading%backslash, "nothing follows the backslash", "the next line is blank, a comment or a section", &
+                           "a backslash at the end of a line continues it on the next one")
+         reading%continues = .false.
+      end subroutine end_line
+
    end subroutine read_lines
 
    !> Read a section header.
@@ -151,8 +165,10 @@ contains
 
       character(:), allocatable :: word
       integer :: first, n
-      logical :: is_good
+      logical :: belongs, is_good
 
+      belongs = reading%continues
+      reading%continues = .false.
       if (reading%is_new .and. location%file == 1) then
          word = line_of(deck%sources(1), location%line)
          if (.not. starts_with(word(location%first:), "deck")) then
@@ -167,6 +183,12 @@ contains
       word = ""
       if (n > 0) then
          if (deck%tokens%t(first)%kind == token_word) word = text_of(deck, deck%tokens%t(first))
+         if (n > 1 .and. reading%section > 0 .and. word /= "include") call take_backslash(deck, reading, n)
+      end if
+      if (belongs) then
+         if (.not. is_good) deck%tokens%n = first - 1
+         deck%lines(deck%n_line)%last = deck%tokens%n
+         return
       end if
       if (reading%is_new .and. (location%file == 1 .or. word == "deck")) then
          call read_version(deck, first, n, location, reading, mistakes)
@@ -182,6 +204,22 @@ contains
          reading%is_lost = .true.
       end if
    end subroutine read_line
+
+   !> A backslash at the end of a line is no cell: the next line belongs to this one.
+   subroutine take_backslash(deck, reading, n)
+      type(deck_t), intent(inout) :: deck             !! the deck, the line's cells its last
+      type(reading_t), intent(inout) :: reading       !! what to remember
+      integer, intent(inout) :: n                     !! cells of the line
+
+      associate (last => deck%tokens%t(deck%tokens%n))
+         if (last%kind /= token_word) return
+         if (text_of(deck, last) /= "\") return
+         reading%continues = .true.
+         reading%backslash = last%location
+      end associate
+      deck%tokens%n = deck%tokens%n - 1
+      n = n - 1
+   end subroutine take_backslash
 
    !> Check the format version in the first line.
    subroutine read_version(deck, first, n, location, reading, mistakes)

@@ -1,7 +1,8 @@
 !> The words of the key `figures`, joined to one text for each figure.
 !>
 !> A figure of curves may be several words: `a + b in mm/s from 0 to 2 against motor.coordinate in deg`. The words `+`, `against`,
-!> `in`, `from` and `to` belong to the figure before them, as does what they ask for: a channel, a unit, a number with its unit.
+!> `in`, `from`, `to` and `as` belong to the figure before them, as does what they ask for: a channel, a unit, a number with its
+!> unit, a name.
 module figure_list
    use diagnostics, only: diagnostics_t
    use item, only: location_t, value_t
@@ -15,7 +16,7 @@ module figure_list
    private
    public :: figure_joiners, join_figures, panels_word
 
-   character(*), parameter :: figure_joiners = "+ against in from to"  !! words that belong to the figure before them
+   character(*), parameter :: figure_joiners = "+ against in from to as"  !! words that belong to the figure before them
    character(*), parameter :: lone_words = "mechanism strip animation"  !! figures of one word without a channel
    character(*), parameter :: panels_word = "panels("                  !! how a figure of several panels starts
 
@@ -135,6 +136,8 @@ contains
       select case (word)
       case ("in")
          help = "write a unit, as in slider.velocity.x in mm/s"
+      case ("as")
+         help = "write the name of its files, as in slider.velocity.x as speed"
       case ("from", "to")
          help = "write the limits of the axis, as in from 0 mm to 20 mm"
       case default

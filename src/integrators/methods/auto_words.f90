@@ -58,7 +58,8 @@ contains
          do k = 1, int(min(choice%n_change, int(most_changes, i8)))
             if (k > 1) words = words//", "
             words = words//trim(merge("from", "to  ", modulo(k, 2) == 1))//" "//real_text(choice%t_change(k), 4)//" s"
-            if (choice%product(k) > 0.0_wp) words = words//": h lambda = "//real_text(choice%product(k), 2)
+            if (choice%product(k) > 0.0_wp) words = words//" (stiff: h lambda = "// &
+                                                      real_text(choice%product(k), 2)//")"
          end do
          if (choice%n_change > most_changes) words = words//", "//to_text(choice%n_change)//" switches in total"
          words = words//")"

@@ -54,7 +54,8 @@ contains
       character(*), intent(in) :: channel, unit    !! channel of the friction, and its unit
       character(*), intent(in) :: channel_help     !! what it reports
 
-      call add_reference(info, "friction", "friction.", "friction law, a row of a friction table, or none", default="none")
+      call add_reference(info, "friction", "friction.", "friction law, a row of a friction table but those that stick by "// &
+                         "events (coulomb; constant with v1 = 0), or none", default="none")
       call add_number(info, length, dim_length, length_help, default="0 m", lower=0.0_wp)
       call add_number(info, "preload", dim_force, preload_help, default="0 N", lower=0.0_wp)
       call add_channel(info, channel, unit, "joint", 1, channel_help, &

@@ -1,4 +1,4 @@
-!> Parallel axes: two bodies keep the angle between them and are free to move apart.
+!> Constant relative angle: two bodies keep the angle between them and are free to move apart. It takes bodies, not points.
 !>
 !> Phi = angle_i - angle_j - (angle_i0 - angle_j0)                                    (1 row)
 !> Phi_q = [ 0, 0, 1, 0, 0, -1 ],   gamma = 0

@@ -16,7 +16,7 @@ module curve_script
    use panel_cells, only: cell_heights, cell_words, picture_height
    use plot_text, only: quoted
    use script_parts, only: angle_tics, axes_t, axis_range, colours, edges, find_long_tics, hangs_from_zero, ideal_colour, &
-      ideal_line, label_words, largest, largest_y, line_source, preamble, stands_on_zero
+      label_words, largest, largest_y, line_source, preamble, stands_on_zero
    use text, only: real_text, to_text
    use text_buffer, only: buffer_t
    implicit none (type, external)
@@ -28,6 +28,8 @@ module curve_script
    real(wp), parameter :: zoom_margin = 0.6_wp      !! beyond the ideal curve in that panel, of its span [1]
    integer, parameter :: heights(6) = [800, 1000, 1200, 1400, 1600, 1800]  !! of pictures with so many panels, in units of layout
 
+   character(*), parameter :: ideal_dashes(3) = [character(20) :: "dashtype (12,8)", "dashtype (3,5)", "dashtype (12,5,2,5)"]
+      !! of curves of the reference run
    character(*), parameter :: range_style = " with filledcurves fillstyle transparent solid 0.35 noborder"  !! of an envelope
 
 contains
@@ -191,7 +193,7 @@ contains
       all = range_of(panel, 1)
       if (stands_on_zero(all) .and. ideal(1) >= 0.0_wp) ends(1) = max(0.0_wp, ends(1))  ! beside high peaks what is below is nothing
       if (hangs_from_zero(all) .and. ideal(2) <= 0.0_wp) ends(2) = min(0.0_wp, ends(2))
-      call lines%line("set title 'zoom: range of the ideal joints' font ',14'")
+      call lines%line("set title 'zoom on the ideal curves' font ',14'")
       zoom = panel
       axis = words%y(1)
       if (allocated(axis%unit%symbol)) axis%unit = fitted_unit(axis%unit, largest(ends))
@@ -255,8 +257,10 @@ contains
          axes%y = panel%unit(panel%ideal_side(k))
          axes%less = panel%less(panel%ideal_side(k))
          on = trim(merge(" axes x1y2", "          ", panel%ideal_side(k) == 2))
-         call lines%line("     "//line_source(panel%ideal(k), axes, on, ideal_line, ideal_colour, &
-                                              trim(merge("title 'ideal joints'", "notitle             ", k == 1)))// &
+         name = "ideal joints"
+         if (size(panel%ideal) > 1) name = panel%ideal(k)%name//", ideal joints"
+         call lines%line("     "//line_source(panel%ideal(k), axes, on, "linewidth 1.2 "//trim(ideal_dashes(modulo(k - 1, &
+                         size(ideal_dashes)) + 1)), ideal_colour, "title "//quoted(name))// &
                          trim(merge(", \", "   ", size(panel%curves) + k < n)))
       end do
    end subroutine plot_lines

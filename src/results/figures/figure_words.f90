@@ -2,6 +2,7 @@
 !>
 !> `slider.velocity`, `guide.penetration`, `energy.*`: time histories of channels; with `+`, `against`, units, ends of axes, and in
 !> `panels(...)`: `figure_phrase`.
+!> Any figure may end with `as NAME`, the name of its files.
 !> `gudgeon.orbit`: path of the journal in its clearance. `portrait(slider.velocity.x,slider.acceleration.x)`:
 !> the second over the first. With a section [statistics]: `section(X,Y)`, the same two once per period; `spectrum(X)`;
 !> `histogram(JOINT.impact_speed)` or of `peak_force`. Of a sweep: `bifurcation(X)`, the channel once per period over the
@@ -41,6 +42,9 @@ module figure_words
    integer, parameter :: figure_coupler = 14     !! the path of a point
    integer, parameter :: figure_animation = 15   !! the moving mechanism
    integer, parameter :: longest_name = 100   !! characters of the name of a file without its ending
+   character(*), parameter :: as_word = " as "  !! before the name of its files
+   character(*), parameter :: letters = &
+      "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789_-"  !! of names of files
    !> How the figures with arguments start, by their kind.
    character(*), parameter :: call_words(figure_portrait:figure_animation) = [character(12) :: "portrait(", "section(", &
       "spectrum(", "histogram(", "bifurcation(", "statistics(", "contour(", "film(", "wear(", "mechanism(", "strip(", "coupler(", &
@@ -74,8 +78,30 @@ contains
       integer :: n
 
       figure%word = word
-      figure%name = file_name(word)
       allocate (figure%arguments(0), figure%scalars(0))
+      n = index(word, as_word, back=.true.)
+      if (n == 0) then
+         figure%name = file_name(word)
+         call read_plain(word, figure, mistake)
+      else
+         figure%name = segment(word, n + len(as_word))
+         if (verify(figure%name, letters//".") > 0 .or. scan(figure%name(1:1), "-.") > 0 .or. len(figure%name) > longest_name) then
+            call set_mistake(mistake, "'"//figure%name//"' is not a name of files", "a name has up to 100 letters, digits, "// &
+                             "'_', '-' and dots, and starts with a letter or digit", figure%name)
+         else
+            call read_plain(word(:n - 1), figure, mistake)
+         end if
+      end if
+   end subroutine read_figure
+
+   !> Read the words of a figure without the name of its files.
+   subroutine read_plain(word, figure, mistake)
+      character(*), intent(in) :: word                       !! a figure
+      type(figure_t), intent(inout) :: figure                !! what it asks for
+      type(mistake_t), allocatable, intent(out) :: mistake   !! what is wrong
+
+      integer :: n
+
       n = index(word//" ", " ") - 1
       figure%kind = kind_of(word(:n))
       if (n < len(word) .and. figure%kind /= figure_history) then
@@ -89,7 +115,7 @@ contains
       else
          call read_call(called(word), figure, mistake)
       end if
-   end subroutine read_figure
+   end subroutine read_plain
 
    !> The kind of a figure by its first word.
    pure integer function kind_of(word) result(kind)
@@ -173,8 +199,6 @@ contains
       character(*), intent(in) :: word     !! a word of the deck
       character(:), allocatable :: name    !! the name
 
-      character(*), parameter :: letters = &
-         "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789_-"
       integer(i8), parameter :: factor = 31_i8, modulus = 99999989_i8
       type(buffer_t) :: buffer
       integer :: depth, i

@@ -127,10 +127,8 @@ contains
          if (norm2(axis) > 0.1_wp) call draw_guide(canvas, symbols, p(:, 1), axis, way, symbols%walls(:, number), &
                                                 mark%body(1) == 0)
       case (mark_slot)
-         if (mark%body(2) == 0) call draw_support(canvas, symbols, p(:, 2))
-         x(:, 2) = matmul(frame%a(:, :, mark%body(1)), mark%axis)
-         call draw_slot(canvas, symbols, p(:, 1), projected(view, x(:, 1) + x(:, 2)) - p(:, 1), way, symbols%walls(1, number))
-         call add_disc(canvas, style_pin, symbols, p(:, 2), radius)
+         axis = projected(view, x(:, 1) + matmul(frame%a(:, :, mark%body(1)), mark%axis)) - p(:, 1)
+         call draw_slot(canvas, symbols, p, axis, way, symbols%walls(1, number), mark%body(2) == 0)
       case (mark_bearing)
          if (any(mark%body == 0)) call draw_support(canvas, symbols, p(:, merge(1, 2, mark%body(1) == 0)))
          e = 0.0_wp
@@ -265,22 +263,25 @@ contains
       end do
    end subroutine draw_guide
 
-   !> A slot: its outline over the way of the pin.
-   subroutine draw_slot(canvas, symbols, p, axis, way, half)
+   !> A pin in a slot: the outline of the slot over the way of the pin.
+   subroutine draw_slot(canvas, symbols, p, axis, way, half, is_fixed)
       type(canvas_t), intent(inout) :: canvas  !! gets lines
       type(symbols_t), intent(in) :: symbols   !! scales
-      real(wp), intent(in) :: p(2)             !! (2) point of its line [m]
-      real(wp), intent(in) :: axis(2)          !! (2) its direction [1]
+      real(wp), intent(in) :: p(2, 2)          !! (2, 2) point of its line, and the pin [m]
+      real(wp), intent(in) :: axis(2)          !! (2) direction of the slot [1]
       real(wp), intent(in) :: way(2)           !! (2) minimum and maximum place of the pin along it [m]
       real(wp), intent(in) :: half             !! half its width [m]
+      logical, intent(in) :: is_fixed          !! the pin stands on the ground
 
       real(wp) :: across(2), ends(2, 2)
 
+      if (is_fixed) call draw_support(canvas, symbols, p(:, 2))
       across = half*[-axis(2), axis(1)]
-      ends(:, 1) = p + (way(1) - 2.0_wp*half)*axis
-      ends(:, 2) = p + (way(2) + 2.0_wp*half)*axis
+      ends(:, 1) = p(:, 1) + (way(1) - 2.0_wp*half)*axis
+      ends(:, 2) = p(:, 1) + (way(2) + 2.0_wp*half)*axis
       call add_line(canvas, style_symbol, symbols, reshape([ends(:, 1) + across, ends(:, 2) + across, ends(:, 2) - across, &
                                                        ends(:, 1) - across, ends(:, 1) + across], [2, 5]), dark)
+      call add_disc(canvas, style_pin, symbols, p(:, 2), pin_size*symbols%size)
    end subroutine draw_slot
 
    !> A spring between two points.

@@ -180,7 +180,6 @@ contains
       character(:), allocatable :: cell, cell_place, grid
       real(wp), allocatable :: levels(:)
       real(wp) :: range(2)
-      integer :: k
       logical :: has_values
 
       has_values = size(values) <= most_written
@@ -208,33 +207,40 @@ contains
       if (any(.not. ieee_is_finite(values))) call lines%line(key_below)
       call lines%add("plot '"//name//".dat' using "//cell//":"//scaled(3, unit%factor)//" with boxxyerror fillcolor palette "// &
                      "fillstyle solid noborder notitle")
-      if (any(.not. ieee_is_finite(values))) then
-         call lines%line(", \")
-         call lines%add("     '' using (strcol(3) eq 'NaN' ? "//column_of(1, 1)//" : NaN):"// &
-                        cell(len(column_of(1, 1)) + 2:)//" with boxxyerror fillstyle pattern 4 border linecolor rgb '#808080' "// &
-                        "title 'no value'")
-      end if
-      do k = 1, 2  ! black dots within white ones
-         call lines%line(", \")
-         call lines%add("     '' using (strcol(3) eq 'NaN' ? NaN : "//column_of(1, 1)//"):"//column_of(2, 2)// &
-                        " with points pointtype 7 pointsize "//trim(merge("1.1 linecolor rgb '#ffffff'", &
-                                                                          "0.7 linecolor rgb '#000000'", k == 1))//" notitle")
-      end do
-      if (has_values) then
-         call lines%line(", \")
-         call lines%add("     '' using "//cell_place//":(strcol(3) eq 'NaN' ? '' : sprintf('%.4g', $3*"// &
-                        real_text(unit%factor, 9)//")) with labels boxed offset 0,0.9 font ',13' notitle")
-      end if
-      if (size(levels) > 0) then
-         call lines%line(", \")
-         call lines%line("     $contours using 1:2 with lines linewidth 1.5 linecolor rgb '#101010' notitle, \")
-         call lines%add("     $contours using 1:2:(sprintf('%g', $3)) every ::1::1 with labels boxed font ',12' notitle")
-      end if
+      call add_cases()
       call lines%line("")
       call lines%line("unset output")
       script = lines%get()
 
    contains
+
+      !> What is drawn over the cells.
+      subroutine add_cases()
+         integer :: k
+
+         if (any(.not. ieee_is_finite(values))) then
+            call lines%line(", \")
+            call lines%add("     '' using (strcol(3) eq 'NaN' ? "//column_of(1, 1)//" : NaN):"// &
+                           cell(len(column_of(1, 1)) + 2:)//" with boxxyerror fillstyle pattern 4 border linecolor rgb "// &
+                           "'#808080' title 'no value'")
+         end if
+         do k = 1, 2  ! black dots within white ones
+            call lines%line(", \")
+            call lines%add("     '' using (strcol(3) eq 'NaN' ? NaN : "//column_of(1, 1)//"):"//column_of(2, 2)// &
+                           " with points pointtype 7 pointsize "//trim(merge("1.1 linecolor rgb '#ffffff'", &
+                                                                             "0.7 linecolor rgb '#000000'", k == 1))//" notitle")
+         end do
+         if (has_values) then
+            call lines%line(", \")
+            call lines%add("     '' using "//cell_place//":(strcol(3) eq 'NaN' ? '' : sprintf('%.4g', $3*"// &
+                           real_text(unit%factor, 9)//")) with labels boxed offset 0,0.9 font ',13' notitle")
+         end if
+         if (size(levels) > 0) then
+            call lines%line(", \")
+            call lines%line("     $contours using 1:2 with lines linewidth 1.5 linecolor rgb '#101010' notitle, \")
+            call lines%add("     $contours using 1:2:(sprintf('%g', $3)) every ::1::1 with labels boxed font ',12' notitle")
+         end if
+      end subroutine add_cases
 
       !> Find the contour lines.
       subroutine contour_lines()

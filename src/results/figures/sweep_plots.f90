@@ -8,6 +8,7 @@ module sweep_plots
    use channel_names, only: scalar_name
    use figure_words, only: figure_bifurcation, figure_t
    use kinds, only: not_a_number, wp
+   use numbers, only: number_length
    use plot_table, only: draw_bars, draw_marks, draw_points, panel_t, plot_curve_t, plot_table_t
    use sweep_results, only: case_numbers, n_spread, spread_names, sweep_results_t
    use sweep_axes, only: axis_of_parameter, sweep_axis_t
@@ -82,9 +83,21 @@ contains
       if (sweep%n_curves() == 1) return
       do k = sweep%n_together + 1, size(sweep%parameters)
          if (k > sweep%n_together + 1) title = title//", "
-         title = title//sweep%parameters(k)%name//" = "//sweep%parameters(k)%texts(sweep%value_number(k, curve))%s
+         title = title//sweep%parameters(k)%name//" = "//spaced(sweep%parameters(k)%texts(sweep%value_number(k, curve))%s)
       end do
    end function curve_title
+
+   !> A value of a deck with a blank before its unit, `150rpm` as `150 rpm`; words as they are.
+   pure function spaced(text) result(s)
+      character(*), intent(in) :: text           !! the value
+      character(:), allocatable :: s             !! as it is shown
+
+      integer :: n
+
+      s = text
+      n = number_length(text)
+      if (n > 0 .and. n < len(text)) s = text(:n)//" "//adjustl(text(n + 1:))
+   end function spaced
 
    !> A channel once per period over the parameter: every sample of every run. Where no run of a curve is there it is omitted.
    subroutine bifurcation_table(name, unit, results, table)

@@ -125,8 +125,12 @@ contains
              to_text(unit%factor*summary%time_end)//" "//unit%symbol
       if (len(summary%method%integrator) > 0) line = line//", "//summary%method%integrator
       if (summary%method%tolerance > 0.0_wp) line = line//" at tolerance "//to_text(summary%method%tolerance)
-      if (len(summary%method%solver) > 0) line = line//", "//summary%method%solver
-      if (len(summary%method%stabilisation) > 0) line = line//", "//summary%method%stabilisation
+      if (len(summary%method%solver) > 0) line = line//", solver "//summary%method%solver
+      if (summary%method%stabilisation == "none") then
+         line = line//", no stabilisation needed"
+      else if (len(summary%method%stabilisation) > 0) then
+         line = line//", stabilisation "//summary%method%stabilisation
+      end if
    end function headline
 
    !> What the run cost.
@@ -164,7 +168,7 @@ contains
          call lines%line("accuracy   energy balance is off")
       end if
       call lines%line("           constraint violation "//real_text(summary%quality%violation_max, 3)//" m, rate "// &
-                      real_text(summary%quality%violation_rate_max, 3)//" m/s")
+                      real_text(summary%quality%violation_rate_max, 3)//" m/s, at the ends of steps")
    end subroutine accuracy_lines
 
    !> The summary for scripts.
