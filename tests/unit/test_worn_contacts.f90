@@ -1,9 +1,10 @@
 !> Contact on worn surfaces: round ones against the closed form, derivatives against differences, invariance, edges of cells.
 module test_worn_contacts
+   use, intrinsic :: ieee_arithmetic, only: ieee_is_nan
    use check, only: check_close, check_true, suite_t
    use errors, only: error_t
    use fixed_random, only: random_t
-   use kinds, only: i8, pi, wp
+   use kinds, only: i8, not_a_number, pi, wp
    use overlap_rays, only: pin_t
    use surface_overlap, only: arc_t, find_overlap, overlap_t, to_gradient, to_second
    use surfaces, only: put_inside, surfaces_t
@@ -23,6 +24,7 @@ contains
       call suite%test("surfaces_that_have_lost_nothing", test_round)
       call suite%test("derivatives_of_the_penetration_of_worn_surfaces", test_derivatives)
       call suite%test("everything_turns_together", test_turned)
+      call suite%test("pins_of_steps_that_are_not_accepted", test_far)
       call suite%test("arc_that_passes_edges_of_cells", test_edges)
       call suite%test("arc_of_a_worn_bush", test_conformal)
    end subroutine run_test_worn_contacts
@@ -221,6 +223,36 @@ contains
          if (allocated(error)) return
       end do
    end subroutine test_turned
+
+   !> Turns without number, a pin outside of its hole and places that are not finite come to an end, with the distance or a NaN.
+   subroutine test_far(error)
+      type(error_t), allocatable, intent(out) :: error  !! what failed
+
+      type(overlap_t) :: here, there
+      type(pin_t) :: pin
+      type(surfaces_t) :: pair
+      type(random_t) :: random
+
+      random%state = 9_i8
+      call new_pair(90, 0.3_wp*clearance, 8_i8, pair)
+      pin = some_pin(random, 1.5_wp*clearance)
+      call find_overlap(pair, pin, to_gradient, here)
+      pin%angle = pin%angle + 2.0e5_wp*pi
+      call find_overlap(pair, pin, to_gradient, there)
+      call check_close(error, there%delta, here%delta, 1.0e-11_wp, "many turns")
+      if (allocated(error)) return
+      pin%angle = [1.0e13_wp, -3.0e14_wp]
+      call find_overlap(pair, pin, to_gradient, there)
+      call check_true(error, abs(there%delta) < clearance, "turns without number")
+      if (allocated(error)) return
+      pin = some_pin(random, 3.0_wp*hole)
+      call find_overlap(pair, pin, to_gradient, there)
+      call check_close(error, there%delta, 3.0_wp*hole - clearance, 1.0e-15_wp, "a pin outside of its hole")
+      if (allocated(error)) return
+      pin%angle(2) = not_a_number()
+      call find_overlap(pair, pin, to_gradient, there)
+      call check_true(error, ieee_is_nan(there%delta), "a place that is not finite")
+   end subroutine test_far
 
    !> A narrow arc goes along the hole past edges of cells: penetration and gradient have neither jumps nor corners there.
    subroutine test_edges(error)

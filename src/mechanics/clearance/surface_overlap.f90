@@ -53,11 +53,13 @@ module surface_overlap
    end type arc_t
 
    real(wp), parameter :: longest = 0.05_wp       !! part of an arc that Gauss's four points are right for [rad]
+   real(wp), parameter :: farthest = 0.9_wp       !! part of the pin's radius up to which the centres are apart [1]
    integer, parameter :: n_part = 4               !! parts of what lies between two edges, where it is looked at closely
 
 contains
 
-   !> Penetration and what follows of it: found in the axes of the hole's body, where its cells stand still.
+   !> Penetration and what follows of it: found in the axes of the hole's body, where its cells stand still. A pin that is nowhere
+   !> near its hole, as in a step that is not accepted, is taken as round.
    pure subroutine find_overlap(pair, pin, level, overlap, arc)
       type(surfaces_t), intent(in) :: pair            !! the surfaces, with profiles
       type(pin_t), intent(in) :: pin                  !! where the pin is, world frame
@@ -68,13 +70,19 @@ contains
       type(pin_t) :: here
       real(wp) :: turn(2, 2)
 
+      if (present(arc)) arc%n = 0
+      if (.not. (pin%distance < farthest*pair%radius_j .and. maxval(abs(pin%angle)) < huge(1.0_wp))) then
+         overlap%delta = pin%distance - pair%clearance + 0.0_wp*sum(pin%angle)
+         overlap%gradient = pin%e/pin%distance
+         return
+      end if
       turn = reshape([cos(pin%angle(1)), -sin(pin%angle(1)), sin(pin%angle(1)), cos(pin%angle(1))], [2, 2])
       here = pin
       here%e = matmul(turn, pin%e)
       here%e_dot = matmul(turn, pin%e_dot)
       here%e_ddot = matmul(turn, pin%e_ddot)
-      here%angle = pin%angle - pin%angle(1)
-      here%phi = pin%phi - pin%angle(1)
+      here%angle = modulo(pin%angle - pin%angle(1), 2.0_wp*pi)
+      here%phi = modulo(pin%phi - pin%angle(1), 2.0_wp*pi)
       call find_in_hole(pair, here, level, overlap, arc)
       overlap%gradient = matmul(overlap%gradient, turn)
       if (level >= to_rates) overlap%gradient_rate = matmul(overlap%gradient_rate, turn)
@@ -92,7 +100,6 @@ contains
       type(sums_t) :: sums
       real(wp) :: kappa, kappa_slope, part
 
-      if (present(arc)) arc%n = 0
       if (pin%distance > pair%clearance) then  ! else there is none: no surface has grown
          part = acos(pair%clearance/pin%distance)
          call scan(pair, pin, pin%phi - part, pin%phi + part, level, sums, deepest, arc)
