@@ -104,7 +104,7 @@ contains
       has_spread = any(life%plan%spreads > 1.0_wp)
       call preamble(lines, "life", 1200, 800)
       call lines%line("set title "//quoted(title)//" font ',17'")
-      call lines%line("set xlabel 'cycles'")
+      call lines%line("set xlabel 'cycles'; set rmargin 5")
       call lines%line("set ylabel "//quoted("maximum worn depth ["//unit%symbol//"]"))
       call lines%line("set format x '%g'; set yrange [0:*]; f = "//real_text(unit%factor, 9))
       call lines%line("set style fill noborder")
