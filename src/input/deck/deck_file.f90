@@ -94,9 +94,12 @@ contains
       do k = 1, n_line_of(deck%sources(file))
          line = line_of(deck%sources(file), k)
          call has_content(line, first)
-         if (reading%continues .and. scan(line(max(1, first):max(1, first)), "[") + merge(1, 0, first == 0) > 0) call end_line()
-         if (first == 0) cycle
+         if (first == 0) then
+            if (reading%continues) call end_line()
+            cycle
+         end if
          if (line(first:first) == "[") then
+            if (reading%continues) call end_line()
             if (reading%is_new .and. file == 1) call report_version(location_t(file, k, first, len_trim(line)), mistakes)
             call read_header(deck, line, location_t(file, k, first, len_trim(line)), reading, mistakes)
          else
