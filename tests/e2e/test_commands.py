@@ -135,7 +135,7 @@ def test_list(gudgeon):
     for word in ("revolute", "translational", "lankarani_nikravesh", "hertz", "ambrosio", "verner"):
         assert word in text, word
     lines = [line for line in text.splitlines() if line.split()[0] == "joint.revolute"]
-    assert [line[32:].split(":")[0] for line in lines] == ["in the plane", "in space"]
+    assert [line[31:].split(":")[0] for line in lines] == ["in the plane", "in space"]
 
 
 @pytest.mark.parametrize(("word", "hint"), [

@@ -2,7 +2,7 @@
 !>
 !> M = int d^2 dtheta and its derivatives, see `surface_overlap`; rays are those of `overlap_rays`.
 module overlap_sums
-   use gauss_points, only: n_three, three_weights
+   use gauss_points, only: five_weights, n_five
    use kinds, only: wp
    use overlap_rays, only: pin_t, quick_rays, ray_t
    use surfaces, only: surfaces_t
@@ -67,7 +67,7 @@ contains
       ray%slope = edges%slope(cell - edges%first + 1)
    end subroutine take_edge
 
-   !> Add cells of the hole that overlap a round pin all along, by Gauss's three points of each: an overlap is all but a parabola.
+   !> Add cells of the hole that overlap a round pin all along, by Gauss's five points of each: d is of degree 4 there, or nearly.
    pure subroutine add_cells(pair, pin, first, n, sums)
       type(surfaces_t), intent(in) :: pair     !! the surfaces
       type(pin_t), intent(in) :: pin           !! where the pin is
@@ -75,27 +75,27 @@ contains
       integer, intent(in) :: n                 !! how many
       type(sums_t), intent(inout) :: sums      !! added to
 
-      real(wp), dimension(n_three*most_at_once) :: d, slope, w
+      real(wp), dimension(n_five*most_at_once) :: d, slope, w
       real(wp) :: two_d
       integer :: at, cell, g, k, m
 
       cell = first
       associate (hole => pair%worn%hole, points => pair%worn%hole%points)
          do while (cell < first + n)
-            at = n_three*modulo(cell, size(hole%volume))
-            m = n_three*min(most_at_once, first + n - cell, size(hole%volume) - modulo(cell, size(hole%volume)))
+            at = n_five*modulo(cell, size(hole%volume))
+            m = n_five*min(most_at_once, first + n - cell, size(hole%volume) - modulo(cell, size(hole%volume)))
             call quick_rays(m, pair%radius_j, pin%e, pair%clearance, points%u(at + 1:, 1), points%u(at + 1:, 2), &
                             points%h(at + 1:), points%slope(at + 1:), d, slope, w)
-            do k = 1, m, n_three
-               do g = 0, n_three - 1
-                  two_d = 2.0_wp*hole%width*three_weights(g + 1)*d(k + g)
+            do k = 1, m, n_five
+               do g = 0, n_five - 1
+                  two_d = 2.0_wp*hole%width*five_weights(g + 1)*d(k + g)
                   sums%m = sums%m + 0.5_wp*two_d*d(k + g)
                   sums%e(1) = sums%e(1) + two_d*(points%u(at + k + g, 1) - w(k + g)*points%u(at + k + g, 2))
                   sums%e(2) = sums%e(2) + two_d*(points%u(at + k + g, 2) + w(k + g)*points%u(at + k + g, 1))
                   sums%d = sums%d + two_d
                end do
             end do
-            cell = cell + m/n_three
+            cell = cell + m/n_five
          end do
       end associate
    end subroutine add_cells

@@ -19,7 +19,7 @@
 !> Signs: delta > 0 in contact. Source: this program. Limits: those of `overlap_rays`; between two edges an overlap begins at most
 !> once and ends at most once, and d has at most one maximum or minimum.
 module surface_overlap
-   use gauss_points, only: gauss_places, gauss_weights, n_gauss
+   use gauss_points, only: five_places, five_weights, n_five
    use kinds, only: pi, wp
    use overlap_ends, only: end_of, find_turn
    use overlap_rays, only: find_ray, pin_t, ray_t
@@ -52,7 +52,7 @@ module surface_overlap
       real(wp), allocatable :: width(:)         !! (n or more) angle that each stands for [rad]
    end type arc_t
 
-   real(wp), parameter :: longest = 0.05_wp       !! part of an arc that Gauss's four points are right for [rad]
+   real(wp), parameter :: longest = 0.05_wp       !! part of an arc that Gauss's five points are right for [rad]
    real(wp), parameter :: farthest = 0.9_wp       !! part of the pin's radius up to which the centres are apart [1]
    integer, parameter :: n_part = 4               !! parts of what lies between two edges, where it is looked at closely
 
@@ -335,10 +335,10 @@ contains
       n = max(ceiling((end - start)/longest), 1)
       part = (end - start)/n
       do k = 0, n - 1
-         do g = 1, n_gauss
-            call find_ray(pair, pin, start + part*(k + gauss_places(g)), cell, level >= to_rates, .false., ray)
+         do g = 1, n_five
+            call find_ray(pair, pin, start + part*(k + five_places(g)), cell, level >= to_rates, .false., ray)
             if (.not. ray%d > 0.0_wp) cycle  ! round-off at an end
-            width = part*gauss_weights(g)
+            width = part*five_weights(g)
             call add_point(ray, width, level, sums)
             if (present(arc)) call append(arc, ray%theta, angle_on_pin(pair, pin, ray%theta), ray%d, width)
          end do

@@ -10,7 +10,7 @@
 !> are continuous, h'' jumps from cell to cell. Source: see `histospline`.
 !> Limits: cells of one width, at least 4; a pin is nowhere worn through (`worn_surface`).
 module surface_profile
-   use gauss_points, only: n_three, three_places
+   use gauss_points, only: five_places, n_five
    use histospline, only: degree, fit_histospline, value_of_histospline
    use kinds, only: pi, wp
    implicit none (type, external)
@@ -32,7 +32,7 @@ module surface_profile
       real(wp), allocatable :: c(:, :)       !! (0:4, cells) coefficients of A; unallocated: the surface is round [m^2]
       real(wp), allocatable :: volume(:)     !! (cells) what each has lost [m^3]
       type(places_t) :: starts               !! (cells) where each cell starts
-      type(places_t) :: points               !! (3 cells) Gauss's three points of each cell
+      type(places_t) :: points               !! (5 cells) Gauss's five points of each cell
    contains
       procedure :: is_round => profile_is_round
       procedure :: at => depth_at
@@ -72,7 +72,7 @@ contains
       call fit_histospline(volume/(length*profile%width), profile%c)
       associate (n => size(volume))
          call take_places(profile, [(real(k - 1, wp), k=1, n)], [(k - 1, k=1, n)], profile%starts)
-         call take_places(profile, [((k - 1 + three_places(g), g=1, n_three), k=1, n)], [((k - 1, g=1, n_three), k=1, n)], &
+         call take_places(profile, [((k - 1 + five_places(g), g=1, n_five), k=1, n)], [((k - 1, g=1, n_five), k=1, n)], &
                           profile%points)
       end associate
    end subroutine new_profile
