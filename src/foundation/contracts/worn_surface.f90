@@ -109,7 +109,7 @@ contains
       if (n > 2) width = n - 2 + part_of_outer(area(1), area(2:n - 1)) + part_of_outer(area(n), area(n - 1:2:-1))
    end function width_of
 
-   !> Part of an outer cell that is worn, where the area goes on as in up to three cells beside it: by the polynomial whose means
+   !> Part of an outer cell that is worn; the area is extrapolated from up to three cells beside it: by the polynomial whose means
    !> they are, up to its first zero.
    pure real(wp) function part_of_outer(outer, inner) result(part)
       real(wp), intent(in) :: outer      !! area of the outer cell [m^2]

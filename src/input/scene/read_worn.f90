@@ -150,7 +150,7 @@ contains
       type(scene_t), intent(in) :: scene        !! the scene
       character(*), intent(in) :: joint         !! its name
       integer, intent(out) :: geometry          !! number of its kind
-      integer, intent(out) :: row               !! in the table of the kind; 0: there is none
+      integer, intent(out) :: row               !! in the table of the kind; 0: not found
 
       integer :: k
 

@@ -6,7 +6,7 @@
 !>
 !> by Gauss's rule of eight points, right to round-off; solved by Newton's method for M^(2/5), which is all but linear in delta: of
 !> a small overlap M = (16/15) delta^2 sqrt(2 delta/k), k = e (1 + e/r).
-!> Source: this program. Limits: e up to nine tenths of r; beyond, M^(2/5) goes on as a straight line.
+!> Source: this program. Limits: e up to nine tenths of r; beyond, M^(2/5) is extrapolated by a straight line.
 module round_moment
    use kinds, only: wp
    use surfaces, only: surfaces_t

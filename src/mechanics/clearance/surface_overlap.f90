@@ -100,7 +100,7 @@ contains
       type(sums_t) :: sums
       real(wp) :: kappa, kappa_slope, part
 
-      if (pin%distance > pair%clearance) then  ! else there is none: no surface has grown
+      if (pin%distance > pair%clearance) then  ! else the surfaces are apart: wear only widens the gap
          part = acos(pair%clearance/pin%distance)
          call scan(pair, pin, pin%phi - part, pin%phi + part, level, sums, deepest, arc)
       end if

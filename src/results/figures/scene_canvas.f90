@@ -34,7 +34,7 @@ module scene_canvas
       real(wp) :: size = 1.0_wp                   !! of the scene [m]
       real(wp) :: scale = 1.0_wp                  !! numbers of the picture over lengths [any/m]
       real(wp) :: magnified = 0.0_wp              !! factor of eccentricities; 0: no round joints with clearance [1]
-      real(wp) :: force = 0.0_wp                  !! force of the longest arrow; 0: there are none [N]
+      real(wp) :: force = 0.0_wp                  !! force of the longest arrow; 0: no arrows [N]
       logical :: is_planar = .true.               !! bodies move in the plane
       real(wp), allocatable :: ways(:, :)         !! (2, marks) of slides and slots: range of j along the axis [m]
       real(wp), allocatable :: walls(:, :)        !! (2, marks) of them: from the guide's line to its walls, as `gaps` [m]

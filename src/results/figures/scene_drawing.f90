@@ -53,7 +53,7 @@ contains
       call add_marks(scene, scene%forces, .true., has_shape, drawing)
    end subroutine drawing_of_scene
 
-   !> Diameter of the largest bearing; 0: there is none.
+   !> Diameter of the largest bearing; 0: no bearing.
    pure real(wp) function largest_bore(scene) result(bore)
       type(scene_t), intent(in) :: scene   !! the scene
 
