@@ -195,6 +195,7 @@ def test_ensemble(gudgeon):
     (("cycle = 2 ms", "cycle = -1 s"), (), 3, "the cycle must be a positive time"),
     (("[life]\ncycle = 2 ms\ndepth = 1 um", ""), (), 2, "the deck has no section [life]"),
     (("wear\npin", "level\npin"), (), 2, "nothing wears"),
+    (("[life]", "[life]"), (), 2, "form = book"),
     (("depth = 1 um", "depth = 1 um\nsimulations = 2\ndepth_tolerance = 1e-12 m"), (), 5, "the limit of 2 simulated profiles"),
     (("[life]", "[guards]\nspeed = 1 mm/s\n[life]"), (), 5, "simulation of profile 1 failed"),
 ])
@@ -204,6 +205,8 @@ def test_refused(gudgeon, change, options, code, words):
     text = pin("depth = 1 um").replace(*change)
     if "level" in change[1]:
         text = text.replace("spring   dry", "spring   clearance")
+    if "book" in words:
+        text = text.replace("wear\npin", "wear   form\npin").replace("spring   dry", "spring   dry   book")
     said = call(gudgeon, "life", written(directory, text), "--out", directory / "out", "--quiet", *options, expect=code)
     assert words in said.stderr
 

@@ -2,6 +2,7 @@
 module life_setup
    use deck_rates, only: deck_rates_t
    use diagnostics, only: diagnostics_t
+   use columns, only: cell_index
    use errors, only: error_t, exit_usage, set_error
    use channel_names, only: scalar_t
    use item, only: place_of
@@ -12,6 +13,7 @@ module life_setup
    use posix, only: n_processors
    use options, only: options_t
    use run_limits, only: find_scalars, limits_of, words_of
+   use read_worn, only: find_worn_mistake
    use scene, only: analysis_dynamic
    use text, only: append_text, text_t
    use wear_monitor, only: new_wear_monitor, wear_monitor_t
@@ -35,8 +37,31 @@ contains
       else if (loaded%system%n_wear == 0) then
          call set_error(error, exit_usage, "nothing wears: no joint with clearance names a wear law"//new_line("a")// &
                         "  = give a table [wear.archard] and the column wear of [clearance.revolute]")
+      else
+         call check_joints(loaded, error)
       end if
    end subroutine check_request
+
+   !> The joints that wear must be such that their contact can be one of worn surfaces.
+   subroutine check_joints(loaded, error)
+      type(loaded_t), intent(in) :: loaded                 !! the deck
+      type(error_t), allocatable, intent(out) :: error     !! the first that is not
+
+      character(:), allocatable :: help, mark, message
+      integer :: i, k
+
+      do k = 1, size(loaded%scene%clearances)
+         associate (table => loaded%scene%clearances(k))
+            do i = 1, size(table%items)
+               if (cell_index(table%info, table%items(i), "wear") == 0) cycle
+               call find_worn_mistake(table%items(i), message, mark, help)
+               if (message == "") cycle
+               call set_error(error, exit_usage, message//" in a life"//new_line("a")//"  = "//help)
+               return
+            end do
+         end associate
+      end do
+   end subroutine check_joints
 
    !> Set up the simulations.
    subroutine set_up_life(options, loaded, source, surfaces, warnings)

@@ -21,7 +21,7 @@ module read_worn
    use worn_surface, only: worn_surface_t
    implicit none (type, external)
    private
-   public :: make_worn_surfaces, worn_from_deck
+   public :: find_worn_mistake, make_worn_surfaces, worn_from_deck
 
    integer, parameter :: usual_cells = 360   !! of a circumference without a wear law
 
@@ -87,6 +87,7 @@ contains
       type(surfaces_t) :: pair
       type(worn_mistake_t), allocatable :: mistake
       real(wp) :: other_radius
+      character(:), allocatable :: help, mark, message
       integer :: cells, geometry, law, row
 
       at = item%values(column_of(info, "joint"))%location
@@ -108,9 +109,10 @@ contains
             call diagnostics%add(at, "joint '"//joint%name//"' is worn but has no length", "without a length", &
                                  "a worn volume is area times length: give the length of the joint along its axis")
             return
-         else if (any(level_of(joint) == [level_lubricated, level_hybrid])) then
-            call diagnostics%add(at, "joint '"//joint%name//"' with level = "//joint%word("level")//" is worn", "with a film", &
-                                 "films are those of round surfaces: use level = clearance")
+         end if
+         call find_worn_mistake(joint, message, mark, help)
+         if (message /= "") then
+            call diagnostics%add(at, message, mark, help)
             return
          end if
          law = cell_index(joint_info, joint, "wear")
@@ -177,5 +179,26 @@ contains
       end do
       words = join(names, " ")
    end function names_of
+
+   !> Why the contact of a joint with clearance cannot be one of worn surfaces.
+   subroutine find_worn_mistake(joint, message, mark, help)
+      type(item_t), intent(in) :: joint                      !! its row
+      character(:), allocatable, intent(out) :: message      !! what is wrong; blank: nothing
+      character(:), allocatable, intent(out) :: mark         !! the same in some words
+      character(:), allocatable, intent(out) :: help         !! what to do
+
+      message = ""
+      mark = ""
+      help = ""
+      if (any(level_of(joint) == [level_lubricated, level_hybrid])) then
+         message = "joint '"//joint%name//"' with level = "//joint%word("level")//" is worn"
+         mark = "with a film"
+         help = "films are those of round surfaces: use level = clearance"
+      else if (joint%word("form") == "book") then
+         message = "joint '"//joint%name//"' with form = book is worn"
+         mark = "with form = book"
+         help = "the book has no worn surfaces: use form = corrected"
+      end if
+   end subroutine find_worn_mistake
 
 end module read_worn
