@@ -9,7 +9,7 @@ module number_lists
    use diagnostics, only: diagnostics_t
    use dimension_text, only: dimension_name
    use file_path, only: beside, plain_path
-   use item, only: location_t, value_t
+   use item, only: item_t, location_t, place_of, value_t
    use kind_info, only: dim_t, same_dimension
    use kinds, only: wp
    use quantities, only: is_numeric, is_unit_word, quantity_t, read_bare, read_unit, report_not_a_number
@@ -19,11 +19,39 @@ module number_lists
    use units, only: unit_t
    implicit none (type, external)
    private
-   public :: read_list, read_samples
+   public :: file_to_lists, read_list, read_samples
 
    character(*), parameter :: blanks = " "//achar(9)
 
 contains
+
+   !> The columns of a row's file become its lists, so that its echo holds them.
+   subroutine file_to_lists(item, lists, twice)
+      type(item_t), intent(inout) :: item     !! the row, which may have a file in column `file`
+      character(*), intent(in) :: lists(:)    !! names of the lists, in the order of the file's columns
+      integer, intent(out) :: twice           !! column of a list that is given beside the file, 0: all is well
+
+      integer :: k
+
+      twice = 0
+      associate (file => item%values(place_of(item, "file")))
+         if (.not. file%given) return
+         do k = 1, size(lists)
+            associate (list => item%values(place_of(item, trim(lists(k)))))
+               if (list%given) then
+                  twice = place_of(item, trim(lists(k)))
+                  return
+               end if
+               list%given = .true.
+               list%location = file%location
+               list%table = file%table(:, k:k)
+               list%places = file%places
+               list%dimensions(1) = file%dimensions(k)
+            end associate
+         end do
+         file%given = .false.
+      end associate
+   end subroutine file_to_lists
 
    !> A list of numbers with one unit.
    subroutine read_list(deck, place, token, value, mistakes, header)

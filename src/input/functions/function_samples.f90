@@ -19,6 +19,7 @@ module function_samples
    use item, only: item_t, place_of
    use kind_info, only: add_file, add_list, add_word, kind_info_t
    use kinds, only: wp
+   use number_lists, only: file_to_lists
    use spline, only: ends_clamped, ends_fmm, ends_natural, ends_not_a_knot, ends_periodic, min_samples, new_spline
    use text, only: to_text
    implicit none (type, external)
@@ -60,8 +61,12 @@ contains
       type(item_t), intent(inout) :: item  !! the row; samples of a file become lists
       type(made_t), intent(out) :: made    !! the curve, or the first error
 
-      call take_file(item, made)
-      if (made%column > 0) return
+      call file_to_lists(item, lists, made%column)
+      if (made%column > 0) then
+         made%message = "the samples are already given by a file"
+         made%help = "give columns at and value, or column file"
+         return
+      end if
       call check_samples(item, made)
       if (made%column > 0) return
       associate (at => item%values(place_of(item, "at")), value => item%values(place_of(item, "value")))
@@ -74,35 +79,6 @@ contains
          end if
       end associate
    end subroutine samples_make
-
-   !> Samples of a file become the lists of the row.
-   subroutine take_file(item, made)
-      type(item_t), intent(inout) :: item  !! the row
-      type(made_t), intent(inout) :: made  !! receives an error
-
-      integer :: column, k
-
-      associate (file => item%values(place_of(item, "file")))
-         if (.not. file%given) return
-         do k = 1, 2
-            column = place_of(item, trim(lists(k)))
-            associate (list => item%values(column))
-               if (list%given) then
-                  made%column = column
-                  made%message = "the samples are already given by a file"
-                  made%help = "give columns at and value, or column file"
-                  return
-               end if
-               list%given = .true.
-               list%location = file%location
-               list%table = file%table(:, k:k)
-               list%places = file%places
-               list%dimensions(1) = file%dimensions(k)
-            end associate
-         end do
-         file%given = .false.
-      end associate
-   end subroutine take_file
 
    !> Whether there are enough samples, in order, and closed if they repeat.
    subroutine check_samples(item, made)

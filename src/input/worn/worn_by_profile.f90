@@ -10,6 +10,7 @@ module worn_by_profile
    use item, only: item_t, place_of
    use kind_info, only: add_file, add_list, kind_info_t
    use kinds, only: pi, wp
+   use number_lists, only: file_to_lists
    use text, only: to_text
    use worn_kind, only: add_surface_columns, cell_edge, round_area, worn_kind_t, worn_mistake_t
    use worn_surface, only: worn_surface_t
@@ -53,10 +54,15 @@ contains
       type(worn_surface_t), intent(inout) :: surface               !! with radius and length; volumes are set
       type(worn_mistake_t), allocatable, intent(out) :: mistake    !! samples that are no profile
 
-      integer :: angle, depth
+      integer :: angle, depth, twice
 
-      call take_file(item, mistake)
-      if (.not. allocated(mistake)) call check_samples(item, surface, mistake)
+      call file_to_lists(item, lists, twice)
+      if (twice > 0) then
+         mistake = worn_mistake_t(trim(item%values(twice)%column), 0, "the profile is already given by a file", &
+                                  "give columns angle and depth, or column file")
+         return
+      end if
+      call check_samples(item, surface, mistake)
       if (allocated(mistake)) return
       angle = place_of(item, "angle")
       depth = place_of(item, "depth")
@@ -93,33 +99,6 @@ contains
          end do
       end do
    end function areas_of_cells
-
-   !> Samples of a file become the lists of the row, so that its echo holds them.
-   subroutine take_file(item, mistake)
-      type(item_t), intent(inout) :: item                          !! the row
-      type(worn_mistake_t), allocatable, intent(out) :: mistake    !! samples are given twice
-
-      integer :: k
-
-      associate (file => item%values(place_of(item, "file")))
-         if (.not. file%given) return
-         do k = 1, size(lists)
-            associate (list => item%values(place_of(item, trim(lists(k)))))
-               if (list%given) then
-                  mistake = worn_mistake_t(trim(lists(k)), 0, "the profile is already given by a file", &
-                                           "give columns angle and depth, or column file")
-                  return
-               end if
-               list%given = .true.
-               list%location = file%location
-               list%table = file%table(:, k:k)
-               list%places = file%places
-               list%dimensions(1) = file%dimensions(k)
-            end associate
-         end do
-         file%given = .false.
-      end associate
-   end subroutine take_file
 
    !> Whether the lists are a profile. A last sample a turn behind the first one is the first one.
    subroutine check_samples(item, surface, mistake)
