@@ -18,6 +18,7 @@ module life_report
    use version, only: program_version
    use wear_object, only: put_wear
    use wear_tables, only: tables_of_wear
+   use worn_surface, only: worn_surface_t
    implicit none (type, external)
    private
    public :: report_life
@@ -122,6 +123,7 @@ contains
       character(:), allocatable :: object                    !! as text
 
       type(json_object_t) :: json
+      type(worn_surface_t), allocatable :: worn(:)
 
       call json%start(0)
       call json%put_text("program", "gudgeon "//program_version)
@@ -140,7 +142,8 @@ contains
          call put_wear(json, life%state%surfaces, node%measures, max(node%measures - node%half(), 0.0_wp), &
                        node%measures + node%half(), node%cycles, node%cycles*life%plan%cycle)
          call put_tables(json, [table_of_life(life), table_of_surfaces_at_end(life), table_of_budget(life)])
-         call put_tables(json, tables_of_wear(life%state%worn(node%x)))
+         worn = life%state%worn(node%x)
+         call put_tables(json, tables_of_wear(worn))
       end associate
       call json%put_list("figures", pictures)
       call json%put_list("warnings", warnings)

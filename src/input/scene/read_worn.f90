@@ -197,7 +197,7 @@ contains
       else if (joint%word("form") == "book") then
          message = "joint '"//joint%name//"' with form = book is worn"
          mark = "with form = book"
-         help = "the book has no worn surfaces: use form = corrected"
+         help = "Flores et al. (2008) have no worn surfaces: use form = corrected"
       end if
    end subroutine find_worn_mistake
 

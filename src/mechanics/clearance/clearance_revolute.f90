@@ -182,11 +182,12 @@ contains
       type(wear_contact_t), intent(inout) :: wear       !! force, sliding and arc
 
       type(point_contact_t) :: contact
-      real(wp) :: delta, f_t(1), force_rate, normal(2), rate, speed_i, speed_j, turn
+      real(wp) :: f_elastic(1), f_n(1), f_t(1), normal(2), speed_i, speed_j, turn
       integer :: body, side
 
-      call self%monitor(k, motion, delta, rate, wear%force, force_rate)
       call self%measure(k, .true., motion, contact)
+      call self%press(k, [contact], f_n, f_elastic)
+      wear%force = f_n(1)
       call self%turning(k, motion, contact, turn, speed_i, speed_j)
       wear%speed = max(speed_of(self, k, contact%v_t_work), 0.0_wp)
       wear%power = wear%force*wear%speed

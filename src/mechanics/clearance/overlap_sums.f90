@@ -88,7 +88,7 @@ contains
                             points%h(at + 1:), points%slope(at + 1:), d, slope, w)
             do k = 1, m, n_five
                do g = 0, n_five - 1
-                  two_d = 2.0_wp*hole%width*five_weights(g + 1)*d(k + g)
+                  two_d = 2.0_wp*hole%width*five_weights(g + 1)*max(d(k + g), 0.0_wp)
                   sums%m = sums%m + 0.5_wp*two_d*d(k + g)
                   sums%e(1) = sums%e(1) + two_d*(points%u(at + k + g, 1) - w(k + g)*points%u(at + k + g, 2))
                   sums%e(2) = sums%e(2) + two_d*(points%u(at + k + g, 2) + w(k + g)*points%u(at + k + g, 1))

@@ -234,7 +234,7 @@ contains
       edge = max(edge, theta)  ! round-off
    end subroutine next_edge
 
-   !> Add what overlaps in a cell, of which there may be more than one part where it comes near to overlapping.
+   !> Add what overlaps in a cell: in parts, where the overlap starts or ends in it, for there may be more than one.
    pure subroutine look_at(pair, pin, cell, left, right, at_most, level, sums, deepest, arc)
       type(surfaces_t), intent(in) :: pair           !! the surfaces
       type(pin_t), intent(in) :: pin                 !! where the pin is
@@ -251,7 +251,7 @@ contains
       real(wp) :: middle
       integer :: k
 
-      if (max(left%d, right%d) > 0.0_wp .or. at_most <= min(deepest%d, 0.0_wp)) then
+      if (min(left%d, right%d) > 0.0_wp .or. at_most <= min(deepest%d, 0.0_wp)) then
          call look_between(pair, pin, cell, left, right, level, sums, deepest, arc)
          return
       end if
