@@ -220,7 +220,7 @@ def test_decks_with_loose_joints_close(gudgeon, deck):
     stored = energy["kinetic"] + energy["potential"] + energy["elastic"]
     exchanged = stored.max() - stored.min()
     assert exchanged > 0.0
-    if deck.stem == "worn_bush":  # the worn arc fits the shaft: sums over its cells err by some 5e-6 of the energy of its rotation
-        assert run.summary["energy_residual_max"] < 1e-5 * run.summary["energy_max"]
+    if deck.stem == "worn_bush":  # most of the energy is that of the shaft's rotation, which does not change
+        assert run.summary["energy_residual_max"] < 1e-6 * run.summary["energy_max"]
         return
     assert run.summary["energy_residual_max"] < 1e-6 * exchanged

@@ -11,7 +11,7 @@ import zipfile
 
 import numpy as np
 import pytest
-from support import DECK, Run, call, plain_deck, scratch, written
+from support import DECK, ROOT, Run, call, plain_deck, scratch, written
 
 SHORT = [("analysis.dynamic", "end", "2 ms")]
 NEEDED = {"a table": "pandas", "a dataset": "xarray"}
@@ -174,6 +174,15 @@ def test_sweep_and_precision(package):
     frame = package.precision(short, methods=["verner", "dop853"], budget="2s")
     assert set(frame["setting"]) == {"verner", "dop853"} and frame.attrs["units"]["cpu"] == "s"
     assert frame.attrs["summary"]["choice"].startswith("method = ") and os.path.exists("outputs/short_precision/precision.csv")
+
+
+def test_life(package):
+    """A bush that wears by two micrometres: the last row is the end that the summary has."""
+    pytest.importorskip("pandas")
+    frame = package.life(ROOT / "inputs" / "worn_bush.deck", set={"depth": "12 um"}, out="life")
+    last = frame[frame["surface"] == "bearing"].iloc[-1]
+    end = frame.attrs["summary"]["wear"]["bearing"]
+    assert last["cycles"] == end["cycles"] and last["volume"] == end["bearing"]["volume"]["value"] and frame.attrs["units"]["volume"] == "m^3"
 
 
 @pytest.mark.parametrize("use", NEEDED)

@@ -95,7 +95,9 @@ contains
          call surface%max_depth(depth, angle)
          call check_close(error, angle, 2.0_wp*pi*((deepest - 0.5_wp)/n - 1.0_wp), 1.0e-14_wp, "where it is deepest")
          if (allocated(error)) return
-         call check_close(error, depth, depths(deepest), 0.0_wp, "maximum depth")
+         volume = 1.0e-9_wp*(1.0_wp + pi/n/sin(pi/n))*n/(pi*surface%length)  ! of a cosine with these means
+         call check_close(error, depth, abs(sqrt(surface%radius**2 + merge(volume, -volume, surface%is_hole)) - surface%radius), &
+                          1.0e-6_wp, "maximum depth", relative=.true.)
          if (allocated(error)) return
       end do
       surface%volume = surface%volume(1)

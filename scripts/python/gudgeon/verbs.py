@@ -74,6 +74,21 @@ def precision(
     return table(summary, "precision.csv")
 
 
+def life(
+    deck: str | os.PathLike[str] | Deck, *, set: Mapping[str, Any] | None = None, out: str | os.PathLike[str] | None = None,
+    progress: Progress = False, **options: Any,
+) -> pandas.DataFrame:
+    """Wear of a deck with `[life]`, a surface after a jump in a row; `attrs["summary"]["wear"]` has the end of each joint with intervals.
+
+    Options are those of `gudgeon life`: `tolerance=1e-6`, `jobs=2`. `attrs` as of `sweep`.
+    """
+    needed("pandas", "a table")
+    code, message, summary = call("life", deck, set, out, progress, options)
+    if code:
+        raise GudgeonError(code, message)
+    return table(summary, "life.csv")
+
+
 def table(summary: dict[str, Any], name: str) -> pandas.DataFrame:
     """A file of comma-separated values, its headings without units."""
     path = pathlib.Path(summary["directory"], name)

@@ -177,9 +177,9 @@ contains
          end if
          associate (arc => wear%arc, n => wear%arc%n)
             if (side == of_bearing) then
-               call add_swept_points(cells, arc%hole(:n), arc%d(:n)*arc%width(:n), by, volume)
+               call add_swept_points(cells, arc%hole(:n), arc%width(:n), arc%d(:n)*arc%width(:n), by, volume)
             else
-               call add_swept_points(cells, arc%pin(:n), arc%d(:n)*arc%width(:n), by, volume)
+               call add_swept_points(cells, arc%pin(:n), arc%width(:n), arc%d(:n)*arc%width(:n), by, volume)
             end if
          end associate
       end associate

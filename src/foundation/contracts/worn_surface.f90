@@ -5,6 +5,7 @@
 !> h = sqrt(R^2 + 2 A) - R of a hole,   h = r - sqrt(r^2 - 2 A) of a pin
 !>
 !> so that L/2 w ((R + h)^2 - R^2), of a pin L/2 w (r^2 - (r - h)^2), is the volume of the cell to round-off.
+!> Depths between cells are those of a smooth curve with these means, so that a maximum is not that of a cell.
 !> Signs: h is not negative; angles in the frame of the body that carries the surface, counter-clockwise from its x axis.
 !> Limits: a pin that is worn through has the depth of its radius (`is_through`).
 module worn_surface
@@ -53,24 +54,37 @@ contains
       end if
    end function depths_of_cells
 
-   !> Maximum depth, and the middle of the cell that has it.
+   !> Maximum depth and where it is: of the parabola whose means over the deepest cell and the two beside it are their depths.
    pure subroutine surface_max_depth(self, depth, angle)
       class(worn_surface_t), intent(in) :: self   !! the surface
       real(wp), intent(out) :: depth              !! h [m]
       real(wp), intent(out) :: angle              !! where, -pi to pi [rad]
 
-      real(wp) :: depths(size(self%volume))
-      integer :: cell
+      real(wp) :: bend, depths(size(self%volume)), off, slope
+      integer :: cell, n
 
+      n = size(self%volume)
       depths = self%depths()
       cell = maxloc(depths, dim=1)
       depth = depths(cell)
-      angle = self%angle(cell)
+      off = 0.0_wp
+      if (n > 2) then
+         associate (before => depths(modulo(cell - 2, n) + 1), after => depths(modulo(cell, n) + 1))
+            slope = 0.5_wp*(after - before)
+            bend = before - 2.0_wp*depth + after
+            if (bend < -epsilon(1.0_wp)*depth) then
+               off = -slope/bend
+               depth = depth - bend/24.0_wp + 0.5_wp*slope*off
+            end if
+         end associate
+      end if
+      angle = self%angle(cell) + off*2.0_wp*pi/n
       if (angle > pi) angle = angle - 2.0_wp*pi
    end subroutine surface_max_depth
 
-   !> Angle of all that has lost something, full, at the centre of the surface. Each stretch of worn cells ends within its outer
-   !> cells: where the line on which the areas of the cells beside go has the area of the outer cell before it, or is zero.
+   !> Angle of all that has lost something, full, at the centre of the surface. Each stretch of worn cells ends within the two outer
+   !> cells of its sides, where the areas of the next cells come to zero: the outer ones are worn by what is elastic, too. Where these
+   !> do not come to zero there, it ends in the outer cell, which they would give its area.
    pure real(wp) function worn_arc(self) result(arc)
       class(worn_surface_t), intent(in) :: self   !! the surface
 
@@ -109,32 +123,45 @@ contains
       if (n > 2) width = n - 2 + part_of_outer(area(1), area(2:n - 1)) + part_of_outer(area(n), area(n - 1:2:-1))
    end function width_of
 
-   !> Part of an outer cell that is worn; the area is extrapolated from up to three cells beside it: by the polynomial whose means
-   !> they are, up to its first zero.
+   !> Part of an outer cell that is worn, of the next one too if negative: where pairs of the six cells behind these two come to zero.
    pure real(wp) function part_of_outer(outer, inner) result(part)
       real(wp), intent(in) :: outer      !! area of the outer cell [m^2]
       real(wp), intent(in) :: inner(:)   !! (n) those of the cells beside it, from the outer cell on [m^2]
+
+      if (size(inner) > 8) then
+         part = 2.0_wp*end_of(0.5_wp*(inner(2:6:2) + inner(3:7:2)), 1.0_wp, huge(1.0_wp)) - 1.0_wp
+         if (part < 1.0_wp) return
+      end if
+      part = end_of(inner(:min(size(inner), 3)), 1.0_wp, outer)
+   end function part_of_outer
+
+   !> Where areas come to zero, or have a given sum: by the polynomial whose means are those of up to three cells.
+   pure real(wp) function end_of(inner, farthest, most) result(place)
+      real(wp), intent(in) :: inner(:)   !! (1 to 3) areas of the cells, from the outermost of them on [m^2]
+      real(wp), intent(in) :: farthest   !! greatest distance from their outer face, in cells [1]
+      real(wp), intent(in) :: most       !! the sum, in areas of one cell [m^2]
 
       integer, parameter :: halvings = 50
       real(wp) :: c(0:2), high, low
       integer :: i
 
-      ! value c0 + c1 u + c2 u^2 at the distance u of cells from the face between them, outward
+      ! value c0 + c1 u + c2 u^2 at the distance u of cells from their outer face, outward
       c = [inner(1), 0.0_wp, 0.0_wp]
       if (size(inner) == 2) c = [1.5_wp*inner(1) - 0.5_wp*inner(2), inner(1) - inner(2), 0.0_wp]
       if (size(inner) > 2) c = [(11.0_wp*inner(1) - 7.0_wp*inner(2) + 2.0_wp*inner(3))/6.0_wp, &
                                 2.0_wp*inner(1) - 3.0_wp*inner(2) + inner(3), 0.5_wp*(inner(1) - 2.0_wp*inner(2) + inner(3))]
       low = 0.0_wp
-      high = 1.0_wp
+      high = farthest
+      if (c(0) + high*(c(1) + high*c(2)) > 0.0_wp .and. high*(c(0) + high*(0.5_wp*c(1) + high*c(2)/3.0_wp)) < most) low = high
       do i = 1, halvings
-         part = 0.5_wp*(low + high)
-         if (c(0) + part*(c(1) + part*c(2)) > 0.0_wp .and. part*(c(0) + part*(0.5_wp*c(1) + part*c(2)/3.0_wp)) < outer) then
-            low = part
+         place = 0.5_wp*(low + high)
+         if (c(0) + place*(c(1) + place*c(2)) > 0.0_wp .and. place*(c(0) + place*(0.5_wp*c(1) + place*c(2)/3.0_wp)) < most) then
+            low = place
          else
-            high = part
+            high = place
          end if
       end do
-   end function part_of_outer
+   end function end_of
 
    !> Whether a pin has lost all there was of it somewhere.
    pure logical function is_through(self)

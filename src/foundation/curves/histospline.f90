@@ -17,7 +17,7 @@ module histospline
    use kinds, only: wp
    implicit none (type, external)
    private
-   public :: degree, fit_histospline, value_of_histospline
+   public :: degree, fit_histospline, value_of_histospline, values_of_histospline
 
    integer, parameter :: degree = 4   !! of the polynomials
 
@@ -85,5 +85,22 @@ contains
          value = v*b0 + u*b1
       end associate
    end subroutine value_of_histospline
+
+   !> The same of many places.
+   pure subroutine values_of_histospline(c, n, cell, u, value, slope, bend)
+      real(wp), intent(in) :: c(0:, :)      !! (0:4, cells) coefficients of all cells [any]
+      integer, intent(in) :: n              !! how many
+      integer, intent(in) :: cell(n)        !! (n) cells they are in, from 1
+      real(wp), intent(in) :: u(n)          !! (n) places in them, 0 to 1 [1]
+      real(wp), intent(out) :: value(n)     !! (n) h [any]
+      real(wp), intent(out) :: slope(n)     !! (n) dh/du [any]
+      real(wp), intent(out) :: bend(n)      !! (n) d2h/du2 [any]
+
+      integer :: k
+
+      do k = 1, n
+         call value_of_histospline(c(:, cell(k)), u(k), value(k), slope(k), bend(k))
+      end do
+   end subroutine values_of_histospline
 
 end module histospline

@@ -274,25 +274,26 @@ contains
       type(worn_surface_t), intent(in) :: worn(:)           !! (any) surfaces, of any joints
       class(clearance_set_t), intent(inout) :: set          !! the set, its surfaces taken
 
+      real(wp), allocatable :: hole(:)
       integer :: i, k
 
       do k = 1, set%n
          associate (pair => set%items%pairs(k))
+            if (allocated(hole)) deallocate (hole)
             do i = 1, size(worn)
                if (worn(i)%joint /= set%names(k)%s) cycle
                if (.not. allocated(pair%worn)) allocate (pair%worn)
                pair%worn%distance = max(pair%worn%distance, worn(i)%distance)
                if (worn(i)%side == side_names(of_bearing)) then
-                  call new_profile(pair%worn%hole, .true., pair%radius_i, pair%length, worn(i)%volume)
-               else
+                  hole = worn(i)%volume
+               else if (any(worn(i)%volume > 0.0_wp)) then
                   call new_profile(pair%worn%pin, .false., pair%radius_j, pair%length, worn(i)%volume)
                end if
+               if (.not. allocated(hole)) hole = 0.0_wp*worn(i)%volume  ! `surface_overlap` goes by the intervals of the hole
             end do
             if (.not. allocated(pair%worn)) cycle
             set%traits%is_worn = .true.
-            if (pair%worn%hole%is_round()) then  ! `surface_overlap` goes by its cells
-               call new_profile(pair%worn%hole, .true., pair%radius_i, pair%length, 0.0_wp*pair%worn%pin%volume)
-            end if
+            call new_profile(pair%worn%hole, .true., pair%radius_i, pair%length, hole)
          end associate
       end do
    end subroutine take_worn

@@ -18,7 +18,7 @@ contains
    pure real(wp) function end_of(pair, pin, cell, inside, outside) result(theta)
       type(surfaces_t), intent(in) :: pair     !! the surfaces
       type(pin_t), intent(in) :: pin           !! where the pin is
-      integer, intent(in) :: cell(2)           !! (2) cells of hole and pin they are in
+      integer, intent(in) :: cell              !! cell of the hole they are in
       type(ray_t), intent(in) :: inside        !! the ray with d > 0
       type(ray_t), intent(in) :: outside       !! the other
 
@@ -50,7 +50,7 @@ contains
    pure subroutine find_turn(pair, pin, cell, left, right, ray)
       type(surfaces_t), intent(in) :: pair     !! the surfaces
       type(pin_t), intent(in) :: pin           !! where the pin is
-      integer, intent(in) :: cell(2)           !! (2) cells of hole and pin they are in
+      integer, intent(in) :: cell              !! cell of the hole they are in
       type(ray_t), intent(in) :: left          !! slopes of both have different signs
       type(ray_t), intent(in) :: right         !! see left
       type(ray_t), intent(out) :: ray          !! the turn

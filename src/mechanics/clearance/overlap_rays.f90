@@ -13,10 +13,10 @@
 module overlap_rays
    use kinds, only: wp
    use surfaces, only: surfaces_t
-   use surface_profile, only: depth_t
+   use surface_profile, only: depth_t, most_places
    implicit none (type, external)
    private
-   public :: find_ray, pin_t, quick_rays, ray_t
+   public :: find_ray, find_rays, pin_t, ray_t, rays_t
 
    !> Where a pin is in its hole, and how it moves.
    type :: pin_t
@@ -49,41 +49,91 @@ module overlap_rays
       real(wp) :: w_slope = 0.0_wp       !! derivative of w by theta [1/rad]
    end type ray_t
 
+   !> Many rays through places of the hole.
+   type :: rays_t
+      integer :: n = 0                   !! how many
+      real(wp) :: d(most_places)           !! (n) overlap [m]
+      real(wp) :: slope(most_places)       !! (n) its derivative by theta [m/rad]
+      real(wp) :: w(most_places)           !! (n) of the derivative by e [1]
+      real(wp) :: chi(most_places)         !! (n) angle where they leave the pin, frame of its body, any turn [rad]
+      real(wp) :: by_j(most_places)        !! (n) derivative of d by alpha_j [m/rad]
+      real(wp) :: h_j(most_places)         !! (n) depth of the pin there [m]
+      real(wp) :: d_dot(most_places)       !! (n) rate of d, if asked for [m/s]
+      real(wp) :: w_dot(most_places)       !! (n) rate of w, if asked for [1/s]
+      real(wp) :: h_j_dot(most_places)     !! (n) rate of h_j, if asked for [m/s]
+      real(wp) :: d_ddot(most_places)      !! (n) second derivative of d by time, if asked for [m/s^2]
+   end type rays_t
+
 contains
 
-   !> Overlap, slope and w of many rays through places of the hole, where the pin is round.
-   pure subroutine quick_rays(n, r, e, clearance, u_x, u_y, h, h_slope, d, slope, w)
-      integer, intent(in) :: n               !! how many
-      real(wp), intent(in) :: r              !! radius of the pin [m]
-      real(wp), intent(in) :: e(2)           !! (2) its centre, frame of the hole [m]
-      real(wp), intent(in) :: clearance      !! radius of the new hole less r [m]
-      real(wp), intent(in) :: u_x(n)         !! (n) cosines of the directions [1]
+   !> Rays through places of the hole.
+   pure subroutine find_rays(pair, pin, n, theta, u_x, u_y, h, slope, hole_bend, with_motion, rays)
+      type(surfaces_t), intent(in) :: pair   !! the surfaces, with profiles
+      type(pin_t), intent(in) :: pin         !! where the pin is, axes of the hole's body
+      integer, intent(in) :: n               !! how many, `most_places` at most
+      real(wp), intent(in) :: theta(n)       !! (n) their directions [rad]
+      real(wp), intent(in) :: u_x(n)         !! (n) cosines of these [1]
       real(wp), intent(in) :: u_y(n)         !! (n) sines [1]
-      real(wp), intent(in) :: h(n)           !! (n) depths of the hole [m]
-      real(wp), intent(in) :: h_slope(n)     !! (n) their derivatives by theta [m/rad]
-      real(wp), intent(out) :: d(n)          !! (n) overlap [m]
-      real(wp), intent(out) :: slope(n)      !! (n) its derivative by theta [m/rad]
-      real(wp), intent(out) :: w(n)          !! (n) see above [1]
+      real(wp), intent(in) :: h(n)           !! (n) depths of the hole there [m]
+      real(wp), intent(in) :: slope(n)       !! (n) their derivatives by theta [m/rad]
+      real(wp), intent(in) :: hole_bend(n)   !! (n) and the second ones [m/rad^2]
+      logical, intent(in) :: with_motion     !! rates too
+      type(rays_t), intent(inout) :: rays    !! set
 
-      real(wp) :: q, root, s
+      real(wp), dimension(most_places) :: bend, f, h_slope, q, rho, root, s
+      real(wp) :: chi_ddot, chi_dot, q_ddot, q_dot, rho_ddot, rho_dot, root_ddot, root_dot, x
       integer :: k
 
-      do k = 1, n
-         s = e(1)*u_x(k) + e(2)*u_y(k)
-         q = e(2)*u_x(k) - e(1)*u_y(k)
-         root = sqrt(r**2 - q**2)
-         d(k) = s - clearance - q**2/(r + root) - h(k)
-         w(k) = -q/root
-         slope(k) = q - s*w(k) - h_slope(k)
-      end do
-   end subroutine quick_rays
+      rays%n = n
+      associate (r => pair%radius_j)
+         do k = 1, n
+            s(k) = pin%e(1)*u_x(k) + pin%e(2)*u_y(k)
+            q(k) = pin%e(2)*u_x(k) - pin%e(1)*u_y(k)
+            x = q(k)/r
+            f(k) = (1.0_wp + 0.5_wp*x**2)/r
+            rays%chi(k) = theta(k) - x - x**3/6.0_wp - pin%angle(2)
+         end do
+         if (pair%worn%pin%is_round()) then
+            rays%h_j(:n) = 0.0_wp
+            h_slope(:n) = 0.0_wp
+            bend(:n) = 0.0_wp
+         else
+            call pair%worn%pin%at_places(n, rays%chi, rays%h_j, h_slope, bend)
+         end if
+         do k = 1, n
+            rho(k) = r - rays%h_j(k)
+            root(k) = sqrt(rho(k)**2 - q(k)**2)
+            rays%d(k) = s(k) - pair%clearance - q(k)**2/(rho(k) + root(k)) - rays%h_j(k) - h(k)
+            rays%by_j(k) = rho(k)*h_slope(k)/root(k)
+            rays%w(k) = rays%by_j(k)*f(k) - q(k)/root(k)
+            rays%slope(k) = q(k)*(1.0_wp + s(k)/root(k)) - rays%by_j(k)*(1.0_wp + s(k)*f(k)) - slope(k)
+         end do
+         if (.not. with_motion) return
+         do k = 1, n
+            q_dot = pin%e_dot(2)*u_x(k) - pin%e_dot(1)*u_y(k)
+            chi_dot = -q_dot*f(k) - pin%omega(2)
+            rho_dot = -h_slope(k)*chi_dot
+            root_dot = (rho(k)*rho_dot - q(k)*q_dot)/root(k)
+            rays%h_j_dot(k) = -rho_dot
+            rays%d_dot(k) = pin%e_dot(1)*u_x(k) + pin%e_dot(2)*u_y(k) + root_dot + slope(k)*pin%omega(1)
+            rays%w_dot(k) = ((rho_dot*h_slope(k) + rho(k)*bend(k)*chi_dot)*f(k) + rho(k)*h_slope(k)*q(k)*q_dot/r**3 - q_dot &
+                             - rays%w(k)*root_dot)/root(k)
+            q_ddot = pin%e_ddot(2)*u_x(k) - pin%e_ddot(1)*u_y(k)
+            chi_ddot = -q_ddot*f(k) - q_dot**2*q(k)/r**3 - pin%alpha(2)
+            rho_ddot = -bend(k)*chi_dot**2 - h_slope(k)*chi_ddot
+            root_ddot = (rho_dot**2 + rho(k)*rho_ddot - q_dot**2 - q(k)*q_ddot - root_dot**2)/root(k)
+            rays%d_ddot(k) = pin%e_ddot(1)*u_x(k) + pin%e_ddot(2)*u_y(k) + root_ddot - hole_bend(k)*pin%omega(1)**2 &
+                             + slope(k)*pin%alpha(1)
+         end do
+      end associate
+   end subroutine find_rays
 
    !> The ray in a direction. `with_motion` asks for what changes with time, `with_bend` for derivatives by theta beyond the first.
    pure subroutine find_ray(pair, pin, theta, cell, with_motion, with_bend, ray)
       type(surfaces_t), intent(in) :: pair   !! the surfaces, with profiles
       type(pin_t), intent(in) :: pin         !! where the pin is, axes of the hole's body
       real(wp), intent(in) :: theta          !! the direction [rad]
-      integer, intent(in) :: cell(2)         !! (2) cells of hole and pin it is in, from 0, any turn
+      integer, intent(in) :: cell            !! cell of the hole it is in, from 0, any turn
       logical, intent(in) :: with_motion     !! rates too
       logical, intent(in) :: with_bend       !! second derivatives by theta too
       type(ray_t), intent(inout) :: ray      !! set
@@ -97,9 +147,9 @@ contains
       q = pin%e(2)*ray%u(1) - pin%e(1)*ray%u(2)
       x = q/pair%radius_j
       f = (1.0_wp + 0.5_wp*x**2)/pair%radius_j
-      hole = pair%worn%hole%at(theta, cell(1))
+      hole = pair%worn%hole%at(theta, cell)
       ray%by_i = hole%slope
-      if (.not. pair%worn%pin%is_round()) surface = pair%worn%pin%at(theta - x - x**3/6.0_wp - pin%angle(2), cell(2))
+      if (.not. pair%worn%pin%is_round()) surface = pair%worn%pin%at(theta - x - x**3/6.0_wp - pin%angle(2))
       ray%h_j = surface%h
       rho = pair%radius_j - surface%h
       root = sqrt(rho**2 - q**2)

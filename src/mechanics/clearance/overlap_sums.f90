@@ -1,29 +1,25 @@
-!> Integrals over the overlap of worn surfaces: of one ray with its weight, and of many cells at once where the pin is round.
+!> Integrals over the overlap of worn surfaces: of one ray with its weight, and of many.
 !>
 !> M = int d^2 dtheta and its derivatives, see `surface_overlap`; rays are those of `overlap_rays`.
 module overlap_sums
-   use gauss_points, only: five_weights, n_five
    use kinds, only: wp
-   use overlap_rays, only: pin_t, quick_rays, ray_t
-   use surfaces, only: surfaces_t
+   use overlap_rays, only: ray_t, rays_t
    implicit none (type, external)
    private
-   public :: add_cells, add_point, edges_t, sums_t, take_edge, to_gradient, to_rates, to_second
+   public :: add_point, add_rays, append, arc_t, sums_t, to_gradient, to_rates, to_second
 
    integer, parameter :: to_gradient = 0   !! penetration and its gradient
    integer, parameter :: to_rates = 1      !! and how both change with time
    integer, parameter :: to_second = 2     !! and the second derivative of the penetration by time
 
-   integer, parameter :: most_at_once = 32        !! cells
-
-   !> Rays at the starts of some cells.
-   type :: edges_t
-      integer :: first = 0                              !! the first cell
-      integer :: next = -huge(1)                        !! the cell behind the last one
-      real(wp) :: d(most_at_once) = 0.0_wp              !! (32) overlap [m]
-      real(wp) :: slope(most_at_once) = 0.0_wp          !! (32) its derivative by theta [m/rad]
-      real(wp) :: w(most_at_once) = 0.0_wp              !! (32) see `overlap_rays` [1]
-   end type edges_t
+   !> Where surfaces overlap: points with their part of the overlap.
+   type :: arc_t
+      integer :: n = 0                          !! points
+      real(wp), allocatable :: hole(:)          !! (n or more) their angles, frame of the hole's body [rad]
+      real(wp), allocatable :: pin(:)           !! (n or more) the same of the pin's body [rad]
+      real(wp), allocatable :: d(:)             !! (n or more) overlap there [m]
+      real(wp), allocatable :: width(:)         !! (n or more) angle that each stands for [rad]
+   end type arc_t
 
    !> Integrals over the overlap.
    type :: sums_t
@@ -41,64 +37,39 @@ module overlap_sums
 
 contains
 
-   !> The ray at the start of a cell, with a round pin: found with those of the next cells at once.
-   pure subroutine take_edge(pair, pin, cell, last, edges, ray)
-      type(surfaces_t), intent(in) :: pair     !! the surfaces
-      type(pin_t), intent(in) :: pin           !! where the pin is
-      integer, intent(in) :: cell              !! the cell, from 0, any turn
-      integer, intent(in) :: last              !! cell up to which they are asked for
-      type(edges_t), intent(inout) :: edges    !! those that were found
-      type(ray_t), intent(inout) :: ray        !! theta, d and slope are set
+   !> Add rays through places of the hole to the integrals.
+   pure subroutine add_rays(rays, weights, u_x, u_y, level, sums)
+      type(rays_t), intent(in) :: rays                   !! the rays
+      real(wp), intent(in) :: weights(rays%n)            !! (n) their weights [rad]
+      real(wp), intent(in) :: u_x(rays%n)                !! (n) cosines of their directions [1]
+      real(wp), intent(in) :: u_y(rays%n)                !! (n) sines [1]
+      integer, intent(in) :: level                       !! what is found
+      type(sums_t), intent(inout) :: sums                !! added to
 
-      integer :: first, n
+      real(wp) :: two_d, two_rate
+      integer :: k
 
-      associate (hole => pair%worn%hole)
-         if (cell >= edges%next) then
-            first = modulo(cell, size(hole%volume)) + 1
-            n = min(most_at_once, last - cell + 1, size(hole%volume) - first + 1)
-            edges%first = cell
-            edges%next = cell + n
-            call quick_rays(n, pair%radius_j, pin%e, pair%clearance, hole%starts%u(first:, 1), hole%starts%u(first:, 2), &
-                            hole%starts%h(first:), hole%starts%slope(first:), edges%d, edges%slope, edges%w)
-         end if
-         ray%theta = cell*hole%width
-      end associate
-      ray%d = edges%d(cell - edges%first + 1)
-      ray%slope = edges%slope(cell - edges%first + 1)
-   end subroutine take_edge
-
-   !> Add cells of the hole that overlap a round pin all along, by Gauss's five points of each: d is of degree 4 there, or nearly.
-   pure subroutine add_cells(pair, pin, first, n, sums)
-      type(surfaces_t), intent(in) :: pair     !! the surfaces
-      type(pin_t), intent(in) :: pin           !! where the pin is
-      integer, intent(in) :: first             !! the first cell, from 0, any turn
-      integer, intent(in) :: n                 !! how many
-      type(sums_t), intent(inout) :: sums      !! added to
-
-      real(wp), dimension(n_five*most_at_once) :: d, slope, w
-      real(wp) :: two_d
-      integer :: at, cell, g, k, m
-
-      cell = first
-      associate (hole => pair%worn%hole, points => pair%worn%hole%points)
-         do while (cell < first + n)
-            at = n_five*modulo(cell, size(hole%volume))
-            m = n_five*min(most_at_once, first + n - cell, size(hole%volume) - modulo(cell, size(hole%volume)))
-            call quick_rays(m, pair%radius_j, pin%e, pair%clearance, points%u(at + 1:, 1), points%u(at + 1:, 2), &
-                            points%h(at + 1:), points%slope(at + 1:), d, slope, w)
-            do k = 1, m, n_five
-               do g = 0, n_five - 1
-                  two_d = 2.0_wp*hole%width*five_weights(g + 1)*max(d(k + g), 0.0_wp)
-                  sums%m = sums%m + 0.5_wp*two_d*d(k + g)
-                  sums%e(1) = sums%e(1) + two_d*(points%u(at + k + g, 1) - w(k + g)*points%u(at + k + g, 2))
-                  sums%e(2) = sums%e(2) + two_d*(points%u(at + k + g, 2) + w(k + g)*points%u(at + k + g, 1))
-                  sums%d = sums%d + two_d
-               end do
-            end do
-            cell = cell + m/n_five
-         end do
-      end associate
-   end subroutine add_cells
+      do k = 1, rays%n
+         two_d = 2.0_wp*weights(k)*rays%d(k)
+         sums%m = sums%m + 0.5_wp*two_d*rays%d(k)
+         sums%e(1) = sums%e(1) + two_d*(u_x(k) - rays%w(k)*u_y(k))
+         sums%e(2) = sums%e(2) + two_d*(u_y(k) + rays%w(k)*u_x(k))
+         sums%d = sums%d + two_d
+         sums%j = sums%j + two_d*rays%by_j(k)
+         sums%h = sums%h + two_d*rays%h_j(k)
+      end do
+      if (level < to_rates) return
+      do k = 1, rays%n
+         two_d = 2.0_wp*weights(k)*rays%d(k)
+         two_rate = 2.0_wp*weights(k)*rays%d_dot(k)
+         sums%m_dot = sums%m_dot + two_d*rays%d_dot(k)
+         sums%e_dot(1) = sums%e_dot(1) + two_rate*(u_x(k) - rays%w(k)*u_y(k)) - two_d*rays%w_dot(k)*u_y(k)
+         sums%e_dot(2) = sums%e_dot(2) + two_rate*(u_y(k) + rays%w(k)*u_x(k)) + two_d*rays%w_dot(k)*u_x(k)
+         sums%d_dot = sums%d_dot + two_rate
+         sums%h_dot = sums%h_dot + two_rate*rays%h_j(k) + two_d*rays%h_j_dot(k)
+         sums%m_ddot = sums%m_ddot + two_rate*rays%d_dot(k) + two_d*rays%d_ddot(k)
+      end do
+   end subroutine add_rays
 
    !> Add a point to the integrals.
    pure subroutine add_point(ray, width, level, sums)
@@ -126,5 +97,29 @@ contains
          sums%m_ddot = sums%m_ddot + two_rate*ray%d_dot + two_d*ray%d_ddot
       end associate
    end subroutine add_point
+
+   !> Append a point to an arc.
+   pure subroutine append(arc, hole, pin, d, width)
+      type(arc_t), intent(inout) :: arc   !! grown
+      real(wp), intent(in) :: hole        !! angle on the hole [rad]
+      real(wp), intent(in) :: pin         !! angle on the pin [rad]
+      real(wp), intent(in) :: d           !! overlap [m]
+      real(wp), intent(in) :: width       !! angle it stands for [rad]
+
+      integer, parameter :: first = 64
+
+      if (.not. allocated(arc%d)) allocate (arc%hole(first), arc%pin(first), arc%d(first), arc%width(first))
+      if (arc%n == size(arc%d)) then
+         arc%hole = [arc%hole, arc%hole]
+         arc%pin = [arc%pin, arc%pin]
+         arc%d = [arc%d, arc%d]
+         arc%width = [arc%width, arc%width]
+      end if
+      arc%n = arc%n + 1
+      arc%hole(arc%n) = hole
+      arc%pin(arc%n) = pin
+      arc%d(arc%n) = d
+      arc%width(arc%n) = width
+   end subroutine append
 
 end module overlap_sums

@@ -14,21 +14,23 @@
 !> everything turns together, momentum and angular momentum are kept.
 !> Where the surfaces are apart delta is the maximum of d, and grad delta that of its ray.
 !>
-!> The integrals are by Gauss's rule between the ends of the overlap and the edges of cells, so that nothing happens where
-!> an arc passes one; by the angle of the hole's body delta has the derivative that makes a common rotation change nothing.
-!> Signs: delta > 0 in contact. Source: this program. Limits: those of `overlap_rays`; between two edges an overlap begins at most
-!> once and ends at most once, and d has at most one maximum or minimum.
+!> The integrals are by Lobatto's rule in the intervals of the hole, whose places are tabulated, and by Gauss's to the ends of the
+!> overlap; both are exact for d of degree 4. So nothing happens where an arc passes the edge of a cell of the hole. Edges of the
+!> pin's cells are passed at fixed places of the hole: M is as smooth as its profile. By the angle of the hole's body delta
+!> has the derivative that makes a common rotation change nothing.
+!> Signs: delta > 0 in contact. Source: this program. Limits: those of `overlap_rays` and `overlap_parts`.
 module surface_overlap
-   use gauss_points, only: five_places, five_weights, n_five
+   use gauss_points, only: n_six, six_places, six_weights
    use kinds, only: pi, wp
-   use overlap_ends, only: end_of, find_turn
-   use overlap_rays, only: find_ray, pin_t, ray_t
-   use overlap_sums, only: add_cells, add_point, edges_t, sums_t, take_edge, to_gradient, to_rates, to_second
+   use overlap_parts, only: at_most, look_at
+   use overlap_rays, only: find_ray, find_rays, pin_t, ray_t, rays_t
+   use overlap_sums, only: add_rays, append, arc_t, sums_t, to_gradient, to_rates
    use round_moment, only: penetration_of_moment
+   use surface_profile, only: most_places
    use surfaces, only: surfaces_t
    implicit none (type, external)
    private
-   public :: arc_t, find_overlap, overlap_t, to_second, to_gradient, to_rates
+   public :: find_overlap, overlap_t
 
    !> What is known of an overlap.
    type :: overlap_t
@@ -43,18 +45,8 @@ module surface_overlap
       real(wp) :: depth_rate = 0.0_wp           !! rate of the depth of the pin [m/s]
    end type overlap_t
 
-   !> Where surfaces overlap: points with their part of the overlap.
-   type :: arc_t
-      integer :: n = 0                          !! points
-      real(wp), allocatable :: hole(:)          !! (n or more) their angles, frame of the hole's body [rad]
-      real(wp), allocatable :: pin(:)           !! (n or more) the same of the pin's body [rad]
-      real(wp), allocatable :: d(:)             !! (n or more) overlap there [m]
-      real(wp), allocatable :: width(:)         !! (n or more) angle that each stands for [rad]
-   end type arc_t
-
-   real(wp), parameter :: longest = 0.05_wp       !! part of an arc that Gauss's five points are right for [rad]
    real(wp), parameter :: farthest = 0.9_wp       !! part of the pin's radius up to which the centres are apart [1]
-   integer, parameter :: n_part = 4               !! parts of what lies between two edges, where it is looked at closely
+   integer, parameter :: n_step = n_six - 1       !! places of an interval before those of the next one
 
 contains
 
@@ -102,7 +94,7 @@ contains
 
       if (pin%distance > pair%clearance) then  ! else the surfaces are apart: wear only widens the gap
          part = acos(pair%clearance/pin%distance)
-         call scan(pair, pin, pin%phi - part, pin%phi + part, level, sums, deepest, arc)
+         call scan_overlap(pair, pin, pin%phi - part, pin%phi + part, level, sums, deepest, arc)
       end if
       if (sums%m > 0.0_wp) then
          call penetration_of_moment(pair, sums%m, overlap%delta, kappa, kappa_slope)
@@ -116,11 +108,11 @@ contains
          overlap%depth_rate = (sums%h_dot - overlap%depth*sums%d_dot)/sums%d
          overlap%second = (sums%m_ddot - kappa_slope*overlap%rate**2)/kappa
       else
-         call find_ray(pair, pin, pin%phi, cells_at(pair, pin, pin%phi), .false., .false., ray)
+         call find_ray(pair, pin, pin%phi, cell_at(pair, pin%phi), .false., .false., ray)
          part = pi
          if (ray%d + pair%clearance > -pin%distance) part = acos(min((ray%d + pair%clearance)/pin%distance, 1.0_wp))
          deepest = ray
-         call scan(pair, pin, pin%phi - part, pin%phi + part, level, sums, deepest)
+         call scan_gap(pair, pin, pin%phi - part, pin%phi + part, deepest)
          call take_ray(pair, pin, deepest%theta, level, overlap)
       end if
    end subroutine find_in_hole
@@ -136,7 +128,7 @@ contains
       type(ray_t) :: ray
       real(wp) :: turn
 
-      call find_ray(pair, pin, theta, cells_at(pair, pin, theta), level >= to_rates, level >= to_rates, ray)
+      call find_ray(pair, pin, theta, cell_at(pair, theta), level >= to_rates, level >= to_rates, ray)
       associate (across => [-ray%u(2), ray%u(1)])
          overlap%delta = ray%d
          overlap%gradient = ray%u + ray%w*across
@@ -153,220 +145,135 @@ contains
       end associate
    end subroutine take_ray
 
-   !> Cells of hole and pin in a direction.
-   pure function cells_at(pair, pin, theta) result(cell)
+   !> Cell of the hole in a direction.
+   pure integer function cell_at(pair, theta) result(cell)
       type(surfaces_t), intent(in) :: pair   !! the surfaces
-      type(pin_t), intent(in) :: pin         !! where the pin is
       real(wp), intent(in) :: theta          !! the direction [rad]
-      integer :: cell(2)                     !! (2) their numbers, from 0, any turn
 
-      cell = 0
-      cell(1) = floor(theta/pair%worn%hole%width)
-      if (.not. pair%worn%pin%is_round()) cell(2) = floor(angle_on_pin(pair, pin, theta)/pair%worn%pin%width)
-   end function cells_at
+      cell = floor(theta/pair%worn%hole%width)
+   end function cell_at
 
-   !> Go through the rays from one direction to another, edge by edge: add what overlaps, and keep the ray that is deepest.
-   pure subroutine scan(pair, pin, from, to, level, sums, deepest, arc)
+   !> Add what overlaps in the intervals of the hole from one direction to another: by Lobatto's six points where all of these
+   !> overlap, looking closely where only some do.
+   pure subroutine scan_overlap(pair, pin, from, to, level, sums, deepest, arc)
       type(surfaces_t), intent(in) :: pair           !! the surfaces
       type(pin_t), intent(in) :: pin                 !! where the pin is
       real(wp), intent(in) :: from                   !! first direction [rad]
-      real(wp), intent(in) :: to                     !! last direction [rad]
+      real(wp), intent(in) :: to                     !! last direction, within a turn of the first [rad]
       integer, intent(in) :: level                   !! what is found
       type(sums_t), intent(inout) :: sums            !! added to
-      type(ray_t), intent(inout) :: deepest          !! of the rays at edges, and where d has a maximum between them
+      type(ray_t), intent(inout) :: deepest          !! the deepest ray where the surfaces were looked at closely
       type(arc_t), intent(inout), optional :: arc    !! appended to
 
-      type(edges_t) :: edges
       type(ray_t) :: left, right
-      real(wp) :: at_most, edge
-      integer :: cell(2), last, passed, whole
-      logical :: is_quick
+      type(rays_t) :: rays
+      real(wp) :: weights(most_places), width
+      integer :: before, count, i, interval, k, last, n
 
-      is_quick = pair%worn%pin%is_round() .and. level == to_gradient .and. .not. present(arc)
-      cell = cells_at(pair, pin, from)
-      last = floor(to/pair%worn%hole%width)
-      whole = 0  ! cells before this one that overlap all along, not added yet
-      call find_ray(pair, pin, from, cell, .false., .false., left)
-      do while (left%theta < to)
-         call next_edge(pair, pin, left%theta, cell, edge, passed)
-         edge = min(edge, to)
-         if (is_quick .and. cell(1) < last) then
-            call take_edge(pair, pin, cell(1) + 1, last, edges, right)
-         else
-            call find_ray(pair, pin, edge, cell, .false., .false., right)
-         end if
-         at_most = max(left%d, right%d) + 0.5_wp*(edge - left%theta)*max(abs(left%slope), abs(right%slope))
-         if (is_quick .and. min(left%d, right%d) > 0.0_wp .and. (left%slope >= 0.0_wp .or. right%slope <= 0.0_wp) .and. &
-             left%theta >= cell(1)*pair%worn%hole%width .and. cell(1) < last) then
-            whole = whole + 1
-         else
-            call add_cells(pair, pin, cell(1) - whole, whole, sums)
-            whole = 0
-            call look_at(pair, pin, cell, left, right, at_most, level, sums, deepest, arc)
-         end if
-         left = right
-         cell(passed) = cell(passed) + 1
-      end do
-      call add_cells(pair, pin, cell(1) - whole, whole, sums)
-   end subroutine scan
+      associate (hole => pair%worn%hole, points => pair%worn%hole%points)
+         width = hole%width/hole%parts
+         n = (size(points%h) - 1)/n_step
+         interval = floor(from/width)
+         last = min(ceiling(to/width), interval + n) - 1
+         do while (interval <= last)
+            before = modulo(interval, n)
+            count = min((most_places - 1)/n_step, last + 1 - interval, n - before)
+            associate (i => n_step*before + 1, j => n_step*(before + count) + 1)
+               call find_rays(pair, pin, n_step*count + 1, points%theta(i:j), points%u(i:j, 1), points%u(i:j, 2), points%h(i:j), &
+                              points%slope(i:j), points%bend(i:j), level >= to_rates, rays)
+               weights(:rays%n) = 0.0_wp
+               do k = 0, count - 1
+                  associate (d => rays%d(n_step*k + 1:n_step*(k + 1) + 1), &
+                             weight => weights(n_step*k + 1:n_step*(k + 1) + 1))
+                     if (minval(d) > 0.0_wp) then
+                        weight = weight + width*six_weights
+                        if (present(arc)) call append_interval(rays, n_step*k, (interval + k)*width, width, arc)
+                        cycle
+                     end if
+                  end associate
+                  call take_edge(rays, n_step*k + 1, (interval + k)*width, left)
+                  call take_edge(rays, n_step*(k + 1) + 1, (interval + k + 1)*width, right)
+                  if (at_most(left, right) > 0.0_wp .or. maxval(rays%d(n_step*k + 1:n_step*(k + 1))) > 0.0_wp) then
+                     call look_at(pair, pin, cell_of(interval + k, hole%parts), left, right, level, sums, deepest, arc)
+                  end if
+               end do
+               call add_rays(rays, weights, points%u(i:j, 1), points%u(i:j, 2), level, sums)
+            end associate
+            interval = interval + count
+         end do
+      end associate
+   end subroutine scan_overlap
 
-   !> The next edge of a cell in the order of directions.
-   pure subroutine next_edge(pair, pin, theta, cell, edge, passed)
-      type(surfaces_t), intent(in) :: pair   !! the surfaces
-      type(pin_t), intent(in) :: pin         !! where the pin is
-      real(wp), intent(in) :: theta          !! where it is looked for from [rad]
-      integer, intent(in) :: cell(2)         !! (2) cells there
-      real(wp), intent(out) :: edge          !! its direction [rad]
-      integer, intent(out) :: passed         !! which surface has it: 1 hole, 2 pin
-
-      real(wp) :: other, psi
-
-      passed = 1
-      edge = (cell(1) + 1)*pair%worn%hole%width
-      if (.not. pair%worn%pin%is_round()) then
-         psi = pin%angle(2) + (cell(2) + 1)*pair%worn%pin%width
-         other = psi - atan2(pin%distance*sin(psi - pin%phi), pair%radius_j + pin%distance*cos(psi - pin%phi))
-         if (other < edge) then
-            edge = other
-            passed = 2
-         end if
-      end if
-      edge = max(edge, theta)  ! round-off
-   end subroutine next_edge
-
-   !> Add what overlaps in a cell: in parts, where the overlap starts or ends in it, for there may be more than one.
-   pure subroutine look_at(pair, pin, cell, left, right, at_most, level, sums, deepest, arc)
+   !> Find the deepest ray from one direction to another where the surfaces are apart.
+   pure subroutine scan_gap(pair, pin, from, to, deepest)
       type(surfaces_t), intent(in) :: pair           !! the surfaces
       type(pin_t), intent(in) :: pin                 !! where the pin is
-      integer, intent(in) :: cell(2)                 !! (2) cells of hole and pin
-      type(ray_t), intent(in) :: left                !! its first ray
-      type(ray_t), intent(in) :: right               !! its last ray
-      real(wp), intent(in) :: at_most                !! overlap that it does not exceed [m]
-      integer, intent(in) :: level                   !! what is found
-      type(sums_t), intent(inout) :: sums            !! added to
+      real(wp), intent(in) :: from                   !! first direction [rad]
+      real(wp), intent(in) :: to                     !! last direction, within a turn of the first [rad]
       type(ray_t), intent(inout) :: deepest          !! the deepest so far
-      type(arc_t), intent(inout), optional :: arc    !! appended to
 
-      type(ray_t) :: end, start
-      real(wp) :: middle
+      type(ray_t) :: left, right
+      type(rays_t) :: rays
+      type(sums_t) :: none
+      real(wp) :: width
+      integer :: before, count, interval, k, last, n
+
+      associate (hole => pair%worn%hole, points => pair%worn%hole%points)
+         width = hole%width/hole%parts
+         n = (size(points%h) - 1)/n_step
+         interval = floor(from/width)
+         last = min(ceiling(to/width), interval + n) - 1
+         do while (interval <= last)
+            before = modulo(interval, n)
+            count = min(most_places - 1, last + 1 - interval, n - before)
+            associate (i => n_step*before + 1, j => n_step*(before + count) + 1)
+               call find_rays(pair, pin, count + 1, points%theta(i:j:n_step), points%u(i:j:n_step, 1), points%u(i:j:n_step, 2), &
+                              points%h(i:j:n_step), points%slope(i:j:n_step), points%bend(i:j:n_step), .false., rays)
+            end associate
+            do k = 1, count
+               call take_edge(rays, k, (interval + k - 1)*width, left)
+               call take_edge(rays, k + 1, (interval + k)*width, right)
+               if (at_most(left, right) <= deepest%d) cycle
+               call look_at(pair, pin, cell_of(interval + k - 1, hole%parts), left, right, to_gradient, none, deepest)
+            end do
+            interval = interval + count
+         end do
+      end associate
+   end subroutine scan_gap
+
+   !> Append the points of an interval to an arc.
+   pure subroutine append_interval(rays, before, start, width, arc)
+      type(rays_t), intent(in) :: rays     !! the rays of some intervals
+      integer, intent(in) :: before        !! those before the first one
+      real(wp), intent(in) :: start        !! where the interval starts [rad]
+      real(wp), intent(in) :: width        !! its width [rad]
+      type(arc_t), intent(inout) :: arc    !! grown
+
       integer :: k
 
-      if (min(left%d, right%d) > 0.0_wp .or. at_most <= min(deepest%d, 0.0_wp)) then
-         call look_between(pair, pin, cell, left, right, level, sums, deepest, arc)
-         return
-      end if
-      start = left
-      do k = 1, n_part
-         end = right
-         middle = start%theta + (right%theta - start%theta)/(n_part + 1 - k)
-         if (k < n_part) call find_ray(pair, pin, middle, cell, .false., .false., end)
-         call look_between(pair, pin, cell, start, end, level, sums, deepest, arc)
-         start = end
+      do k = 1, n_six
+         call append(arc, start + six_places(k)*width, rays%chi(before + k), rays%d(before + k), six_weights(k)*width)
       end do
-   end subroutine look_at
+   end subroutine append_interval
 
-   !> Add what overlaps between two rays in one cell, and keep the deepest ray.
-   pure subroutine look_between(pair, pin, cell, left, right, level, sums, deepest, arc)
-      type(surfaces_t), intent(in) :: pair           !! the surfaces
-      type(pin_t), intent(in) :: pin                 !! where the pin is
-      integer, intent(in) :: cell(2)                 !! (2) cells of hole and pin
-      type(ray_t), intent(in) :: left                !! the first ray
-      type(ray_t), intent(in) :: right               !! the last ray
-      integer, intent(in) :: level                   !! what is found
-      type(sums_t), intent(inout) :: sums            !! added to
-      type(ray_t), intent(inout) :: deepest          !! the deepest so far
-      type(arc_t), intent(inout), optional :: arc    !! appended to
+   !> Cell that has an interval.
+   pure integer function cell_of(interval, parts) result(cell)
+      integer, intent(in) :: interval   !! the interval, from 0, any turn
+      integer, intent(in) :: parts      !! intervals of a cell
 
-      type(ray_t) :: turning
+      cell = (interval - modulo(interval, parts))/parts
+   end function cell_of
 
-      if (left%d > 0.0_wp .and. right%d > 0.0_wp) then
-         if (left%slope < 0.0_wp .and. right%slope > 0.0_wp) then
-            call find_turn(pair, pin, cell, left, right, turning)
-            if (turning%d < 0.0_wp) then
-               call add_part(pair, pin, cell, left%theta, end_of(pair, pin, cell, left, turning), level, sums, arc)
-               call add_part(pair, pin, cell, end_of(pair, pin, cell, right, turning), right%theta, level, sums, arc)
-            else
-               call add_part(pair, pin, cell, left%theta, right%theta, level, sums, arc)
-            end if
-         else
-            call add_part(pair, pin, cell, left%theta, right%theta, level, sums, arc)
-         end if
-      else if (left%d > 0.0_wp) then
-         call add_part(pair, pin, cell, left%theta, end_of(pair, pin, cell, left, right), level, sums, arc)
-      else if (right%d > 0.0_wp) then
-         call add_part(pair, pin, cell, end_of(pair, pin, cell, right, left), right%theta, level, sums, arc)
-      else if (left%slope > 0.0_wp .and. right%slope < 0.0_wp) then
-         call find_turn(pair, pin, cell, left, right, turning)
-         if (turning%d > deepest%d) deepest = turning
-         if (turning%d > 0.0_wp) then
-            call add_part(pair, pin, cell, end_of(pair, pin, cell, turning, left), &
-                          end_of(pair, pin, cell, turning, right), level, sums, arc)
-         end if
-      end if
-      if (right%d > deepest%d) deepest = right
-   end subroutine look_between
+   !> The ray at the edge of an interval.
+   pure subroutine take_edge(rays, k, theta, ray)
+      type(rays_t), intent(in) :: rays     !! the rays of some intervals
+      integer, intent(in) :: k             !! number of the ray
+      real(wp), intent(in) :: theta        !! its direction [rad]
+      type(ray_t), intent(inout) :: ray    !! theta, d and slope are set
 
-   !> Where a ray leaves the pin, frame of the pin's body.
-   pure real(wp) function angle_on_pin(pair, pin, theta) result(angle)
-      type(surfaces_t), intent(in) :: pair   !! the surfaces
-      type(pin_t), intent(in) :: pin         !! where the pin is
-      real(wp), intent(in) :: theta          !! direction of the ray [rad]
-
-      real(wp) :: x
-
-      x = (pin%e(2)*cos(theta) - pin%e(1)*sin(theta))/pair%radius_j
-      angle = theta - x - x**3/6.0_wp - pin%angle(2)
-   end function angle_on_pin
-
-   !> Add a part of the overlap that lies in one cell.
-   pure subroutine add_part(pair, pin, cell, start, end, level, sums, arc)
-      type(surfaces_t), intent(in) :: pair           !! the surfaces
-      type(pin_t), intent(in) :: pin                 !! where the pin is
-      integer, intent(in) :: cell(2)                 !! (2) cells of hole and pin
-      real(wp), intent(in) :: start, end             !! where it starts and ends [rad]
-      integer, intent(in) :: level                   !! what is found
-      type(sums_t), intent(inout) :: sums            !! added to
-      type(arc_t), intent(inout), optional :: arc    !! appended to
-
-      type(ray_t) :: ray
-      real(wp) :: part, width
-      integer :: g, k, n
-
-      n = max(ceiling((end - start)/longest), 1)
-      part = (end - start)/n
-      do k = 0, n - 1
-         do g = 1, n_five
-            call find_ray(pair, pin, start + part*(k + five_places(g)), cell, level >= to_rates, .false., ray)
-            if (.not. ray%d > 0.0_wp) cycle  ! round-off at an end
-            width = part*five_weights(g)
-            call add_point(ray, width, level, sums)
-            if (present(arc)) call append(arc, ray%theta, angle_on_pin(pair, pin, ray%theta), ray%d, width)
-         end do
-      end do
-   end subroutine add_part
-
-   !> Append a point to an arc.
-   pure subroutine append(arc, hole, pin, d, width)
-      type(arc_t), intent(inout) :: arc   !! grown
-      real(wp), intent(in) :: hole        !! angle on the hole [rad]
-      real(wp), intent(in) :: pin         !! angle on the pin [rad]
-      real(wp), intent(in) :: d           !! overlap [m]
-      real(wp), intent(in) :: width       !! angle it stands for [rad]
-
-      integer, parameter :: first = 64
-
-      if (.not. allocated(arc%d)) allocate (arc%hole(first), arc%pin(first), arc%d(first), arc%width(first))
-      if (arc%n == size(arc%d)) then
-         arc%hole = [arc%hole, arc%hole]
-         arc%pin = [arc%pin, arc%pin]
-         arc%d = [arc%d, arc%d]
-         arc%width = [arc%width, arc%width]
-      end if
-      arc%n = arc%n + 1
-      arc%hole(arc%n) = hole
-      arc%pin(arc%n) = pin
-      arc%d(arc%n) = d
-      arc%width(arc%n) = width
-   end subroutine append
+      ray%theta = theta
+      ray%d = rays%d(k)
+      ray%slope = rays%slope(k)
+   end subroutine take_edge
 
 end module surface_overlap

@@ -1,7 +1,7 @@
 !> What a contact does to its surfaces at a motion, for their wear.
 module wear_contact
    use kinds, only: wp
-   use surface_overlap, only: arc_t
+   use overlap_sums, only: arc_t
    use wear_law, only: n_side
    implicit none (type, external)
    private

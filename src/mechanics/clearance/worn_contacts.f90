@@ -10,9 +10,10 @@ module worn_contacts
    use kinds, only: wp
    use motion, only: motion_t
    use overlap_rays, only: pin_t
+   use overlap_sums, only: arc_t, to_gradient, to_rates, to_second
    use planar_contacts, only: planar_sliding
    use point_contact, only: point_contact_t
-   use surface_overlap, only: arc_t, find_overlap, overlap_t, to_gradient, to_rates, to_second
+   use surface_overlap, only: find_overlap, overlap_t
    use surfaces, only: surfaces_t
    implicit none (type, external)
    private

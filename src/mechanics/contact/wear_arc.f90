@@ -95,10 +95,12 @@ contains
 
    end subroutine add_swept_arc
 
-   !> Add the shares of an amount that points of an arc leave while all of them sweep along the surface.
-   pure subroutine add_swept_points(cells, angle, weight, by, amount)
+   !> Add the shares of an amount that points of an arc leave while all of them sweep along the surface; each stands for an angle
+   !> around it, over which its share is spread, too.
+   pure subroutine add_swept_points(cells, angle, span, weight, by, amount)
       real(wp), intent(inout) :: cells(:)   !! (n) added to; cell k lies from 2 pi (k - 1)/n to 2 pi k/n [any]
       real(wp), intent(in) :: angle(:)      !! (points) where they are [rad]
+      real(wp), intent(in) :: span(:)       !! (points) angles that they stand for [rad]
       real(wp), intent(in) :: weight(:)     !! (points) their parts, not negative, their sum positive [any]
       real(wp), intent(in) :: by(2)         !! (2) from where to where they sweep, from these angles [rad]
       real(wp), intent(in) :: amount        !! what is shared out [any]
@@ -110,8 +112,8 @@ contains
       width = 2.0_wp*pi/size(cells)
       do m = 1, size(angle)
          share = amount*(weight(m)/total)
-         first = (angle(m) + minval(by))/width
-         last = (angle(m) + maxval(by))/width
+         first = (angle(m) - 0.5_wp*span(m) + minval(by))/width
+         last = (angle(m) + 0.5_wp*span(m) + maxval(by))/width
          before = 0.0_wp
          do k = floor(first), floor(last)
             behind = 1.0_wp

@@ -12,6 +12,7 @@ module life_ends
 
    integer, parameter :: halvings = 60             !! of a jump
    real(wp), parameter :: beyond = 1.1_wp          !! times the cycles in which a limit would be reached at the present rate [1]
+   real(wp), parameter :: most_cycles = 1.0e18_wp  !! that are looked ahead [1]
    real(wp), parameter :: close_to = 1.0e-12_wp    !! part of the cycles at the end that may lack [1]
 
 contains
@@ -146,31 +147,44 @@ contains
       real(wp), intent(in) :: x(:)             !! (n) volumes and distances [m^3, m]
       real(wp), intent(in) :: rates(:)         !! (n) per cycle [m^3, m]
 
-      real(wp), allocatable :: depths(:)
-      real(wp) :: left, measures(n_measure, size(life%state%surfaces)), speed, speeds(size(life%state%surfaces))
+      real(wp) :: left, middle
       integer :: k
 
-      cycles = huge(1.0_wp)
-      measures = life%state%measures(x)
-      do k = 1, size(speeds)
-         allocate (depths(size(life%state%surfaces(k)%volume)))
-         call life%state%smooth_depths(k, x, rates, depths)
-         speeds(k) = maxval(depths)
-         deallocate (depths)
+      cycles = 1.0_wp
+      do while (.not. is_reached(cycles))
+         cycles = 2.0_wp*cycles
+         if (cycles > most_cycles) then
+            cycles = huge(1.0_wp)
+            return
+         end if
       end do
-      associate (ends => life%plan%ends, depth => measures(measure_depth, :))
-         do k = 1, size(speeds)
-            if (ends%depth < huge(1.0_wp) .and. speeds(k) > 0.0_wp) then
-               cycles = min(cycles, beyond*max(ends%depth - depth(k), 0.0_wp)/speeds(k))
-            end if
-         end do
-         if (ends%clearance >= huge(1.0_wp)) return
-         do k = 1, size(life%plan%clearances)
-            left = ends%clearance - life%plan%clearances(k) - sum(depth(2*k - 1:2*k))
-            speed = sum(speeds(2*k - 1:2*k))
-            if (speed > 0.0_wp) cycles = min(cycles, beyond*max(left, 0.0_wp)/speed)
-         end do
-      end associate
+      left = 0.0_wp
+      do k = 1, halvings
+         middle = 0.5_wp*(left + cycles)
+         if (is_reached(middle)) then
+            cycles = middle
+         else
+            left = middle
+         end if
+      end do
+      cycles = beyond*cycles
+
+   contains
+
+      !> Whether depth or clearance has reached its limit.
+      logical function is_reached(part)
+         real(wp), intent(in) :: part   !! cycles from now [1]
+
+         real(wp) :: measures(n_measure, size(life%state%surfaces))
+
+         associate (ends => life%plan%ends, changed => x + part*rates)
+            measures = life%state%measures(changed)
+            is_reached = maxval(measures(measure_depth, :)) >= ends%depth
+            if (ends%clearance >= huge(1.0_wp)) return
+            is_reached = is_reached .or. maxval(life%plan%clearances + life%state%added_clearance(changed)) >= ends%clearance
+         end associate
+      end function is_reached
+
    end function approach
 
    !> How fast the depth or the clearance that ended a life grows there, and half of the 95 % interval of it: NaN for other ends.
