@@ -13,14 +13,14 @@
 !> of them. As a contact parts, steps beside end at equal penetrations, so that they separate with it.
 !>
 !> The derivative is the central difference over +-e and +-e/2, extrapolated: D = D_2 + (D_2 - D_1)/3. D_2 - D_1 says whether e is
-!> small enough; else the mechanisms beside are made with an eighth of it.
+!> small enough; else the mechanisms beside are made with a quarter of it.
 !>
 !> Source: H. G. Bock, Numerical treatment of inverse problems in chemical reaction kinetics, Springer Series in Chemical Physics
 !> 18 (1981) 102-125 (internal differentiation). Limits: kinks of laws between events are passed over.
 module sensitivity_column
    use contact_peaks, only: look, trend_t
    use integrator, only: integrator_t
-   use kinds, only: wp
+   use kinds, only: eps, wp
    use observed, only: observed_t
    use step_map, only: section_t, section_time, step_map_t
    use text, only: real_text
@@ -29,12 +29,13 @@ module sensitivity_column
    private
    public :: column_t, derivative
 
-   real(wp), parameter :: finer = 0.125_wp         !! ratio of e to the next one [1]
-   integer, parameter :: finest = 10               !! e is at least so many times finer
+   real(wp), parameter :: finer = 0.25_wp          !! ratio of e to the next one [1]
+   integer, parameter :: finest = 15               !! e is at least so many times finer
    real(wp), parameter :: rough = 2.0e-5_wp        !! D_2 - D_1 of a step, of D, that is too much [1]
-   real(wp), parameter :: smooth = 2.0e-9_wp       !! the same, below which e may be greater [1]
+   real(wp), parameter :: smooth = 5.0e-7_wp       !! the same, below which e may be greater [1]
+   real(wp), parameter :: round_off = 8.0_wp*eps   !! of states, of the scales [1]
    real(wp), parameter :: visible = 1.0e-10_wp     !! distance of states beside, of the scales, below which that is noise [1]
-   integer, parameter :: patience = 50             !! smooth steps after which e is made greater
+   integer, parameter :: patience = 10             !! smooth steps after which e is made greater
 
    !> The derivative by one parameter.
    type :: column_t
@@ -215,7 +216,7 @@ contains
    logical function is_rough(self)
       class(column_t), intent(inout) :: self   !! the column; smooth steps are counted
 
-      real(wp) :: d_1, d_2, difference(2), length(2), measure
+      real(wp) :: d_1, d_2, difference(2), length(2), measure, noise
       integer :: i, kind
 
       difference = 0.0_wp
@@ -229,12 +230,15 @@ contains
             length(kind) = max(length(kind), abs(d_2))
          end do
          measure = 0.0_wp
+         noise = 0.0_wp
          do kind = 1, 2
-            if (length(kind)*abs(b(1)%e) > visible) measure = max(measure, difference(kind)/length(kind))
+            if (length(kind)*abs(b(1)%e) <= visible) cycle
+            measure = max(measure, difference(kind)/length(kind))
+            noise = max(noise, round_off/(length(kind)*abs(b(1)%e)))
          end do
-         is_rough = .not. measure <= rough
+         is_rough = .not. measure <= max(rough, noise)
       end associate
-      self%n_smooth = merge(self%n_smooth + 1, 0, measure < smooth)
+      self%n_smooth = merge(self%n_smooth + 1, 0, measure < max(smooth, noise))
    end function is_rough
 
    !> The mechanism of the deck has handled events: those beside follow.

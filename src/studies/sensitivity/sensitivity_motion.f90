@@ -33,8 +33,8 @@ module sensitivity_motion
    private
    public :: find_motion
 
-   real(wp), parameter :: late = 0.5_wp              !! time to the end of a contact that parts, of the time since its onset [1]
-   real(wp), parameter :: fast = 1.0_wp              !! the same, times its characteristic rate: not next to a turn [1]
+   real(wp), parameter :: late = 0.25_wp             !! time to the end of a contact that parts, of the time since its onset [1]
+   real(wp), parameter :: fast = 0.3_wp              !! the same, times its characteristic rate: not next to a turn [1]
    real(wp), parameter :: apart = 1.0e-6_wp          !! shift between events at one instant, of the shift of the first [1]
    real(wp), parameter :: far = 1.0e3_wp             !! a change that is never made, of the parameter [1]
    real(wp), parameter :: min_distance = 1.0e-7_wp   !! change at which an onset would graze, of the parameter, at least [1]
