@@ -111,11 +111,14 @@ def test_methods(gudgeon, method, close):
 
 def test_bushing_in_space(gudgeon):
     """A pin in a bushing in space: onsets by clearance and speed."""
-    deck = written(scratch(), BUSHING.read_text().replace("end        = 83.7758 ms", "end        = 16 ms")
-                   + "\n[sensitivity]\nparameters = c speed\nresults = gudgeon.i.onset(1..3) max(slider.velocity.x)\n")
-    label = json.loads(study_of(gudgeon, deck, "--json", expect=0)[1].joinpath("summary.json").read_text())
-    right = differences(gudgeon, deck, "c", 5e-4, "m", 1e-3, ("time",), 3)
-    assert label and right
+    deck = written(scratch(), BUSHING.read_text().replace("end        = 83.7758 ms", "end        = 2 ms")
+                   + "\n[sensitivity]\nparameters = c speed\nresults = gudgeon.onset(1..6)\n")
+    summary, _ = study_of(gudgeon, deck)
+    for name, value, unit, part in (("c", 5e-4, "m", 1e-3), ("speed", 150.0, "rad/s", 1e-3)):
+        right, unsure = differences(gudgeon, deck, name, value, unit, part, ("time",), 6)
+        found, error = of(summary, "onset", name, 6)
+        assert_close(found, right[0], absolute=3 * error + 30 * unsure[0], what=f"by {name}: stated errors")
+        assert_close(found, right[0], relative=1e-6, what=f"by {name}")
 
 
 def test_files(gudgeon):

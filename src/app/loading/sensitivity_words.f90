@@ -143,13 +143,14 @@ contains
       character(:), allocatable, intent(inout) :: message, hint   !! as in `read_result`
 
       character(:), allocatable :: names
-      integer :: dots, first, i, k, last, status(2)
+      integer :: dots, first, i, k, last, of_item, status(2)
 
       names = ""
       do k = 1, size(system%clearance_joints%sets)
          associate (set => system%clearance_joints%sets(k)%set)
             do i = 1, set%n_contact
-               associate (item => set%names(set%item_of(i))%s, number => set%before%contacts + i)
+               of_item = set%item_of(i)
+               associate (item => set%names(of_item)%s, number => set%before%contacts + i)
                   if (index(names//" ", " "//item//" ") == 0) names = names//" "//item
                   if (joint /= item .and. joint /= item//"."//set%label_of(i)) cycle
                   if (asked%first == 0) asked%first = number

@@ -2,8 +2,8 @@
 !>
 !> The motion is found twice, the second time with a tenth of the tolerance and half the changes of parameters. That one counts.
 !> Twice the difference of both is the error of each derivative, or the greatest relative difference of earlier ones where that is
-!> more, so that two numbers that agree by chance do not seem exact. Beyond the first onset that both motions do not share,
-!> derivatives have no meaning.
+!> more, so that two numbers that agree by chance do not seem exact; at least ten times the tolerance. Beyond the first onset that
+!> both motions do not share, derivatives have no meaning.
 module find_sensitivity
    use errors, only: error_t
    use jobs, only: job_t
@@ -18,6 +18,7 @@ module find_sensitivity
 
    real(wp), parameter :: part_of_parameter = 1.0e-3_wp  !! changes of parameters, of them; twice that in the first motion [1]
    real(wp), parameter :: noise = 1.0e-12_wp     !! error by round-off: of the result, for a change of the parameter by itself [1]
+   real(wp), parameter :: of_tolerance = 10.0_wp !! minimum relative error, of the tolerance [1]
    real(wp), parameter :: tighter = 0.1_wp       !! tolerance of the second motion, of that of the first [1]
    real(wp), parameter :: shared = 1.0e-3_wp     !! difference of onsets that are the same, of the mean time between onsets [1]
    real(wp), parameter :: twice = 2.0_wp         !! error of a derivative, of the difference of both motions [1]
@@ -90,11 +91,12 @@ contains
                end do
                magnitude = abs(study%plan%values(p))
                if (.not. magnitude > 0.0_wp) magnitude = 1.0_wp
+               relative = max(relative, of_tolerance*study%plan%tolerance)
                study%error(p, k) = max(twice*difference(k), relative*abs(d(k)), noise*abs(second%value(k))/magnitude)
                if (study%error(p, k) > useless*abs(d(k)) .and. &
                    study%error(p, k)*magnitude > no_effect*abs(second%value(k))) then
                   study%reason(p, k)%s = "error "//real_text(study%error(p, k), 2)//" of the derivative "//real_text(d(k), 2)// &
-                                         ": beyond the horizon"
+                                         ": zero, or beyond the horizon"
                end if
             end if
             if (study%reason(p, k)%s == "") cycle

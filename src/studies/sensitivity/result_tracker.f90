@@ -31,7 +31,7 @@ module result_tracker
       integer :: open = 0                     !! contact whose onset was the one asked for, until it ends; 0: none
       real(wp) :: onset = 0.0_wp              !! time of this onset [s]
       real(wp), allocatable :: theta(:)       !! (parameters) its derivative [any]
-      real(wp) :: before(0:n_place) = 0.0_wp  !! of a channel: its values in the last step [any]
+      real(wp) :: before(0:n_place) = 0.0_wp  !! (0:n_place) of a channel: its values in the last step [any]
    contains
       procedure :: at_start
       procedure :: in_step
