@@ -81,16 +81,16 @@ contains
 
       associate (d => second%derivative(p, :))
          difference = abs(d - first%derivative(p, :))
+         magnitude = abs(study%plan%values(p))
+         if (.not. magnitude > 0.0_wp) magnitude = 1.0_wp
          do k = 1, size(d)
             study%reason(p, k)%s = reason_of(k)
             if (study%reason(p, k)%s == "") then
                relative = 0.0_wp
                do m = 1, size(d)
-                  if (.not. second%t(m) <= second%t(k)) cycle
+                  if (.not. second%t(m) <= second%t(k) .or. .not. abs(d(m))*magnitude > no_effect*abs(second%value(m))) cycle
                   if (difference(m) < useless*abs(d(m))) relative = max(relative, difference(m)/abs(d(m)))
                end do
-               magnitude = abs(study%plan%values(p))
-               if (.not. magnitude > 0.0_wp) magnitude = 1.0_wp
                relative = max(relative, of_tolerance*study%plan%tolerance)
                study%error(p, k) = max(twice*difference(k), relative*abs(d(k)), noise*abs(second%value(k))/magnitude)
                if (study%error(p, k) > useless*abs(d(k)) .and. &
