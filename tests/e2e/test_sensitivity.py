@@ -95,8 +95,8 @@ def test_slider_crank(gudgeon, name):
     for row, kind, n in ((0, "onset", 10), (1, "impact_speed", 10), (2, "peak_force", 5)):
         found, error = of(summary, kind, name, n)
         assert_close(found, right[row][:n], absolute=3 * error + 30 * unsure[row][:n], what=f"{kind} by {name}: stated errors")
-        assert_close(found, right[row][:n], relative=1e-6 if kind == "onset" else 5e-6, absolute=2e-7 * np.abs(right[row][:n]).max(),
-                     what=f"{kind} by {name}")
+        assert_close(found, right[row][:n], relative=1e-6 if kind == "onset" else 5e-6,
+                     absolute=2e-7 * np.abs(right[row][:n]).max(), what=f"{kind} by {name}")
 
 
 @pytest.mark.parametrize("method, close", [("verner", 1e-6), ("dop853", 1e-6), ("radau", 3e-5)])
@@ -154,6 +154,24 @@ def test_free_flight(gudgeon):
     assert_close(summary["sensitivity_parameters"][0]["grazing"], 2 * 0.05, relative=1e-9, what="the speed by its derivative")
 
 
+def test_instants(gudgeon):
+    """A table that stops: the velocity of its driver jumps at an instant; a parameter that moves the instant is refused."""
+    table = FREE
+    for old, new in (("[points]\n", "table  5          1                 0m\n[points]\n"),
+                     ("word = elastic", "v = 0.3 m/s\nt1 = 20 ms"), ("height = 50", "height = 10"),
+                     ("centre   ball\n", "centre   ball\ntop      table\n"), ("floor   origin", "floor   top"),
+                     ("[material]", "[joint.translational]\nname i j axis\nguide origin top y\n[driver.position]\n"
+                      "name i j axis position\nshaker origin top y {v*min(t, t1)}\n[material]")):
+        assert old in table
+        table = table.replace(old, new)
+    deck = written(scratch(), table + "parameters = v t1\nresults = floor.onset(1) floor.impact_speed(1)")
+    summary, _ = study_of(gudgeon, deck)
+    time = math.sqrt(2 * (0.01 - 0.3 * 0.02) / 10)
+    assert_close(summary["sensitivity"]["floor.onset(1)"]["v"]["value"], -0.02 / (10 * time), relative=1e-9, what="onset")
+    assert_close(summary["sensitivity"]["floor.impact_speed(1)"]["v"]["value"], -0.02 / time, relative=1e-9, what="speed")
+    assert "depend on it" in summary["sensitivity"]["floor.onset(1)"]["t1"]["reason"]
+
+
 @pytest.mark.parametrize("words, message", [
     ("parameters = hight\nresults = floor.onset(1)", "did you mean 'height'?"),
     ("parameters = word\nresults = floor.onset(1)", "parameter 'word' is not a number"),
@@ -182,6 +200,7 @@ def test_parameter_at_a_bound(gudgeon):
 
 @pytest.mark.parametrize("options, message", [
     (("--method", "adams"), "is not a one-step method"),
+    (("--method", "rock4"), "chooses its stages by the steps before"),
     (("--set", "height=40mm", "--method", "radou"), "did you mean 'radau'?"),
 ])
 def test_methods_that_do_not(gudgeon, options, message):

@@ -17,6 +17,7 @@ module verb_sensitivity
    use output_plan, only: output_plan_t
    use recorder, only: status_complete
    use result_table, only: result_table_t
+   use rock4, only: rock4_t
    use run_limits, only: limits_of
    use run_place, only: directory_of
    use run_plan, only: tell_origin
@@ -88,6 +89,9 @@ contains
          call settings%new_method(method)
          can = method%abilities()
          select type (method)
+         class is (rock4_t)
+            call set_error(error, exit_usage, "method "//method%name()//" chooses its stages by the steps before: they have no " &
+                           //"derivative"//new_line("a")//"  = give method = auto, verner, dop853 or radau, or --method")
          class is (one_step_t)
             if (can%steps == steps_fixed .or. settings%controls%fixed_step > 0.0_wp) then
                call set_error(error, exit_usage, "sensitivities need variable steps"//new_line("a")// &

@@ -6,6 +6,7 @@
 !> both motions do not share, derivatives have no meaning.
 module find_sensitivity
    use errors, only: error_t
+   use, intrinsic :: ieee_arithmetic, only: ieee_is_finite
    use jobs, only: job_t
    use kinds, only: eps, not_a_number, wp
    use parameter_source, only: parameter_source_t
@@ -77,10 +78,13 @@ contains
       type(sensitivity_t), intent(inout) :: study      !! errors and reasons are set
 
       real(wp) :: difference(size(second%t)), magnitude, relative
+      logical :: is_known(size(second%t))
       integer :: k, m
 
       associate (d => second%derivative(p, :))
-         difference = abs(d - first%derivative(p, :))
+         is_known = ieee_is_finite(d) .and. ieee_is_finite(first%derivative(p, :))
+         difference = 0.0_wp
+         where (is_known) difference = abs(d - first%derivative(p, :))
          magnitude = abs(study%plan%values(p))
          if (.not. magnitude > 0.0_wp) magnitude = 1.0_wp
          do k = 1, size(d)
@@ -88,7 +92,8 @@ contains
             if (study%reason(p, k)%s == "") then
                relative = 0.0_wp
                do m = 1, size(d)
-                  if (.not. second%t(m) <= second%t(k) .or. .not. abs(d(m))*magnitude > no_effect*abs(second%value(m))) cycle
+                  if (.not. is_known(m)) cycle
+                  if (second%t(m) > second%t(k) .or. .not. abs(d(m))*magnitude > no_effect*abs(second%value(m))) cycle
                   if (difference(m) < useless*abs(d(m))) relative = max(relative, difference(m)/abs(d(m)))
                end do
                relative = max(relative, of_tolerance*study%plan%tolerance)
@@ -115,9 +120,10 @@ contains
          reason = ""
          if (.not. second%is_found(k)) then
             reason = "the motion has none until its end"
+            return
          else if (second%t(k) >= study%horizon .or. .not. first%is_found(k)) then
             reason = "beyond the horizon at t = "//real_text(min(study%horizon, second%t(k)), 4)//" s"
-         else if (.not. abs(difference(k)) < huge(1.0_wp)) then
+         else if (.not. is_known(k)) then
             reason = second%reason(p)%s
             if (reason == "") reason = first%reason(p)%s
             if (reason == "") reason = "the equations cannot be solved beside the motion"

@@ -180,6 +180,8 @@ contains
       real(wp) :: sign
 
       sign = merge(-1.0_wp, 1.0_wp, self%asked%kind == result_minimum)
+      is_top = all(ieee_is_finite(self%before(k - 1:k + 1)))
+      if (.not. is_top) return
       is_top = sign*(self%before(k) - self%before(k - 1)) >= 0.0_wp .and. sign*(self%before(k) - self%before(k + 1)) >= 0.0_wp
       if (is_top) is_top = abs(self%before(k + 1) - self%before(k - 1)) > 0.0_wp &
                            .or. abs(self%before(k) - self%before(k - 1)) > 0.0_wp

@@ -123,13 +123,15 @@ contains
       real(wp), parameter :: parts(4) = [1.0_wp, -1.0_wp, 0.5_wp, -0.5_wp]
       real(wp) :: value
       integer :: k
+      logical :: is_lasting
 
       do k = 1, 4
          value = self%p + parts(k)*self%part*self%size*finer**self%rung
-         call self%beside(k)%make(variation, self%number, value, self%reason)
+         call self%beside(k)%make(variation, self%number, value, self%reason, is_lasting)
          self%beside(k)%e = value - self%p
          if (self%reason == "") cycle
          self%is_active = .false.
+         if (is_lasting) self%rung = finest
          return
       end do
       if (variation%memory%n > 0) call self%remember(variation)

@@ -8,7 +8,7 @@ module varied_system
    use catalogue, only: catalogue_t
    use errors, only: error_t
    use jobs, only: first_line, job_t, start_job, started_t
-   use kinds, only: wp
+   use kinds, only: eps, wp
    use build_system, only: new_system
    use mechanism, only: mechanism_t
    use mechanism_catalogue, only: bind_channels, build_catalogue
@@ -22,7 +22,7 @@ module varied_system
    public :: instants_of, variation_t, varied_t, want_only
 
    integer, parameter :: n_instant_compared = 1000    !! instants of functions of time that are compared
-   real(wp), parameter :: same_instant = 1.0e-12_wp   !! difference of instants that is round-off, of the time [1]
+   real(wp), parameter :: same_instant = 8.0_wp*eps   !! difference of instants that is round-off, of the time [1]
 
    !> How mechanisms beside that of the deck are made. Source and mechanism of the deck must be targets.
    type :: variation_t
@@ -55,18 +55,20 @@ module varied_system
 contains
 
    !> Make the mechanism with another value of the parameter.
-   subroutine make_varied(self, variation, number, value, reason)
+   subroutine make_varied(self, variation, number, value, reason, is_lasting)
       class(varied_t), target, intent(inout) :: self       !! the mechanism
       type(variation_t), intent(inout) :: variation        !! how it is made
       integer, intent(in) :: number                        !! of the parameter
       real(wp), intent(in) :: value                        !! of the parameter [any]
       character(:), allocatable, intent(out) :: reason     !! why it cannot be; blank: it can
+      logical, intent(out) :: is_lasting                   !! nor can it be with another value
 
       type(error_t), allocatable :: error
       type(job_t) :: job
       type(started_t) :: begin
       real(wp), allocatable :: own(:)
 
+      is_lasting = .false.
       call variation%source%make(number, value, job, reason)
       if (reason /= "") return
       call variation%setting%apply(variation%tolerance, job%scene%settings%integration)
@@ -75,6 +77,7 @@ contains
          if (system%n /= base%n .or. system%n_position /= base%n_position .or. system%n_event /= base%n_event .or. &
              system%clearance_joints%n_contact /= base%clearance_joints%n_contact) then
             reason = "the coordinates or the contacts of the mechanism depend on it"
+            is_lasting = .true.
             return
          end if
          call start_job(job, system, begin, error)
@@ -95,6 +98,7 @@ contains
          else if (any(abs(own - instants) > same_instant*abs(instants))) then
             reason = "instants at which functions of time are not smooth depend on it"
          end if
+         is_lasting = reason /= ""
       end associate
    end subroutine make_varied
 
