@@ -37,13 +37,18 @@ module sensitivity_column
    real(wp), parameter :: visible = 1.0e-10_wp     !! distance of states beside, of the scales, below which that is noise [1]
    integer, parameter :: patience = 10             !! smooth steps after which e is made greater
 
+   !> Mechanisms beside for an e.
+   type :: made_t
+      type(varied_t), pointer :: beside(:) => null()   !! (4) as below; null: not made
+   end type made_t
+
    !> The derivative by one parameter.
    type :: column_t
       integer :: number = 0                        !! of the parameter
       real(wp) :: p = 0.0_wp                       !! its value [any]
       real(wp) :: size = 1.0_wp                    !! what e is measured by [any]
       real(wp) :: part = 0.0_wp                    !! first e, of that [1]
-      integer :: rung = 0                          !! how many times e was made finer
+      integer :: n_finer = 0                       !! how many times e was made finer
       logical :: is_active = .true.                !! it can be carried on
       character(:), allocatable :: reason          !! why not
       real(wp), allocatable :: s(:)                !! (n) derivative of the state at corresponding places [any]
@@ -51,11 +56,13 @@ module sensitivity_column
       real(wp), allocatable :: u(:)                !! (contacts) derivative of remembered impact speeds [any]
       real(wp), allocatable :: rate(:)             !! (contacts) derivative of penetration rates at the events in hand [any]
       real(wp), allocatable :: gap(:)              !! (events) derivative of event functions at the end of the step [any]
-      type(varied_t), allocatable :: beside(:)     !! (4) mechanisms with p + e, p - e, p + e/2, p - e/2
+      type(varied_t), pointer :: beside(:) => null()  !! (4) mechanisms with p + e, p - e, p + e/2, p - e/2
+      type(made_t), private :: made(0:finest)      !! (0:finest) those of each e, once they were made
       real(wp), allocatable, private :: scale(:)   !! (positions + rates) of the error norm [any]
       integer, private :: n_smooth = 0             !! smooth steps one after another
    contains
       procedure :: begin => begin_column
+      procedure :: free => free_column
       procedure :: follow => follow_step
       procedure :: remember => remember_events
       procedure :: probe
@@ -100,11 +107,10 @@ contains
          call base%weights(method%step%y1, self%scale)
          self%scale = self%scale(:base%linkage%n_position + base%linkage%n_rate)
       end associate
-      allocate (self%beside(4))
       do
          call self%make(variation)
-         if (self%is_active .or. self%rung == finest) exit
-         self%rung = self%rung + 1  ! a bound of the parameter may be near
+         if (self%is_active .or. self%n_finer == finest) exit
+         self%n_finer = self%n_finer + 1  ! a bound of the parameter may be near
          self%is_active = .true.
       end do
       if (.not. self%is_active) return
@@ -115,7 +121,19 @@ contains
       end associate
    end subroutine begin_column
 
-   !> Make the mechanisms beside, for the present e.
+   !> The mechanisms beside are gone.
+   subroutine free_column(self)
+      class(column_t), intent(inout) :: self    !! the column, at the end of the motion
+
+      integer :: k
+
+      do k = 0, finest
+         if (associated(self%made(k)%beside)) deallocate (self%made(k)%beside)
+      end do
+      nullify (self%beside)
+   end subroutine free_column
+
+   !> Make the mechanisms beside for the present e, unless they are there; they remember what that of the deck does.
    subroutine make(self, variation)
       class(column_t), intent(inout) :: self            !! the column
       type(variation_t), intent(inout) :: variation     !! how they are made
@@ -125,15 +143,24 @@ contains
       integer :: k
       logical :: is_lasting
 
-      do k = 1, 4
-         value = self%p + parts(k)*self%part*self%size*finer**self%rung
-         call self%beside(k)%make(variation, self%number, value, self%reason, is_lasting)
-         self%beside(k)%e = value - self%p
-         if (self%reason == "") cycle
-         self%is_active = .false.
-         if (is_lasting) self%rung = finest
-         return
-      end do
+      associate (made => self%made(self%n_finer))
+         if (.not. associated(made%beside)) then
+            allocate (made%beside(4))
+            do k = 1, 4
+               value = self%p + parts(k)*self%part*self%size*finer**self%n_finer
+               call made%beside(k)%make(variation, self%number, value, self%reason, is_lasting)
+               made%beside(k)%e = value - self%p
+               if (self%reason /= "") exit
+            end do
+            if (self%reason /= "") then
+               deallocate (made%beside)
+               self%is_active = .false.
+               if (is_lasting) self%n_finer = finest
+               return
+            end if
+         end if
+         self%beside => made%beside
+      end associate
       if (variation%memory%n > 0) call self%remember(variation)
    end subroutine make
 
@@ -161,13 +188,13 @@ contains
          if (status == 0) then
             if (.not. self%is_rough()) exit
          end if
-         if (self%rung == finest) then
+         if (self%n_finer == finest) then
             self%is_active = .false.
             self%reason = "motions with the parameter changed by "//real_text(self%beside(1)%e, 2)// &
                           " SI units do not stay beside that of the deck"
             return
          end if
-         self%rung = self%rung + 1
+         self%n_finer = self%n_finer + 1
          self%n_smooth = 0
          call self%make(variation)
          if (.not. self%is_active) return
@@ -188,12 +215,12 @@ contains
             end associate
          end do
       end associate
-      if (self%n_smooth < patience .or. self%rung == 0) return
-      self%rung = self%rung - 1
+      if (self%n_smooth < patience .or. self%n_finer == 0) return
+      self%n_finer = self%n_finer - 1
       self%n_smooth = 0
       call self%make(variation)
       if (self%is_active) return
-      self%rung = self%rung + 1  ! a bound of the parameter is near
+      self%n_finer = self%n_finer + 1  ! a bound of the parameter is near
       self%is_active = .true.
       call self%make(variation)
    end subroutine follow_step

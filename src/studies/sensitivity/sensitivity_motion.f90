@@ -40,10 +40,11 @@ contains
 
       type(motion_t), target :: motion
       real(wp) :: until
+      integer :: k
 
       call found%start(size(plan%results), size(plan%parameters))
       call begin(motion, job, source, plan, tolerance, part, found, error)
-      if (allocated(error)) return
+      if (allocated(error)) return  ! before any column has started
       associate (mover => motion%mover)
          do while (mover%method%t < plan%end)
             until = plan%end
@@ -63,6 +64,9 @@ contains
             if (allocated(error)) exit
          end do
       end associate
+      do k = 1, size(motion%columns)
+         call motion%columns(k)%free()
+      end do
    end subroutine find_motion
 
    !> The start of the motion and of its derivatives.
