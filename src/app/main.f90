@@ -18,6 +18,7 @@ program gudgeon
    use verb_new, only: new_deck
    use verb_precision, only: compare_precision
    use verb_run, only: run_deck
+   use verb_sensitivity, only: derive_deck
    use verb_sweep, only: sweep_deck
    implicit none (type, external)
 
@@ -44,6 +45,8 @@ program gudgeon
          call merge_sweep(options, error)
       case ("life")
          call live_deck(options, error)
+      case ("sensitivity")
+         call derive_deck(options, error)
       case ("precision")
          call compare_precision(options, error)
       case ("compare")

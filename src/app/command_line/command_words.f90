@@ -14,7 +14,7 @@ module command_words
 
    !> What follows a verb.
    type :: command_t
-      character(9) :: name = ""      !! the verb
+      character(11) :: name = ""     !! the verb
       character(8) :: operand = ""   !! what it works on: DECK, NAME, [KIND]; blank: nothing
       character(88) :: help = ""     !! one line
       character(170) :: options = ""  !! the options that it takes, blank-separated
@@ -37,6 +37,8 @@ module command_words
       command_t("merge", "DIR", "merge the shards of a sweep, DIR.shards, into DIR", "--out --quiet --json"), &
       command_t("life", "DECK", "wear over many cycles by [life]: depth, volume, life with their intervals", &
                 "--out --set --tolerance --method --quiet --json --jobs"), &
+      command_t("sensitivity", "DECK", "derivatives of results by parameters, through impacts, by [sensitivity]", &
+                "--out --set --tolerance --method --quiet --json"), &
       command_t("precision", "DECK", "compare methods and tolerances: accuracy against cost", &
                 "--out --set --ideal --methods --accuracy --budget --quiet --json"), &
       command_t("check", "DECK", "check the deck completely without integrating", &

@@ -236,7 +236,7 @@ contains
 
       left = "gudgeon "//trim(verb%name)//" "//trim(verb%operand)
       if (verb%options /= "") left = trim(left)//" [OPTION]..."
-      call say(trim(left), 2, trim(verb%help), 38)
+      call say(trim(left), 2, trim(verb%help), 40)
    end subroutine write_verb
 
    !> An option in one line, with the words that its value may be.

@@ -29,6 +29,10 @@ module load
    use read_scene, only: scene_from_deck
    use run_limits, only: check_conditions, has_conditions
    use run_profiles, only: set_profile_reader
+   use sensitivity_info, only: sensitivity_section
+   use sensitivity_results, only: sensitivity_plan_t
+   use sensitivity_words, only: plan_sensitivity
+   use settings, only: has_section, read_settings
    use scene, only: analysis_dynamic, analysis_kinematic, analysis_names, n_analysis, scene_t, table_formulas
    use spelling, only: nearest_word
    use step_check, only: check_steps
@@ -51,6 +55,9 @@ module load
       type(catalogue_t), allocatable :: catalogue !! what they can report; of a case of a sweep none until it is requested
       type(figure_t), allocatable :: figures(:)   !! (n) its figures, as its words ask for them
       type(sweep_t) :: sweep                      !! its cases
+      logical :: has_sensitivity = .false.        !! it has a section [sensitivity]
+      type(item_t) :: sensitivity_keys            !! this section
+      type(sensitivity_plan_t) :: sensitivity     !! what it asks for
       logical :: is_stream = .false.              !! the deck came through a pipe and cannot be read again
    end type loaded_t
 
@@ -77,6 +84,9 @@ contains
       if (mistakes%count() == 0) call scene_from_deck(loaded%deck, loaded%scene, mistakes)
       if (mistakes%count() == 0 .and. .not. options%runs%is_member) then
          call read_sweep(loaded%deck, sweep_info(), loaded%sweep, mistakes)
+         if (has_section(loaded%deck, "sensitivity")) then
+            call read_settings(loaded%deck, sensitivity_section(), loaded%sensitivity_keys, loaded%has_sensitivity, mistakes)
+         end if
       end if
       call mistakes%to_error(loaded%deck%sources, error)
       if (.not. allocated(error)) call prepare(options, loaded, error)
@@ -138,6 +148,10 @@ contains
             call check_words(loaded%deck, loaded%scene, loaded%figures, loaded%sweep, loaded%plan%end, loaded%catalogue, mistakes)
          end if
          if (has_conditions(loaded%scene)) call check_conditions(loaded%scene, loaded%catalogue, mistakes)
+         if (loaded%has_sensitivity .and. loaded%scene%analysis == analysis_dynamic) then
+            call plan_sensitivity(loaded%deck, loaded%sensitivity_keys, loaded%system, loaded%catalogue, loaded%plan%end, &
+                                  loaded%sensitivity, mistakes)
+         end if
       else
          call check_words(loaded%deck, loaded%scene, loaded%figures, loaded%sweep, loaded%plan%end, catalogue, mistakes)
          call check_conditions(loaded%scene, catalogue, mistakes)

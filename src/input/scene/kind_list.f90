@@ -23,6 +23,7 @@ module kind_list
    use requests, only: motion_request_info, reaction_info, request_info
    use shapes, only: shapes_info
    use section_info, only: dynamic_info, kinematic_info, output_info, scene_info, static_info
+   use sensitivity_info, only: sensitivity_section
    use study_info, only: ensemble_info, life_info, statistics_info, sweep_info
    use wear_law, only: wear_law_t
    use worn_kind, only: worn_kind_t
@@ -174,7 +175,7 @@ contains
       before_films = before_wears + n_wear_kinds() + 1
       before_worn = before_films + n_film_kinds()
       before_settings = before_worn + n_worn_kinds()
-      allocate (known(before_settings + 14))
+      allocate (known(before_settings + 15))
       known(1) = scene_info()
       known(2) = bodies_info()
       known(3) = points_info()
@@ -261,7 +262,8 @@ contains
       known(before_settings + 11) = sweep_info()
       known(before_settings + 12) = ensemble_info()
       known(before_settings + 13) = life_info()
-      known(before_settings + 14) = precision_section()
+      known(before_settings + 14) = sensitivity_section()
+      known(before_settings + 15) = precision_section()
    end subroutine ask_settings
 
 end module kind_list

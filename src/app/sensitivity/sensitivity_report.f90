@@ -1,0 +1,122 @@
+!> The summaries of a study of sensitivities, for people and for scripts.
+module sensitivity_report
+   use console, only: say
+   use errors, only: error_t
+   use json_table, only: put_tables
+   use json_text, only: json_object_t
+   use kinds, only: wp
+   use load, only: loaded_t
+   use options, only: options_t
+   use output_plan, only: output_plan_t
+   use recorder, only: status_complete
+   use result_table, only: result_table_t
+   use sensitivity_object, only: put_sensitivity
+   use sensitivity_results, only: sensitivity_t
+   use sensitivity_tables, only: table_of_derivatives, table_of_motion, table_of_parameters, table_of_results
+   use text, only: counted, real_text, text_t, to_text
+   use text_buffer, only: buffer_t
+   use text_file, only: replace_file
+   use text_of_table, only: add_table
+   use version, only: program_version
+   implicit none (type, external)
+   private
+   public :: report_sensitivity
+
+contains
+
+   !> Write and show the summaries.
+   subroutine report_sensitivity(options, loaded, plan, study, warnings, error)
+      type(options_t), intent(in) :: options                 !! the command line
+      type(loaded_t), intent(in) :: loaded                   !! the deck
+      type(output_plan_t), intent(in) :: plan                !! what files say
+      type(sensitivity_t), intent(in) :: study               !! the study
+      type(text_t), intent(in) :: warnings(:)                !! (m) what was noticed
+      type(error_t), allocatable, intent(out) :: error       !! a file cannot be written
+
+      character(:), allocatable :: object, text
+
+      text = text_of(plan, study, warnings)
+      object = object_of(loaded, plan, study, warnings)
+      call replace_file(plan%directory//"/summary.txt", text, error)
+      if (.not. allocated(error)) call replace_file(plan%directory//"/summary.json", object//new_line("a"), error)
+      if (options%is_json) then
+         call say(object)
+      else if (.not. options%is_quiet) then
+         call say(text(:len(text) - 1))
+      end if
+   end subroutine report_sensitivity
+
+   !> The summary for people.
+   function text_of(plan, study, warnings) result(text)
+      type(output_plan_t), intent(in) :: plan                !! what files say
+      type(sensitivity_t), intent(in) :: study               !! the study
+      type(text_t), intent(in) :: warnings(:)                !! (m) what was noticed
+      character(:), allocatable :: text                      !! whole lines
+
+      type(buffer_t) :: lines
+      type(result_table_t) :: table
+      integer :: k
+
+      call lines%line(plan%title)
+      call lines%line("complete: "//counted(size(study%plan%results), "result", "results")//" by "// &
+                      counted(size(study%plan%parameters), "parameter", "parameters")//", "//to_text(study%n_step)//" steps, "// &
+                      counted(study%n_event, "event", "events")//", tolerance "//real_text(study%plan%tolerance, 2))
+      if (study%horizon < huge(1.0_wp)) then
+         call lines%line("horizon    the contact sequence is not known from t = "//real_text(study%horizon, 6)//" s on")
+      end if
+      table = table_of_parameters(study)
+      call add_table(lines, table)
+      table = table_of_results(study)
+      call add_table(lines, table)
+      table = table_of_derivatives(study)
+      call add_table(lines, table)
+      call add_refusals(lines, study)
+      call lines%line("output     "//plan%directory//"/")
+      call lines%line("           sensitivity.h5, sensitivity.csv")
+      do k = 1, size(warnings)
+         call lines%line("warning: "//warnings(k)%s)
+      end do
+      text = lines%get()
+   end function text_of
+
+   !> Lines on what is refused.
+   subroutine add_refusals(lines, study)
+      type(buffer_t), intent(inout) :: lines      !! grown
+      type(sensitivity_t), intent(in) :: study    !! the study
+
+      integer :: k, p
+
+      call lines%line("")
+      do k = 1, size(study%reason, 2)
+         do p = 1, size(study%reason, 1)
+            if (study%reason(p, k)%s == "") cycle
+            call lines%line("refused    "//study%plan%results(k)%word//" by "//study%plan%parameters(p)%s//": "// &
+                            study%reason(p, k)%s)
+         end do
+      end do
+   end subroutine add_refusals
+
+   !> The summary for scripts.
+   function object_of(loaded, plan, study, warnings) result(object)
+      type(loaded_t), intent(in) :: loaded                   !! the deck
+      type(output_plan_t), intent(in) :: plan                !! what files say
+      type(sensitivity_t), intent(in) :: study               !! the study
+      type(text_t), intent(in) :: warnings(:)                !! (m) what was noticed
+      character(:), allocatable :: object                    !! as text
+
+      type(json_object_t) :: json
+
+      call json%start(0)
+      call json%put_text("program", "gudgeon "//program_version)
+      call json%put_text("deck", loaded%path)
+      call json%put_text("title", plan%title)
+      call json%put_text("directory", plan%directory)
+      call json%put_text("status", status_complete)
+      call json%put_text("message", "")
+      call put_sensitivity(json, study)
+      call put_tables(json, [table_of_motion(study), table_of_parameters(study), table_of_results(study)])
+      call json%put_list("warnings", warnings)
+      object = json%get()
+   end function object_of
+
+end module sensitivity_report
