@@ -19,6 +19,7 @@ program gudgeon
    use verb_precision, only: compare_precision
    use verb_run, only: run_deck
    use verb_sweep, only: sweep_deck
+   use verb_tolerance, only: study_tolerances
    implicit none (type, external)
 
    type(error_t), allocatable :: console_error, error
@@ -44,6 +45,8 @@ program gudgeon
          call merge_sweep(options, error)
       case ("life")
          call live_deck(options, error)
+      case ("tolerance")
+         call study_tolerances(options, error)
       case ("precision")
          call compare_precision(options, error)
       case ("compare")

@@ -37,6 +37,8 @@ module command_words
       command_t("merge", "DIR", "merge the shards of a sweep, DIR.shards, into DIR", "--out --quiet --json"), &
       command_t("life", "DECK", "wear over many cycles by [life]: depth, volume, life with their intervals", &
                 "--out --set --tolerance --method --quiet --json --jobs"), &
+      command_t("tolerance", "DECK", "tolerances and clearances by [tolerance]: derivatives, worst case, scatter, yield", &
+                "--out --set --tolerance --quiet --json"), &
       command_t("precision", "DECK", "compare methods and tolerances: accuracy against cost", &
                 "--out --set --ideal --methods --accuracy --budget --quiet --json"), &
       command_t("check", "DECK", "check the deck completely without integrating", &

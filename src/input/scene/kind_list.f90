@@ -24,6 +24,7 @@ module kind_list
    use shapes, only: shapes_info
    use section_info, only: dynamic_info, kinematic_info, output_info, scene_info, static_info
    use study_info, only: ensemble_info, life_info, statistics_info, sweep_info
+   use tolerance_info, only: tolerance_joint_info, tolerance_limit_info, tolerance_study_info, tolerance_table_info
    use wear_law, only: wear_law_t
    use worn_kind, only: worn_kind_t
    use worn_registry, only: n_worn_kinds, new_worn_kind
@@ -174,7 +175,7 @@ contains
       before_films = before_wears + n_wear_kinds() + 1
       before_worn = before_films + n_film_kinds()
       before_settings = before_worn + n_worn_kinds()
-      allocate (known(before_settings + 14))
+      allocate (known(before_settings + 18))
       known(1) = scene_info()
       known(2) = bodies_info()
       known(3) = points_info()
@@ -261,7 +262,11 @@ contains
       known(before_settings + 11) = sweep_info()
       known(before_settings + 12) = ensemble_info()
       known(before_settings + 13) = life_info()
-      known(before_settings + 14) = precision_section()
+      known(before_settings + 14) = tolerance_table_info()
+      known(before_settings + 15) = tolerance_joint_info()
+      known(before_settings + 16) = tolerance_limit_info()
+      known(before_settings + 17) = tolerance_study_info()
+      known(before_settings + 18) = precision_section()
    end subroutine ask_settings
 
 end module kind_list
