@@ -70,7 +70,10 @@ contains
       associate (ideal => loaded%system%linkage%ideal, rows => loaded%system%linkage%rows)
          do k = 1, size(ideal)
             do i = 1, ideal(k)%set%n
-               pin = found_pin_t(ideal(k)%set%names(i)%s, pin_disc, k, i)
+               pin%joint = ideal(k)%set%names(i)%s
+               pin%position = pin_disc
+               pin%set = k
+               pin%item = i
                is_pin = .false.
                do m = 1, size(names)
                   is_pin = is_pin .or. names(m)%s == pin%joint

@@ -14,7 +14,7 @@ module read_tolerance
    use tables, only: read_items
    use text, only: join, split_blank, text_t
    use tolerance_info, only: tolerance_joint_info, tolerance_limit_info, tolerance_study_info, tolerance_table_info
-   use tolerance_plan, only: limit_t, pin_t, tolerance_plan_t
+   use tolerance_plan, only: limit_t, tolerance_plan_t
    use tolerated, only: new_fit, new_tolerance, shape_lognormal, shape_normal, shape_truncated, tolerated_t
    implicit none (type, external)
    private
@@ -50,7 +50,9 @@ contains
       call read_items(deck, info, items, mistakes)
       allocate (plan%pins(size(items)))
       do k = 1, size(items)
-         plan%pins(k) = pin_t(items(k)%name, number_of(info, items(k), "pin"), items(k)%location)
+         plan%pins(k)%joint = items(k)%name
+         plan%pins(k)%position = number_of(info, items(k), "pin")
+         plan%pins(k)%location = items(k)%location
       end do
       call read_items(deck, tolerance_limit_info(), items, mistakes)
       allocate (plan%limits(size(items)))

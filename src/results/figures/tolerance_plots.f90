@@ -1,8 +1,8 @@
 !> The figures of a study of tolerances: contributors, histograms with limits, bands over the motion; a panel for each channel.
 !>
-!> `tolerance_contributors.dat` has a block for each channel: name in quotes, part of the variance to first order, Sobol' index, total
-!> index. `tolerance_histogram.dat`: lower and upper edge of each bin, members. `tolerance_band.dat`: time, and less the nominal
-!> value: ends of the worst case, ends of the nominal 95 % of members (mean and 1.96 standard deviations), the mean.
+!> `tolerance_contributors.dat` has a block for each channel: name in quotes, part of the variance to first order, Sobol' index,
+!> total index. `tolerance_histogram.dat`: lower and upper edge of each bin, members. `tolerance_band.dat`: time, and less the
+!> nominal value: ends of the worst case, ends of the nominal 95 % of members (mean and 1.96 standard deviations), the mean.
 module tolerance_plots
    use display_units, only: choose_unit, display_unit_t
    use errors, only: error_t

@@ -172,30 +172,38 @@ contains
       type(tolerance_study_t), intent(in) :: study     !! the study
       character(:), allocatable :: text                !! the object
 
-      type(json_object_t) :: one, parameters, pins, row
+      type(json_object_t) :: one, parameters, pins
       integer :: k
 
       call one%start(1)
       call parameters%start(2)
       do k = 1, size(study%plan%parameters)
-         associate (parameter => study%plan%parameters(k))
-            call row%start(3)
-            call row%put_text("unit", unit_text(parameter%dimension))
-            call row%put_real("nominal", parameter%nominal)
-            call row%put_real("lower", parameter%nominal + parameter%lower)
-            call row%put_real("upper", parameter%nominal + parameter%upper)
-            call row%put_real("mean", parameter%nominal + parameter%mean)
-            call row%put_real("sigma", parameter%sigma)
-            call parameters%put_object(parameter%name, row%get())
-         end associate
+         block
+            type(json_object_t) :: row
+
+            associate (parameter => study%plan%parameters(k))
+               call row%start(3)
+               call row%put_text("unit", unit_text(parameter%dimension))
+               call row%put_real("nominal", parameter%nominal)
+               call row%put_real("lower", parameter%nominal + parameter%lower)
+               call row%put_real("upper", parameter%nominal + parameter%upper)
+               call row%put_real("mean", parameter%nominal + parameter%mean)
+               call row%put_real("sigma", parameter%sigma)
+               call parameters%put_object(parameter%name, row%get())
+            end associate
+         end block
       end do
       call one%put_object("parameters", parameters%get())
       call pins%start(2)
       do k = 1, size(study%pins)
-         call row%start(3)
-         call row%put_text("pin", trim(positions(study%pins(k)%position)))
-         call row%put_real("clearance", study%pins(k)%clearance)
-         call pins%put_object(study%pins(k)%joint, row%get())
+         block
+            type(json_object_t) :: row
+
+            call row%start(3)
+            call row%put_text("pin", trim(positions(study%pins(k)%position)))
+            call row%put_real("clearance", study%pins(k)%clearance)
+            call pins%put_object(study%pins(k)%joint, row%get())
+         end block
       end do
       call one%put_object("joints", pins%get())
       call one%put_object("yield", object_of_yield(study%members%yield, 2))

@@ -11,7 +11,6 @@ module expansion
    use kinds, only: not_a_number, wp
    use mechanism_source, only: mechanism_source_t
    use prescribed_motion, only: solved
-   use sensitivities, only: longest_step
    use tolerance_results, only: sensitivities_t, tolerance_study_t
    use varied_mechanism, only: varied_t
    implicit none (type, external)
@@ -23,13 +22,11 @@ module expansion
 contains
 
    !> Find all second derivatives. The first ones are known.
-   subroutine find_curvatures(source, nominal, study, error)
+   subroutine find_curvatures(source, study)
       class(mechanism_source_t), intent(inout) :: source   !! gives changed mechanisms
-      type(varied_t), intent(in) :: nominal                !! the nominal one
       type(tolerance_study_t), intent(inout) :: study      !! second derivatives are set
-      type(error_t), allocatable, intent(out) :: error     !! a parameter cannot be changed
 
-      real(wp), allocatable :: ahead(:, :), behind(:, :), deviations(:), steps(:)
+      real(wp), allocatable :: ahead(:, :), behind(:, :), deviations(:)
       integer, allocatable :: list(:)
       integer :: i, j, k, n
 
@@ -38,17 +35,14 @@ contains
          allocate (found%curvatures(n, n, size(study%requests), size(found%instants)), source=0.0_wp)
          allocate (ahead, mold=found%values)
          allocate (behind, mold=found%values)
-         steps = [(longest_step(parameters(k), nominal%system%linkage%scales%length), k=1, n)]
          list = pack([(k, k=1, n)], [(parameters(k)%upper > parameters(k)%lower, k=1, n)])
          do i = 1, size(list)
             call find_own(list(i))
-            if (allocated(error)) return
             call source%show(0.5_wp + 0.1_wp*i/size(list))
          end do
          do i = 1, size(list)
             do j = 1, i - 1
                call find_mixed(list(i), list(j))
-               if (allocated(error)) return
             end do
             call source%show(0.6_wp + 0.1_wp*i/size(list))
          end do
@@ -67,11 +61,10 @@ contains
 
          associate (found => study%derivatives)
             do l = 1, 2
-               h = parts(l)*steps(p)
+               h = parts(l)*found%steps(p)
                deviations = [(merge(h, 0.0_wp, k == p), k=1, n)]
                call values_of(deviations, ahead)
-               if (.not. allocated(error)) call values_of(-deviations, behind)
-               if (allocated(error)) return
+               call values_of(-deviations, behind)
                if (l == 1) found%curvatures(p, p, :, :) = (ahead + behind - 2.0_wp*found%values)/h**2
             end do
             found%curvatures(p, p, :, :) = (4.0_wp*(ahead + behind - 2.0_wp*found%values)/h**2 &
@@ -86,11 +79,10 @@ contains
 
          real(wp) :: h(2)
 
-         h = parts(2)*[steps(p), steps(q)]
+         h = parts(2)*study%derivatives%steps([p, q])
          deviations = [(merge(h(1), 0.0_wp, k == p) + merge(h(2), 0.0_wp, k == q), k=1, n)]
          call values_of(deviations, ahead)
-         if (.not. allocated(error)) call values_of(-deviations, behind)
-         if (allocated(error)) return
+         call values_of(-deviations, behind)
          associate (found => study%derivatives)
             found%curvatures(p, q, :, :) = (ahead + behind - 2.0_wp*found%values - h(1)**2*found%curvatures(p, p, :, :) &
                                             - h(2)**2*found%curvatures(q, q, :, :))/(2.0_wp*product(h))
@@ -103,12 +95,13 @@ contains
          real(wp), intent(in) :: changes(:)      !! (parameters) deviations [any]
          real(wp), intent(out) :: values(:, :)   !! (requests, times) values [any]
 
+         type(error_t), allocatable :: error
          type(varied_t) :: varied
          real(wp) :: clearances(size(study%pins)), no_pins(2, size(study%pins)), q(size(study%derivatives%instants(1)%q))
          real(wp), allocatable :: none(:)
          integer :: at, outcome
 
-         values = 0.0_wp
+         values = not_a_number()
          no_pins = 0.0_wp
          call source%build(changes, varied, clearances, error)
          if (allocated(error)) return

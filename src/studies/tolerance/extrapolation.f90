@@ -2,7 +2,8 @@
 !>
 !> $$ T_{l,0} = \frac{f(h_l) - f(-h_l)}{2 h_l}, \quad T_{l,m} = T_{l,m-1} + \frac{T_{l,m-1} - T_{l-1,m-1}}{4^m - 1}, \quad
 !>    h_l = h/2^{l-1} . $$
-!> Of all entries that one is taken which differs from its two neighbours by the smallest amount: round-off grows as truncation falls.
+!> Of all entries that one is taken which differs from its two neighbours by the smallest amount: round-off grows as
+!> truncation falls.
 !> Source: C. J. F. Ridders, Adv. Eng. Softw. 4 (1982) 75-76.
 module extrapolation
    use kinds, only: wp

@@ -1,8 +1,8 @@
 !> Derivatives of channels by parameters of the deck, at the output times of a kinematic analysis.
 !>
-!> Positions: $$ \Phi_q \frac{\partial q}{\partial p} = -\Phi_p, $$ all parameters with one factorisation at each instant. Phi_p comes
-!> from differences, extrapolated, of mechanisms that are built anew from the deck with the parameter changed, at the nominal
-!> positions. A channel R follows along the tangent,
+!> Positions: $$ \Phi_q \frac{\partial q}{\partial p} = -\Phi_p, $$ all parameters with one factorisation at each instant.
+!> Phi_p comes from differences, extrapolated, of mechanisms that are built anew from the deck with the parameter changed, at
+!> the nominal positions. A channel R follows along the tangent,
 !> $$ \frac{\mathrm{d}R}{\mathrm{d}p} = \frac{\mathrm{d}}{\mathrm{d}h} R\left(p + h, q + h \frac{\partial q}{\partial p}\right)
 !>    \quad\text{at } h = 0, $$
 !> by such differences too, with the rates and forces that the changed mechanism has there: velocities, accelerations and reactions
@@ -23,9 +23,11 @@ module sensitivities
    use varied_mechanism, only: varied_t
    implicit none (type, external)
    private
-   public :: find_sensitivities, longest_step, pin_rows
+   public :: find_sensitivities, pin_rows
 
    real(wp), parameter :: step_part = 0.04_wp    !! longest step, of the value of the parameter [1]
+   real(wp), parameter :: shorter = 1.0_wp/16.0_wp   !! step after one with which the deck has errors, of that [1]
+   integer, parameter :: most_tries = 5              !! steps that are tried
    real(wp), parameter :: step_of_size = 0.01_wp !! of the size of the mechanism, or one radian, if the value is zero [1]
 
 contains
@@ -38,7 +40,6 @@ contains
       type(error_t), allocatable, intent(out) :: error     !! a parameter cannot be changed, or an instant is singular
 
       type(varied_t), allocatable :: varied(:, :, :)
-      real(wp), allocatable :: steps(:)
       integer :: k, n, n_v
 
       associate (found => study%derivatives, linkage => nominal%system%linkage)
@@ -50,11 +51,11 @@ contains
                       found%pin_tangents(n_v, 2*n_pin, n_time), &
                       found%directions(2, n_pin, n_time), found%clearance_slopes(n, n_pin), source=0.0_wp)
          end associate
-         steps = [(longest_step(study%plan%parameters(k), linkage%scales%length), k=1, n)]
-         call build_all(source, study%pins, steps, found, varied, error)
+         found%steps = [(longest_step(study%plan%parameters(k), linkage%scales%length), k=1, n)]
+         call build_all(source, study%pins, found, varied, error)
          if (allocated(error)) return
          do k = 1, size(found%instants)
-            call find_at_instant(nominal, study%pins, steps, k, varied, found, error)
+            call find_at_instant(nominal, study%pins, k, varied, found, error)
             if (allocated(error)) return
             call source%show(0.5_wp*k/size(found%instants))
          end do
@@ -75,36 +76,52 @@ contains
    end function longest_step
 
    !> Build the mechanisms of all steps of all parameters, and find the derivatives of the clearances.
-   subroutine build_all(source, pins, steps, found, varied, error)
+   subroutine build_all(source, pins, found, varied, error)
       class(mechanism_source_t), intent(inout) :: source         !! gives changed mechanisms
       type(found_pin_t), intent(in) :: pins(:)                   !! (pins) joints with clearance
-      real(wp), intent(in) :: steps(:)                           !! (parameters) longest steps [any]
-      type(sensitivities_t), intent(inout) :: found              !! derivatives of the clearances are set
+      type(sensitivities_t), intent(inout) :: found              !! steps may be shortened; derivatives of clearances are set
       type(varied_t), allocatable, intent(out) :: varied(:, :, :)  !! (2, steps, parameters) ahead and behind
       type(error_t), allocatable, intent(out) :: error           !! a parameter cannot be changed
 
-      real(wp) :: clearances(size(pins), n_step, 2), deviations(size(steps))
-      integer :: k, l, side
+      real(wp) :: clearances(size(pins), n_step, 2)
+      integer :: k, try
 
-      allocate (varied(2, n_step, size(steps)))
-      do k = 1, size(steps)
+      allocate (varied(2, n_step, size(found%steps)))
+      do k = 1, size(found%steps)
+         do try = 1, most_tries
+            call build_steps(k)
+            if (.not. allocated(error)) exit
+            if (try < most_tries) found%steps(k) = shorter*found%steps(k)
+         end do
+         if (allocated(error)) return
+         found%clearance_slopes(k, :) = extrapolated(clearances(:, :, 1), clearances(:, :, 2), found%steps(k))
+      end do
+
+   contains
+
+      !> The mechanisms of a parameter.
+      subroutine build_steps(p)
+         integer, intent(in) :: p   !! number of the parameter
+
+         real(wp) :: deviations(size(found%steps))
+         integer :: l, side
+
          do l = 1, n_step
             do side = 1, 2
                deviations = 0.0_wp
-               deviations(k) = merge(1.0_wp, -1.0_wp, side == 1)*step_of(steps(k), l)
-               call source%build(deviations, varied(side, l, k), clearances(:, l, side), error)
+               deviations(p) = merge(1.0_wp, -1.0_wp, side == 1)*step_of(found%steps(p), l)
+               call source%build(deviations, varied(side, l, p), clearances(:, l, side), error)
                if (allocated(error)) return
             end do
          end do
-         found%clearance_slopes(k, :) = extrapolated(clearances(:, :, 1), clearances(:, :, 2), steps(k))
-      end do
+      end subroutine build_steps
+
    end subroutine build_all
 
    !> Derivatives at an instant.
-   subroutine find_at_instant(nominal, pins, steps, at, varied, found, error)
+   subroutine find_at_instant(nominal, pins, at, varied, found, error)
       type(varied_t), intent(inout) :: nominal              !! the nominal mechanism
       type(found_pin_t), intent(in) :: pins(:)              !! (pins) joints with clearance
-      real(wp), intent(in) :: steps(:)                      !! (parameters) longest steps [any]
       integer, intent(in) :: at                             !! number of the instant
       type(varied_t), intent(inout) :: varied(:, :, :)      !! (2, steps, parameters) changed mechanisms
       type(sensitivities_t), intent(inout) :: found         !! derivatives at the instant are set
@@ -115,14 +132,14 @@ contains
       logical :: is_regular
 
       associate (instant => found%instants(at), linkage => nominal%system%linkage)
-         n = size(steps)
+         n = size(found%steps)
          allocate (right(linkage%rows%n, n + 2*size(pins)), x(size(found%tangents, 1), n + 2*size(pins)), source=0.0_wp)
          nominal%needs_forces = size(pins) > 0
          call nominal%values_at(instant, instant%q, found%values(:, at), outcome)
          nominal%needs_forces = .false.
          if (outcome == solved) call find_directions(nominal, pins, found%directions(:, :, at))
          do k = 1, n
-            call find_row_slopes(varied(:, :, k), instant%q, steps(k), right(:, k))
+            call find_row_slopes(varied(:, :, k), instant%q, found%steps(k), right(:, k))
          end do
          right(:, :n) = -right(:, :n)
          do k = 1, size(pins)
@@ -144,7 +161,7 @@ contains
          found%tangents(:, :, at) = x(:, :n)
          found%pin_tangents(:, :, at) = x(:, n + 1:)
          do k = 1, n
-            call find_value_slopes(varied(:, :, k), x(:, k), steps(k), found%slopes(k, :, at))
+            call find_value_slopes(varied(:, :, k), x(:, k), found%steps(k), found%slopes(k, :, at))
          end do
          do k = 1, size(pins)
             do i = 1, 2

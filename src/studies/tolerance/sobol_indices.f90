@@ -3,8 +3,8 @@
 !> Of two independent plans A and B, and A with the columns of contributor i from B:
 !> $$ S_i = 1 - \frac{1}{2NV}\sum_{m=1}^N \left(f(B)_m - f(A_B^i)_m\right)^2, \quad
 !>    S_{Ti} = \frac{1}{2NV}\sum_{m=1}^N \left(f(A)_m - f(A_B^i)_m\right)^2, $$
-!> V the variance of f over both plans. Intervals of 95 % are those of normal deviates with the standard deviation of the indices over
-!> resamples of the points.
+!> V the variance of f over both plans. Intervals of 95 % are those of normal deviates with the standard deviation of the
+!> indices over resamples of the points.
 !> Sources: M. J. W. Jansen, Comput. Phys. Commun. 117 (1999) 35-43; A. Saltelli et al., Comput. Phys. Commun. 181 (2010) 259-270,
 !> table 2; G. E. B. Archer, A. Saltelli, I. M. Sobol', J. Stat. Comput. Simul. 58 (1997) 99-120 (bootstrap).
 module sobol_indices

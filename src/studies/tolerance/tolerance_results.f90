@@ -30,6 +30,7 @@ module tolerance_results
    !> Derivatives at the output times.
    type :: sensitivities_t
       type(instant_t), allocatable :: instants(:)          !! (times) the nominal motion
+      real(wp), allocatable :: steps(:)                    !! (parameters) longest steps of differences [any]
       real(wp), allocatable :: values(:, :)                !! (requests, times) nominal values [any]
       real(wp), allocatable :: slopes(:, :, :)             !! (parameters, requests, times) derivatives [any]
       real(wp), allocatable :: curvatures(:, :, :, :)      !! (parameters, parameters, requests, times) second derivatives [any]

@@ -30,8 +30,8 @@ contains
       logical :: is_exact
 
       call find_sensitivities(source, nominal, study, error)
-      if (.not. allocated(error)) call find_curvatures(source, nominal, study, error)
       if (allocated(error)) return
+      call find_curvatures(source, study)
       call combine_derivatives(study)
       associate (sampling => study%plan%sampling)
          is_exact = sampling%method == method_exact

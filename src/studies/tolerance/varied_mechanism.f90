@@ -6,7 +6,8 @@
 !> A member is assembled by Newton's iteration from a prediction. Where that fails, or turns a body by more than a third of a
 !> radian, it follows the solution of Phi(q) + e = (1 - s)(Phi(q_0) + e) from the nominal position q_0 at s = 0 to s = 1.
 !> Velocities, accelerations and forces are those of a pin that stays where it is.
-!> Source: E. L. Allgower, K. Georg, Numerical Continuation Methods (1990), chapter 2. Limits: as many independent rows as coordinates.
+!> Source: E. L. Allgower, K. Georg, Numerical Continuation Methods (1990), chapter 2.
+!> Limits: as many independent rows as coordinates.
 module varied_mechanism
    use catalogue, only: catalogue_t
    use groups_of_catalogue, only: group_clearances, group_drivers, group_energy, group_forces, group_joints
