@@ -83,6 +83,13 @@ def test_life(gudgeon):
     assert (folder / "out" / "life.h5").exists()
 
 
+def test_tolerance(gudgeon):
+    """A four-bar with tolerances."""
+    folder = scratch()
+    call(gudgeon, "tolerance", ROOT / "inputs" / "tolerance_four_bar.deck", "--out", folder / "out", "--quiet")
+    assert (folder / "out" / "tolerance.h5").exists()
+
+
 def test_precision(gudgeon):
     """Two methods compared in a short motion."""
     folder = scratch()

@@ -141,7 +141,7 @@ def test_velocities_and_forces(gudgeon):
 
 
 def test_members(gudgeon):
-    """Expansion and assembled members agree; both are the members of a sampling in closed form; the same seed gives the same bits."""
+    """Members by the expansion and assembled members agree within its stated error; the same seed gives the same bits."""
     text = FOUR_BAR + "\n[tolerance.study]\nmembers = 400\npoints = 100\n"
     first, _ = study(gudgeon, text)
     again, _ = study(gudgeon, text)
@@ -159,7 +159,7 @@ def test_members(gudgeon):
 
 
 def test_intervals_and_yield(gudgeon):
-    """Means, deviations, indices of 10000 members are those to first order within their intervals; the yield is that of a normal."""
+    """Means, deviations, indices are those to first order within their intervals; the yield is that of a normal."""
     text = FOUR_BAR.replace("truncated", "normal").replace("98.3deg    98.9deg", "98.55deg   -")
     rocker = study(gudgeon, text)[0]["tolerance"]["request.rocker"]
     for name in ("mean", "sigma"):
@@ -232,7 +232,8 @@ def test_files(gudgeon):
     ("98.3deg    98.9deg", "98.3mm     98.9deg", "wrong dimension of a limit"),
     ("98.3deg    98.9deg", "98.9deg    98.3deg", "the upper limit is below the lower one"),
     ("[analysis.kinematic]", "[analysis.dynamic]", "the deck has no section [analysis.kinematic]"),
-    ("[tolerance.limit]", "[tolerance.joint]\nname   pin\na      disc\n[tolerance.limit]", "not a planar revolute joint with clearance"),
+    ("[tolerance.limit]", "[tolerance.joint]\nname   pin\na      disc\n[tolerance.limit]",
+     "not a planar revolute joint with clearance"),
     ("[tolerance.limit]", "[tolerance]\nname   fit\nbranch   H7\n[tolerance.limit]", "a fit needs its diameter"),
 ])
 def test_refused(gudgeon, old, new, words):

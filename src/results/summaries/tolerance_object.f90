@@ -214,7 +214,7 @@ contains
       call one%put_integer("checked_open", int(study%n_open, i8))
       call one%put_integer("points", int(study%indices%points, i8))
       call one%put_integer("points_open", study%indices%open)
-      call one%put_real("cpu_members", study%members%cpu)
+      call one%put_real("cpu_members", study%cpu_members)
       text = one%get()
    end function object_of_study
 

@@ -50,7 +50,7 @@ contains
       end do
       call end_members(samples, study%members)
       call cpu_time(now)
-      study%members%cpu = now - start
+      study%cpu_members = now - start
    end subroutine sample_members
 
    !> Make storage; the references of the samples are the means to second order.

@@ -128,7 +128,7 @@ contains
       type(error_t), allocatable, intent(out) :: error      !! the instant is singular
 
       real(wp), allocatable :: rest(:), right(:, :), x(:, :)
-      integer :: i, k, n, outcome
+      integer :: i, k, n, outcome, rows(2)
       logical :: is_regular
 
       associate (instant => found%instants(at), linkage => nominal%system%linkage)
@@ -143,19 +143,15 @@ contains
          end do
          right(:, :n) = -right(:, :n)
          do k = 1, size(pins)
-            do i = 1, 2
-               associate (rows => pin_rows(nominal, pins(k)))
-                  right(rows(i), n + 2*(k - 1) + i) = -1.0_wp
-               end associate
-            end do
+            rows = pin_rows(nominal, pins(k))
+            right(rows(1), n + 2*k - 1) = -1.0_wp
+            right(rows(2), n + 2*k) = -1.0_wp
          end do
          allocate (rest(size(x, 1)), source=0.0_wp)
          call evaluate_rows(linkage, instant%t, instant%q, rest)
          call solve_tangents(linkage, right, x, is_regular)
          if (outcome /= solved .or. .not. is_regular) then
-            call set_error(error, exit_integration, "the positions have no derivatives at t = "//real_text(instant%t, 9)// &
-                           " s: constraint rows are linearly dependent there, as at a dead centre"//new_line("a")// &
-                           "  = shift the output times away from it")
+            call refuse_instant(instant%t, error)
             return
          end if
          found%tangents(:, :, at) = x(:, :n)
@@ -243,6 +239,16 @@ contains
       end subroutine values_along
 
    end subroutine find_at_instant
+
+   !> Positions have no derivatives at an instant.
+   subroutine refuse_instant(t, error)
+      real(wp), intent(in) :: t                             !! time [s]
+      type(error_t), allocatable, intent(out) :: error      !! the message
+
+      call set_error(error, exit_integration, "the positions have no derivatives at t = "//real_text(t, 9)// &
+                     " s: constraint rows are linearly dependent there, as at a dead centre"//new_line("a")// &
+                     "  = shift the output times away from it")
+   end subroutine refuse_instant
 
    !> Rows of a pin: x, then y.
    pure function pin_rows(nominal, pin) result(rows)

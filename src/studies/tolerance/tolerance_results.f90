@@ -68,7 +68,6 @@ module tolerance_results
       integer, allocatable :: at(:)                        !! (requests) time of the histogram: of the maximum deviation
       real(wp), allocatable :: edges(:, :)                 !! (0:bins, requests) of the histograms [any]
       integer(i8), allocatable :: counts(:, :)             !! (bins, requests) members between them
-      real(wp) :: cpu = 0.0_wp                             !! processor time of the members [s]
    end type members_t
 
    !> Sobol' indices.
@@ -94,6 +93,7 @@ module tolerance_results
       real(wp), allocatable :: sigma(:, :)                 !! (requests, times) root sum square [any]
       real(wp), allocatable :: mean(:, :)                  !! (requests, times) mean to second order [any]
       type(members_t) :: members                           !! what sampled mechanisms give
+      real(wp) :: cpu_members = 0.0_wp                     !! processor time of them [s]
       type(indices_t) :: indices                           !! how much each contributor scatters them
       integer :: n_checked = 0                             !! members that were assembled to check the expansion
       integer :: n_open = 0                                !! of these, members that cannot be assembled
