@@ -12,8 +12,8 @@ module counter_random
 
    integer(i8), parameter :: word = 4294967295_i8         !! 2^32 - 1: the bits of a word
    integer(i8), parameter :: parity = 466688986_i8        !! 0x1BD11BDA, of the schedule of the keys
-   integer, parameter :: rotations(8) = [13, 15, 26, 6, 17, 29, 16, 24]  !! bits by which a word is rotated
-   integer, parameter :: rounds = 20                      !! of the generator
+   integer, parameter :: rotations(4, 2) = reshape([13, 15, 26, 6, 17, 29, 16, 24], [4, 2])  !! bits by which a word is rotated
+   integer, parameter :: groups = 5                       !! of four rounds, each with a key behind it
 
 contains
 
@@ -24,18 +24,18 @@ contains
       integer(i8) :: x(2)                    !! (2) random words
 
       integer(i8) :: keys(0:2)
-      integer :: k, r
+      integer :: group, k, r
 
       keys = [key(1), key(2), ieor(ieor(parity, key(1)), key(2))]
       x = iand(counter + keys(0:1), word)
-      do k = 1, rounds
-         r = rotations(1 + mod(k - 1, 8))
-         x(1) = iand(x(1) + x(2), word)
-         x(2) = ieor(ior(iand(ishft(x(2), r), word), ishft(x(2), r - 32)), x(1))
-         if (mod(k, 4) == 0) then
-            x(1) = iand(x(1) + keys(mod(k/4, 3)), word)
-            x(2) = iand(x(2) + keys(mod(k/4 + 1, 3)) + int(k/4, i8), word)
-         end if
+      do group = 1, groups
+         do k = 1, 4
+            r = rotations(k, 1 + mod(group + 1, 2))
+            x(1) = iand(x(1) + x(2), word)
+            x(2) = ieor(ior(iand(ishft(x(2), r), word), ishft(x(2), r - 32)), x(1))
+         end do
+         x(1) = iand(x(1) + keys(mod(group, 3)), word)
+         x(2) = iand(x(2) + keys(mod(group + 1, 3)) + int(group, i8), word)
       end do
    end function threefry
 

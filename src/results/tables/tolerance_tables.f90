@@ -13,7 +13,7 @@ module tolerance_tables
 
 contains
 
-   !> The channels, at the time of their largest deviation.
+   !> The channels, each at the time that is shown of it.
    function table_of_requests(study) result(table)
       type(tolerance_study_t), intent(in) :: study   !! the study
       type(result_table_t) :: table                  !! a row for each channel
@@ -36,8 +36,8 @@ contains
       end do
       call table%start("requests", "tolerance_requests", n, title="Channels")
       call table%put("request", "1", "channel", texts=names, heading="channel", formats=in_files)
-      call table%put("time", "s", "time of its maximum standard deviation", study%derivatives%instants(at)%t, heading="time", &
-                     formats=in_files)
+      call table%put("time", "s", "time at which its mean is next to a limit, in standard deviations; else that of its "// &
+                     "maximum deviation", study%derivatives%instants(at)%t, heading="time", formats=in_files)
       call put("nominal", "nominal value", study%derivatives%values, "nominal")
       call put("low", "worst case, lower end", study%low, "worst from")
       call put("high", "worst case, upper end", study%high, "to")
@@ -66,7 +66,7 @@ contains
 
    end function table_of_requests
 
-   !> The contributors of each channel at the time of its largest deviation, largest first.
+   !> The contributors of each channel at the time that is shown of it, largest first.
    function table_of_contributors(study) result(table)
       type(tolerance_study_t), intent(in) :: study   !! the study
       type(result_table_t) :: table                  !! a row for each channel and contributor

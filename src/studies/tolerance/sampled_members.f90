@@ -69,7 +69,7 @@ contains
          allocate (samples(n_request, size(study%sigma, 2)))
          samples%reference = study%derivatives%values
          do r = 1, n_request
-            members%at(r) = maxloc(study%sigma(r, :), dim=1)
+            members%at(r) = shown_time(study, r)
             associate (middle => 0.5_wp*(study%low(r, members%at(r)) + study%high(r, members%at(r))), &
                        half => histogram_half*study%sigma(r, members%at(r)))
                members%edges(:, r) = [(middle + half*(2.0_wp*bin/bins - 1.0_wp), bin=0, bins)]
@@ -77,6 +77,20 @@ contains
          end do
       end associate
    end subroutine begin_members
+
+   !> Number of the time that tables and figures show of a channel: where its mean is next to a limit, in standard deviations;
+   !> without limits where its standard deviation is maximum.
+   pure integer function shown_time(study, r) result(at)
+      type(tolerance_study_t), intent(in) :: study         !! the study
+      integer, intent(in) :: r                             !! number of the channel
+
+      real(wp) :: margin(size(study%sigma, 2))
+
+      at = maxloc(study%sigma(r, :), dim=1)
+      if (.not. (study%requests(r)%is_limited .and. study%sigma(r, at) > 0.0_wp)) return
+      margin = min(study%requests(r)%upper - study%mean(r, :), study%mean(r, :) - study%requests(r)%lower)
+      at = minloc(margin/max(study%sigma(r, :), 1.0e-6_wp*study%sigma(r, at)), dim=1)
+   end function shown_time
 
    !> Take a block of members.
    subroutine take_block(some, study, samples)

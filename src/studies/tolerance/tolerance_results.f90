@@ -65,7 +65,7 @@ module tolerance_results
       real(wp), allocatable :: highest(:, :)               !! (requests, times) highest value [any]
       type(yield_t), allocatable :: yields(:)              !! (requests) within the limits of each
       type(yield_t) :: yield                               !! within all limits
-      integer, allocatable :: at(:)                        !! (requests) time of the histogram: of the maximum deviation
+      integer, allocatable :: at(:)                        !! (requests) number of the time that is shown, see `shown_time`
       real(wp), allocatable :: edges(:, :)                 !! (0:bins, requests) of the histograms [any]
       integer(i8), allocatable :: counts(:, :)             !! (bins, requests) members between them
    end type members_t
