@@ -34,6 +34,10 @@ contains
          call append_text(warnings, to_text(study%n_open)//" of "//to_text(study%n_checked)//" checked members cannot be "// &
                           "assembled: the yield by the expansion does not count such; use method = exact")
       end if
+      if (study%indices%open > 0) then
+         call append_text(warnings, to_text(study%indices%open)//" of "//to_text(study%plan%sampling%points)//" points of the "// &
+                          "indices have members that cannot be assembled: the indices are those of the others")
+      end if
       if (study%members%is_exact .or. study%n_open > 0) return
       if (any(study%errors > study%plan%sampling%accuracy*maxval(study%sigma, dim=2) + &
               1.0e-12_wp*maxval(abs(study%derivatives%values), dim=2))) then
