@@ -42,7 +42,8 @@ contains
       if (any(study%errors > study%plan%sampling%accuracy*maxval(study%sigma, dim=2) + &
               1.0e-12_wp*maxval(abs(study%derivatives%values), dim=2))) then
          call append_text(warnings, "the error of the expansion exceeds accuracy = "// &
-                          real_text(study%plan%sampling%accuracy, 3)//" of a standard deviation; use method = exact")
+                          real_text(study%plan%sampling%accuracy, 3)//" of a standard deviation; use "// &
+                          "method = exact, or a larger budget")
       end if
    end subroutine note_members
 

@@ -223,6 +223,7 @@ contains
          sampling%is_hypercube = number_of(info, study, "plan") == 2
          sampling%method = number_of(info, study, "method")
          sampling%accuracy = study%number("accuracy")
+         sampling%budget = study%number("budget")
          sampling%checked = nint(study%number("checked"))
          sampling%points = nint(study%number("points"))
          sampling%resamples = nint(study%number("resamples"))

@@ -6,7 +6,7 @@
 !> of normal distributions. A `fit` as H7/f7 gives the limits of a radial clearance by the `diameter`; H7 or f7 alone those of a
 !> diameter.
 module tolerance_info
-   use kind_info, only: add_any_number, add_number, add_word, add_words, dim_length, dim_none, kind_info_t
+   use kind_info, only: add_any_number, add_number, add_word, add_words, dim_length, dim_none, dim_time, kind_info_t
    use kinds, only: wp
    implicit none (type, external)
    private
@@ -80,6 +80,8 @@ contains
                     //"if its error in checked members is below `accuracy`", default="auto", choices="auto expansion exact")
       call add_number(info, "accuracy", dim_none, "accepted error of the expansion, of the standard deviation of each request", &
                       default="0.01", lower=0.0_wp, open_lower=.true.)
+      call add_number(info, "budget", dim_time, "processor time that `method = auto` may take to assemble all members; more: " &
+                      //"the expansion is taken, with a warning", default="60 s", lower=0.0_wp)
       call add_number(info, "checked", dim_none, "members that are assembled to find the error of the expansion", default="100", &
                       lower=1.0_wp, upper=1.0e6_wp)
       call add_number(info, "points", dim_none, "points of the plan of Sobol' indices; it has points*(contributors + 2) " &

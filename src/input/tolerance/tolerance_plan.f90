@@ -44,6 +44,7 @@ module tolerance_plan
       logical :: is_hypercube = .false.         !! a Latin hypercube, not independent members
       integer :: method = method_auto           !! one of the above
       real(wp) :: accuracy = 0.0_wp             !! accepted error of the expansion, of a standard deviation [1]
+      real(wp) :: budget = 0.0_wp               !! time to assemble all members, if the method is chosen [s]
       integer :: checked = 0                    !! members that are assembled to find it
       integer :: points = 0                     !! of the plan of Sobol' indices
       integer :: resamples = 0                  !! for their intervals

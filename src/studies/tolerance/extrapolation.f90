@@ -11,7 +11,7 @@ module extrapolation
    private
    public :: extrapolated, n_step, step_of
 
-   integer, parameter :: n_step = 4   !! steps
+   integer, parameter :: n_step = 5   !! steps
 
 contains
 

@@ -4,8 +4,9 @@
 !> $$ B = \sum_i |S_i| T_i + \sum_k c_k |G_k|, \quad
 !>    s^2 = \sum_i S_i^2 s_i^2 + \sum_k w_k E(c_k^2) |G_k|^2, \quad
 !>    E(R) = R_0 + \sum_i S_i\mu_i + \tfrac12\sum_i H_{ii} (s_i^2 + \mu_i^2) + \sum_{j<i} H_{ij}\mu_i\mu_j . $$
-!> w is 1/4 of a pin uniform in its circle and 1/2 of one on it. A pin that a force presses in the direction u shifts the channel by
-!> c G u, and its clearance has the derivative G u. The worst case takes each clearance at its upper limit.
+!> w is 1/4 of a pin uniform in its circle and 1/2 of one on it; the mean has w c^2 tr(K)/2 besides. A pin that a force presses
+!> in the direction u shifts the channel by c G u, the mean also by c^2 u K u/2, and its clearance has the derivative G u.
+!> The worst case takes each clearance at its upper limit.
 !> Source: D. H. Evans, J. Qual. Technol. 7 (1975) 1-12. Limits: independent parameters; the mean to second order.
 module first_order
    use kinds, only: wp
@@ -44,7 +45,7 @@ contains
       integer, intent(in) :: r                          !! number of the channel
       integer, intent(in) :: at                         !! number of the time
 
-      real(wp) :: centre, gain, largest, mean_clearance, square
+      real(wp) :: bend, centre, gain, largest, mean_clearance, square
       integer :: i, k, n
 
       n = size(study%plan%parameters)
@@ -67,17 +68,22 @@ contains
                gain = norm2(found%pins(:, k, r, at))
                mean_clearance = c + dot_product(by, parameters%mean)
                square = mean_clearance**2 + sum((by*parameters%sigma)**2)
+               bend = sum(found%pin_curvatures(1:2, k, r, at))
                largest = c + dot_product(by, 0.5_wp*(parameters%upper + parameters%lower)) + &
                          dot_product(abs(by), 0.5_wp*(parameters%upper - parameters%lower))
                select case (study%pins(k)%position)
                case (pin_force)
                   gain = dot_product(found%pins(:, k, r, at), found%directions(:, k, at))
                   centre = centre + gain*c
-                  study%mean(r, at) = study%mean(r, at) + gain*c
+                  study%mean(r, at) = study%mean(r, at) + gain*c + 0.5_wp*square*( &
+                                      dot_product(found%pin_curvatures(1:2, k, r, at), found%directions(:, k, at)**2) + &
+                                      2.0_wp*found%pin_curvatures(3, k, r, at)*product(found%directions(:, k, at)))
                case (pin_disc)
+                  study%mean(r, at) = study%mean(r, at) + 0.125_wp*square*bend
                   parts(n + k) = 0.25_wp*square*gain**2
                   widths(n + k) = largest*gain
                case (pin_circle)
+                  study%mean(r, at) = study%mean(r, at) + 0.25_wp*square*bend
                   parts(n + k) = 0.5_wp*square*gain**2
                   widths(n + k) = largest*gain
                case default

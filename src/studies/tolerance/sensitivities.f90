@@ -25,9 +25,10 @@ module sensitivities
    private
    public :: find_sensitivities, pin_rows
 
-   real(wp), parameter :: step_part = 0.04_wp    !! longest step, of the value of the parameter [1]
+   real(wp), parameter :: step_part = 0.01_wp    !! longest step, of the value of the parameter [1]
    real(wp), parameter :: shorter = 1.0_wp/16.0_wp   !! step after one with which the deck has errors, of that [1]
    integer, parameter :: most_tries = 5              !! steps that are tried
+   real(wp), parameter :: round_off = 1.0e-14_wp     !! change of a channel over the longest step that is zero, of its value [1]
    real(wp), parameter :: step_of_size = 0.01_wp !! of the size of the mechanism, or one radian, if the value is zero [1]
 
 contains
@@ -204,6 +205,7 @@ contains
             end do
          end do
          slopes = extrapolated(values(:, :, 1), values(:, :, 2), h)
+         where (abs(slopes)*h <= round_off*abs(found%values(:, at))) slopes = 0.0_wp
       end subroutine find_value_slopes
 
       !> Derivatives of the channels by a displacement of a pin.
@@ -222,6 +224,7 @@ contains
             end do
          end do
          slopes = extrapolated(values(:, :, 1), values(:, :, 2), h)
+         where (abs(slopes)*h <= round_off*abs(found%values(:, at))) slopes = 0.0_wp
       end subroutine find_pin_slopes
 
       !> Channels at the nominal positions and a change of them. A singular instant was found before: there is no outcome.

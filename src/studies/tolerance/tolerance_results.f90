@@ -35,6 +35,7 @@ module tolerance_results
       real(wp), allocatable :: slopes(:, :, :)             !! (parameters, requests, times) derivatives [any]
       real(wp), allocatable :: curvatures(:, :, :, :)      !! (parameters, parameters, requests, times) second derivatives [any]
       real(wp), allocatable :: pins(:, :, :, :)            !! (2, pins, requests, times) by x, y of a displaced pin [any]
+      real(wp), allocatable :: pin_curvatures(:, :, :, :)  !! (3, pins, requests, times) second ones by xx, yy, xy of it [any]
       real(wp), allocatable :: tangents(:, :, :)           !! (n_v bodies, parameters, times) of the positions [any]
       real(wp), allocatable :: pin_tangents(:, :, :)       !! (n_v bodies, 2 pins, times) the same by x, y of pins [any]
       real(wp), allocatable :: directions(:, :, :)         !! (2, pins, times) where the force presses a pin; 0: no force [1]
@@ -95,6 +96,7 @@ module tolerance_results
       type(members_t) :: members                           !! what sampled mechanisms give
       real(wp) :: cpu_members = 0.0_wp                     !! processor time of them [s]
       type(indices_t) :: indices                           !! how much each contributor scatters them
+      real(wp) :: cpu_checked = 0.0_wp                     !! processor time of checked members [s]
       integer :: n_checked = 0                             !! members that were assembled to check the expansion
       integer :: n_open = 0                                !! of these, members that cannot be assembled
       real(wp), allocatable :: errors(:)                   !! (requests) maximum error of the expansion in them [any]

@@ -27,6 +27,7 @@ contains
       type(tolerance_study_t), intent(inout) :: study      !! the study
       type(error_t), allocatable, intent(out) :: error     !! a parameter cannot be changed, or an instant is singular
 
+      real(wp) :: members
       logical :: is_exact
 
       call find_sensitivities(source, nominal, study, error)
@@ -36,7 +37,10 @@ contains
       associate (sampling => study%plan%sampling)
          is_exact = sampling%method == method_exact
          call check_expansion(source, study)
-         if (sampling%method == method_auto) is_exact = .not. is_accurate(study)
+         if (sampling%method == method_auto) then
+            members = sampling%members + real(sampling%points, wp)*(size(study%contributors) + 2)
+            is_exact = .not. is_accurate(study) .and. study%cpu_checked/study%n_checked*members <= sampling%budget
+         end if
          call sample_members(source, study, is_exact)
          call find_study_indices(source, study, is_exact)
       end associate
@@ -50,8 +54,10 @@ contains
 
       type(draw_t) :: draw
       real(wp), allocatable :: deviations(:), u(:), units(:, :), clearances(:)
+      real(wp) :: now, start
       integer :: at, m, r, side
 
+      call cpu_time(start)
       call draw%begin(study)
       allocate (study%errors(size(study%requests)), source=0.0_wp)
       associate (parameters => study%plan%parameters, pins => study%pins)
@@ -79,6 +85,8 @@ contains
             end do
          end do
       end associate
+      call cpu_time(now)
+      study%cpu_checked = now - start
 
    contains
 
