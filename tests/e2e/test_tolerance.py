@@ -321,3 +321,12 @@ def test_in_space(gudgeon, name, nominal):
         slope = (8 * (values[1] - values[-1]) - (values[2] - values[-2])) / (12 * step * 1e-3)
         assert found["derivative"][name]["value"] == pytest.approx(slope, rel=1e-9, abs=1e-9 * np.abs(slope).max() + 1e-11), channel
     assert of["tolerance"]["c_4.position.y"]["sigma"]["value"] == [0.0] * 4
+
+
+def test_a_million_members(gudgeon):
+    """A million members of the four-bar take less than 10 s of one processor."""
+    summary, _ = study(gudgeon, FOUR_BAR + "\n[tolerance.study]\nmembers = 1000000\npoints = 20\n")
+    assert summary["tolerance_study"]["members"] == 1000000
+    assert summary["tolerance_study"]["cpu_members"] < 10
+    rocker = summary["tolerance"]["request.rocker"]
+    assert rocker["sigma"]["sampled"][0] == pytest.approx(rocker["sigma"]["value"][0], rel=3e-3)
