@@ -29,7 +29,7 @@ module member_values
 
 contains
 
-   !> Make the members of some random numbers.
+   !> Make the members of some random numbers, no more than the first time.
    subroutine block_fill(self, source, study, draw, u, is_exact)
       class(block_t), intent(inout) :: self                !! the block
       class(mechanism_source_t), intent(inout) :: source   !! gives changed mechanisms
@@ -43,9 +43,9 @@ contains
       n = size(study%plan%parameters)
       n_pin = size(study%pins)
       if (.not. allocated(self%deviations)) then
-         allocate (self%deviations(block_length, n), self%units(block_length, 2, n_pin), self%clearances(block_length, n_pin), &
-                   self%is_open(block_length))
-         if (is_exact) allocate (self%exact(size(study%requests), size(study%derivatives%instants), block_length))
+         allocate (self%deviations(size(u, 2), n), self%units(size(u, 2), 2, n_pin), self%clearances(size(u, 2), n_pin), &
+                   self%is_open(size(u, 2)))
+         if (is_exact) allocate (self%exact(size(study%requests), size(study%derivatives%instants), size(u, 2)))
       end if
       self%n = size(u, 2)
       self%is_exact = is_exact

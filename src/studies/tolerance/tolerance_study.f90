@@ -4,10 +4,10 @@ module tolerance_study
    use exact_member, only: assemble_member
    use expansion, only: expanded_value, find_curvatures
    use first_order, only: combine_derivatives
-   use kinds, only: i8, wp
+   use kinds, only: i8, not_a_number, wp
    use mechanism_source, only: mechanism_source_t
    use member_draws, only: draw_t, stream_a, stream_b, stream_check, stream_resamples
-   use member_values, only: block_length, block_t
+   use member_values, only: block_t
    use sampled_members, only: sample_members
    use sensitivities, only: find_sensitivities
    use sobol_indices, only: find_indices, resample_weights
@@ -124,83 +124,74 @@ contains
                         1.0e-12_wp*maxval(abs(study%derivatives%values), dim=2))
    end function is_accurate
 
-   !> Sobol' indices of all channels at all times, of the same plan.
+   !> Sobol' indices of all channels at all times, of the same plans: A, those with a contributor of B, B.
    subroutine find_study_indices(source, study, is_exact)
       class(mechanism_source_t), intent(inout) :: source   !! gives changed mechanisms
       type(tolerance_study_t), intent(inout) :: study      !! indices are set
       logical, intent(in) :: is_exact                      !! members are assembled
 
+      type(block_t), allocatable :: plans(:)
       type(draw_t) :: draw
-      real(wp), allocatable :: u_a(:, :), u_b(:, :), values(:, :, :, :), weights(:, :)
-      integer :: at, k, m, n, n_all, r
-      logical, allocatable :: is_open(:)
+      real(wp), allocatable :: mixed(:, :), u_a(:, :), u_b(:, :)
+      integer :: k, m, n, n_all
 
       n = study%plan%sampling%points
       n_all = size(study%contributors)
       call draw%begin(study)
-      allocate (u_a(draw%n, n), u_b(draw%n, n), is_open(n))
-      allocate (values(n, size(study%requests), size(study%derivatives%instants), 0:n_all + 1))
+      allocate (u_a(draw%n, n), u_b(draw%n, n), plans(0:n_all + 1))
       do m = 1, n
          call draw%numbers(stream_a, int(m, i8), u_a(:, m))
          call draw%numbers(stream_b, int(m, i8), u_b(:, m))
       end do
-      is_open = .false.
-      call evaluate(u_a, values(:, :, :, 0))
-      call evaluate(u_b, values(:, :, :, n_all + 1))
-      do k = 1, n_all
-         block
-            real(wp), allocatable :: mixed(:, :)
-
-            allocate (mixed, source=u_a)
+      allocate (mixed, source=u_a)
+      do k = 0, n_all + 1
+         mixed = u_a
+         if (k > n_all) mixed = u_b
+         if (k > 0 .and. k <= n_all) then
             mixed(draw%first(k):draw%first(k + 1) - 1, :) = u_b(draw%first(k):draw%first(k + 1) - 1, :)
-            call evaluate(mixed, values(:, :, :, k))
-         end block
-         call source%show(0.9_wp + 0.1_wp*k/n_all)
+         end if
+         call plans(k)%fill(source, study, draw, mixed, is_exact)
+         call source%show(0.9_wp + 0.05_wp*k/n_all)
       end do
-      study%indices%open = count(is_open)
-      study%indices%points = n - count(is_open)
-      allocate (study%indices%first(3, n_all, size(values, 2), size(values, 3)), &
-                study%indices%total(3, n_all, size(values, 2), size(values, 3)), source=0.0_wp)
-      if (study%indices%points < 2) return
-      allocate (weights(study%indices%points, study%plan%sampling%resamples))
-      call resample_weights(draw%seed, stream_resamples, weights)
-      do at = 1, size(values, 3)
-         do r = 1, size(values, 2)
-            block
-               real(wp), allocatable :: kept(:, :)
-
-               allocate (kept(study%indices%points, 0:n_all + 1))
-               do k = 0, n_all + 1
-                  kept(:, k) = pack(values(:, r, at, k), .not. is_open)
-               end do
-               call find_indices(kept(:, 0), kept(:, n_all + 1), kept(:, 1:n_all), weights, study%indices%first(:, :, r, at), &
-                                 study%indices%total(:, :, r, at))
-            end block
-         end do
-      end do
-
-   contains
-
-      !> Values of a plan.
-      subroutine evaluate(u, found)
-         real(wp), intent(in) :: u(:, :)             !! (numbers, points) random numbers [1]
-         real(wp), intent(out) :: found(:, :, :)     !! (points, requests, times) values [any]
-
-         type(block_t) :: some
-         integer :: from, time, to, which
-
-         do from = 1, size(u, 2), block_length
-            to = min(from + block_length - 1, size(u, 2))
-            call some%fill(source, study, draw, u(:, from:to), is_exact)
-            is_open(from:to) = is_open(from:to) .or. some%is_open(:some%n)
-            do time = 1, size(found, 3)
-               do which = 1, size(found, 2)
-                  call some%values(study, which, time, found(from:to, which, time))
-               end do
-            end do
-         end do
-      end subroutine evaluate
-
+      call compare_plans(source, plans, draw%seed, study)
    end subroutine find_study_indices
+
+   !> Indices from the plans. Points with a member that cannot be assembled in any of them are omitted.
+   subroutine compare_plans(source, plans, seed, study)
+      class(mechanism_source_t), intent(inout) :: source   !! shows how far it is
+      type(block_t), intent(in) :: plans(0:)               !! (0:contributors + 1) plan A, mixed ones, plan B
+      integer, intent(in) :: seed                          !! of the resamples
+      type(tolerance_study_t), intent(inout) :: study      !! indices are set
+
+      real(wp), allocatable :: kept(:, :), values(:), weights(:, :)
+      logical, allocatable :: is_closed(:)
+      integer :: at, k, n_all, r
+
+      n_all = size(plans) - 2
+      allocate (is_closed(plans(0)%n), source=.true.)
+      do k = 0, n_all + 1
+         is_closed = is_closed .and. .not. plans(k)%is_open
+      end do
+      associate (indices => study%indices, n_request => size(study%requests), n_time => size(study%derivatives%instants))
+         indices%points = count(is_closed)
+         indices%open = plans(0)%n - indices%points
+         allocate (indices%first(3, n_all, n_request, n_time), indices%total(3, n_all, n_request, n_time), &
+                   source=not_a_number())
+         if (indices%points < 2) return
+         allocate (weights(indices%points, study%plan%sampling%resamples), kept(indices%points, 0:n_all + 1), values(plans(0)%n))
+         call resample_weights(seed, stream_resamples, weights)
+         do at = 1, n_time
+            do r = 1, n_request
+               do k = 0, n_all + 1
+                  call plans(k)%values(study, r, at, values)
+                  kept(:, k) = pack(values, is_closed)
+               end do
+               call find_indices(kept(:, 0), kept(:, n_all + 1), kept(:, 1:n_all), weights, indices%first(:, :, r, at), &
+                                 indices%total(:, :, r, at))
+            end do
+            call source%show(0.95_wp + 0.05_wp*at/n_time)
+         end do
+      end associate
+   end subroutine compare_plans
 
 end module tolerance_study
