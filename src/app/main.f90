@@ -20,6 +20,7 @@ program gudgeon
    use verb_run, only: run_deck
    use verb_sensitivity, only: derive_deck
    use verb_sweep, only: sweep_deck
+   use verb_tolerance, only: study_tolerances
    implicit none (type, external)
 
    type(error_t), allocatable :: console_error, error
@@ -47,6 +48,8 @@ program gudgeon
          call live_deck(options, error)
       case ("sensitivity")
          call derive_deck(options, error)
+      case ("tolerance")
+         call study_tolerances(options, error)
       case ("precision")
          call compare_precision(options, error)
       case ("compare")

@@ -22,7 +22,7 @@ SWEEP = "\n[sweep]\nlaw = hertz lankarani_nikravesh\nc = 0.5 0.2 mm\n"
 def test_every_verb_has_a_smoke_test(gudgeon):
     """The verbs of `gudgeon help` are those below."""
     verbs = set(re.findall(r"(?m)^  gudgeon (\w+)", call(gudgeon, "help").stdout))
-    known = "run sweep merge life sensitivity precision check explain compare import new list help version"
+    known = "run sweep merge life sensitivity tolerance precision check explain compare import new list help version"
     assert verbs == set(known.split())
 
 
@@ -81,6 +81,13 @@ def test_life(gudgeon):
     folder = scratch()
     call(gudgeon, "life", ROOT / "inputs" / "worn_bush.deck", "--set", "depth=12um", "--out", folder / "out", "--quiet")
     assert (folder / "out" / "life.h5").exists()
+
+
+def test_tolerance(gudgeon):
+    """A four-bar with tolerances."""
+    folder = scratch()
+    call(gudgeon, "tolerance", ROOT / "inputs" / "tolerance_four_bar.deck", "--out", folder / "out", "--quiet")
+    assert (folder / "out" / "tolerance.h5").exists()
 
 
 def test_precision(gudgeon):

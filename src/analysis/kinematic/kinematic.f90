@@ -15,13 +15,12 @@ module kinematic
    use cpu_budget, only: cpu_budget_t
    use errors, only: error_t, exit_integration, set_error
    use output_times, only: output_times_t
-   use inverse_dynamics, only: find_reactions
    use kinds, only: i8, not_a_number, wp
+   use kinematic_report, only: report_motion
    use linkage, only: linkage_t
    use mobility, only: find_mobility, mobility_t, stiffest_driver
    use mechanism_energy, only: energy_of, energy_t
    use mechanism_catalogue, only: build_catalogue
-   use mechanism_report, only: fill_catalogue
    use mechanism, only: mechanism_t
    use prescribed_motion, only: newton_t, not_finite_rows, open_rows, singular, solve_positions, solve_rates, solved
    use recorder, only: recorder_t, status_complete, status_failed, status_stopped, summary_t
@@ -329,22 +328,9 @@ contains
       type(summary_t), intent(inout) :: summary         !! maxima are raised
 
       type(energy_t) :: energy
-      integer, parameter :: most_turns = 100         ! of friction in joints and reactions, at most
-      real(wp), parameter :: same = 1.0e-12_wp       ! change of friction forces that ends them, of the maximum [1]
-      real(wp) :: change, unbalanced, y(size(state%q) + size(state%v))
-      integer :: turn
 
-      call evaluate_rows(system%linkage, state%t, state%q, state%v)
-      call system%evaluate_loads(system%linkage%segment%inside(state%t))
-      call find_reactions(system%linkage, system%loading%g, state%a, unbalanced)
-      do turn = 1, merge(most_turns, 0, system%friction%rubbing%n > 0)  ! friction in joints, by the reactions that it gives
-         call system%friction_by_multipliers(.true., turn > 1, change)
-         call find_reactions(system%linkage, system%loading%g, state%a, unbalanced)
-         if (change <= same) exit
-      end do
-      y = [state%q, state%v]
-      call fill_catalogue(system, state%t, y, 0.0_wp, catalogue)
-      energy = energy_of(system, y)
+      call report_motion(system, state%t, state%q, state%v, state%a, catalogue)
+      energy = energy_of(system, [state%q, state%v])
       summary%quality%energy_max = max(summary%quality%energy_max, energy%kinetic + energy%elastic)
       summary%quality%violation_max = max(summary%quality%violation_max, maxval(abs(system%linkage%rows%phi)))
       summary%quality%violation_rate_max = max(summary%quality%violation_rate_max, maxval(abs(system%linkage%solution%phi_dot)))

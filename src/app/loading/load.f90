@@ -27,6 +27,7 @@ module load
    use options, only: options_t
    use parameter_change, only: change_parameters
    use read_scene, only: scene_from_deck
+   use read_tolerance, only: has_tolerances
    use run_limits, only: check_conditions, has_conditions
    use run_profiles, only: set_profile_reader
    use sensitivity_info, only: sensitivity_section
@@ -41,6 +42,7 @@ module load
    use swept, only: sweep_t
    use text, only: append_text, to_text
    use time_plan, only: new_time_plan
+   use tolerance_words, only: check_tolerances
    use word_checks, only: check_words, read_figures
    use worn_file, only: read_worn_file
    implicit none (type, external)
@@ -142,6 +144,13 @@ contains
       call check_steps(loaded%scene%settings%integration, mistakes)
       call new_time_plan(loaded%scene, loaded%system, loaded%plan, mistakes)
       if (loaded%scene%settings%life%is_present) call check_life(loaded%scene, loaded%system, mistakes)
+      if (has_tolerances(loaded%deck) .and. .not. options%runs%is_member) then
+         if (has_all_words) then
+            call check_tolerances(loaded%deck, loaded%scene, loaded%catalogue, mistakes)
+         else
+            call check_tolerances(loaded%deck, loaded%scene, catalogue, mistakes)
+         end if
+      end if
       if (mistakes%count() == 0) call check_function_ranges(loaded%scene, loaded%plan%end, mistakes)
       if (has_all_words) then
          if (.not. options%runs%has_known_words) then

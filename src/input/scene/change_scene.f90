@@ -14,6 +14,7 @@ module change_scene
    use references, only: add_names, directory_t
    use scene, only: n_base, scene_t, table_t
    use tables, only: read_items
+   use text, only: starts_with
    use worn_registry, only: n_worn_kinds
    implicit none (type, external)
    private
@@ -35,6 +36,9 @@ contains
       integer :: k
 
       is_read = .not. is_touched
+      do k = 1, size(is_read)  ! tables of a study of tolerances are no part of the scene
+         is_read(k) = is_read(k) .or. deck%sections(k)%name == "tolerance" .or. starts_with(deck%sections(k)%name, "tolerance.")
+      end do
       do k = 1, n_base
          call read_again(scene%tables%base(k))
       end do

@@ -25,6 +25,7 @@ module kind_list
    use section_info, only: dynamic_info, kinematic_info, output_info, scene_info, static_info
    use sensitivity_info, only: sensitivity_section
    use study_info, only: ensemble_info, life_info, statistics_info, sweep_info
+   use tolerance_info, only: tolerance_joint_info, tolerance_limit_info, tolerance_study_info, tolerance_table_info
    use wear_law, only: wear_law_t
    use worn_kind, only: worn_kind_t
    use worn_registry, only: n_worn_kinds, new_worn_kind
@@ -175,7 +176,7 @@ contains
       before_films = before_wears + n_wear_kinds() + 1
       before_worn = before_films + n_film_kinds()
       before_settings = before_worn + n_worn_kinds()
-      allocate (known(before_settings + 15))
+      allocate (known(before_settings + 19))
       known(1) = scene_info()
       known(2) = bodies_info()
       known(3) = points_info()
@@ -263,7 +264,11 @@ contains
       known(before_settings + 12) = ensemble_info()
       known(before_settings + 13) = life_info()
       known(before_settings + 14) = sensitivity_section()
-      known(before_settings + 15) = precision_section()
+      known(before_settings + 15) = tolerance_table_info()
+      known(before_settings + 16) = tolerance_joint_info()
+      known(before_settings + 17) = tolerance_limit_info()
+      known(before_settings + 18) = tolerance_study_info()
+      known(before_settings + 19) = precision_section()
    end subroutine ask_settings
 
 end module kind_list

@@ -19,6 +19,7 @@ module json_text
       procedure :: start => start_object
       procedure :: put_text
       procedure :: put_real
+      procedure :: put_reals
       procedure :: put_integer
       procedure :: put_logical
       procedure :: put_list
@@ -70,6 +71,27 @@ contains
          call self%buffer%add("null")
       end if
    end subroutine put_real
+
+   !> A member that is a list of numbers; what is not finite becomes null.
+   subroutine put_reals(self, name, values)
+      class(json_object_t), intent(inout) :: self  !! the object
+      character(*), intent(in) :: name             !! of the member
+      real(wp), intent(in) :: values(:)            !! (n) its values [any]
+
+      integer :: k
+
+      call put_name(self, name)
+      call self%buffer%add("[")
+      do k = 1, size(values)
+         if (k > 1) call self%buffer%add(", ")
+         if (ieee_is_finite(values(k))) then
+            call self%buffer%add(exact_text(values(k)))
+         else
+            call self%buffer%add("null")
+         end if
+      end do
+      call self%buffer%add("]")
+   end subroutine put_reals
 
    !> A member that is an integer.
    subroutine put_integer(self, name, value)

@@ -1,0 +1,137 @@
+!> The summaries of a study of tolerances, for people and for scripts.
+module tolerance_report
+   use console, only: say
+   use errors, only: error_t
+   use json_text, only: json_object_t
+   use kinds, only: wp
+   use load, only: loaded_t
+   use options, only: options_t
+   use output_plan, only: output_plan_t
+   use recorder, only: status_complete
+   use text, only: append_text, counted, real_text, text_t, to_text
+   use text_buffer, only: buffer_t
+   use text_file, only: replace_file
+   use text_of_table, only: add_table
+   use tolerance_object, only: put_tolerances
+   use tolerance_results, only: tolerance_study_t
+   use tolerance_tables, only: table_of_contributors, table_of_requests
+   use version, only: program_version
+   implicit none (type, external)
+   private
+   public :: note_members, report_tolerances
+
+contains
+
+   !> What a careful reader should know of the members.
+   subroutine note_members(study, warnings)
+      type(tolerance_study_t), intent(in) :: study              !! the study
+      type(text_t), allocatable, intent(inout) :: warnings(:)   !! (any) grown
+
+      if (.not. study%derivatives%has_curvatures) then
+         call append_text(warnings, "a mechanism next to the nominal one cannot be assembled: means to second order lack parts")
+      end if
+      if (study%n_open > 0 .and. .not. study%members%is_exact) then
+         call append_text(warnings, to_text(study%n_open)//" of "//to_text(study%n_checked)//" checked members cannot be "// &
+                          "assembled: the yield by the expansion does not count such; use method = exact")
+      end if
+      if (study%indices%open > 0) then
+         call append_text(warnings, to_text(study%indices%open)//" of "//to_text(study%plan%sampling%points)//" points of the "// &
+                          "indices have members that cannot be assembled: the indices are those of the others")
+      end if
+      if (study%members%is_exact .or. study%n_open > 0) return
+      if (any(study%errors > study%plan%sampling%accuracy*maxval(study%sigma, dim=2) + &
+              1.0e-12_wp*maxval(abs(study%derivatives%values), dim=2))) then
+         call append_text(warnings, "the error of the expansion exceeds accuracy = "// &
+                          real_text(study%plan%sampling%accuracy, 3)//" of a standard deviation; use "// &
+                          "method = exact, or a larger budget")
+      end if
+   end subroutine note_members
+
+   !> Write and show the summaries.
+   subroutine report_tolerances(options, loaded, plan, study, pictures, warnings, error)
+      type(options_t), intent(in) :: options                 !! the command line
+      type(loaded_t), intent(in) :: loaded                   !! the deck
+      type(output_plan_t), intent(in) :: plan                !! what files say
+      type(tolerance_study_t), intent(in) :: study           !! the study
+      type(text_t), intent(in) :: pictures(:)                !! (n) pictures made
+      type(text_t), intent(in) :: warnings(:)                !! (m) what was noticed
+      type(error_t), allocatable, intent(out) :: error       !! a file cannot be written
+
+      character(:), allocatable :: object, text
+
+      text = text_of(plan, study, pictures, warnings)
+      object = object_of(loaded, plan, study, pictures, warnings)
+      call replace_file(plan%directory//"/summary.txt", text, error)
+      if (.not. allocated(error)) call replace_file(plan%directory//"/summary.json", object//new_line("a"), error)
+      if (options%is_json) then
+         call say(object)
+      else if (.not. options%is_quiet) then
+         call say(text(:len(text) - 1))
+      end if
+   end subroutine report_tolerances
+
+   !> The summary for people.
+   function text_of(plan, study, pictures, warnings) result(text)
+      type(output_plan_t), intent(in) :: plan                !! what files say
+      type(tolerance_study_t), intent(in) :: study           !! the study
+      type(text_t), intent(in) :: pictures(:)                !! (n) pictures made
+      type(text_t), intent(in) :: warnings(:)                !! (m) what was noticed
+      character(:), allocatable :: text                      !! whole lines
+
+      type(buffer_t) :: lines
+      integer :: k
+
+      call lines%line(plan%title)
+      call lines%line("complete: "//counted(size(study%plan%parameters), "toleranced parameter", "toleranced parameters")//", "// &
+                      counted(size(study%pins), "joint with clearance", "joints with clearance")//", "// &
+                      counted(size(study%derivatives%instants), "output time", "output times"))
+      associate (members => study%members)
+         call lines%line("members    "//to_text(members%n)//trim(merge(" assembled       ", " by the expansion", &
+                         members%is_exact))//", "//to_text(members%open)//" cannot be assembled; "// &
+                         to_text(study%n_checked)//" checked")
+         if (any(study%requests%is_limited)) then
+            associate (yield => members%yield)
+               call lines%line("yield      "//real_text(real(yield%good, wp)/real(yield%n, wp), 6)//", 95 %: "// &
+                               real_text(yield%low, 6)//" to "//real_text(yield%high, 6)//" within all limits")
+            end associate
+         end if
+      end associate
+      call add_table(lines, table_of_requests(study))
+      call add_table(lines, table_of_contributors(study))
+      call lines%line("")
+      call lines%line("output     "//plan%directory//"/")
+      call lines%line("           tolerance.h5, tolerance.csv, tolerance_derivatives.csv")
+      do k = 1, size(pictures)
+         call lines%line("           "//pictures(k)%s)
+      end do
+      do k = 1, size(warnings)
+         call lines%line("warning: "//warnings(k)%s)
+      end do
+      text = lines%get()
+   end function text_of
+
+   !> The summary for scripts.
+   function object_of(loaded, plan, study, pictures, warnings) result(object)
+      type(loaded_t), intent(in) :: loaded                   !! the deck
+      type(output_plan_t), intent(in) :: plan                !! what files say
+      type(tolerance_study_t), intent(in) :: study           !! the study
+      type(text_t), intent(in) :: pictures(:)                !! (n) pictures made
+      type(text_t), intent(in) :: warnings(:)                !! (m) what was noticed
+      character(:), allocatable :: object                    !! as text
+
+      type(json_object_t) :: json
+
+      call json%start(0)
+      call json%put_text("program", "gudgeon "//program_version)
+      call json%put_text("deck", loaded%path)
+      call json%put_text("title", plan%title)
+      call json%put_text("directory", plan%directory)
+      call json%put_text("status", status_complete)
+      call json%put_text("message", "")
+      call put_tolerances(json, study)
+      call json%put_list("figures", pictures)
+      call json%put_list("warnings", warnings)
+      object = json%get()
+   end function object_of
+
+end module tolerance_report

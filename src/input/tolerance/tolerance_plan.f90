@@ -1,0 +1,64 @@
+!> What a study of tolerances is asked: parameters with their tolerances, pins with clearance, limits, sampling.
+module tolerance_plan
+   use item, only: location_t
+   use kind_info, only: dim_t
+   use kinds, only: not_a_number, wp
+   use text, only: text_t
+   use tolerated, only: tolerated_t
+   implicit none (type, external)
+   private
+   public :: limit_t, method_auto, method_exact, method_expansion, pin_circle, pin_disc, pin_force, pin_t, pin_worst, &
+      tolerance_plan_t
+
+   integer, parameter :: pin_disc = 1     !! anywhere in the circle of the clearance, uniform
+   integer, parameter :: pin_circle = 2   !! on the circle, uniform
+   integer, parameter :: pin_force = 3    !! where the force of the ideal joint presses it
+   integer, parameter :: pin_worst = 4    !! where it is worst for each request
+
+   integer, parameter :: method_auto = 1       !! by the expansion if it is accurate
+   integer, parameter :: method_expansion = 2  !! by the expansion of second order
+   integer, parameter :: method_exact = 3      !! each member is assembled
+
+   !> A joint with clearance.
+   type :: pin_t
+      character(:), allocatable :: joint   !! name of the joint
+      integer :: position = pin_disc       !! one of the above
+      type(location_t) :: location         !! of its row
+   end type pin_t
+
+   !> Limits of a channel.
+   type :: limit_t
+      character(:), allocatable :: channel           !! as written
+      real(wp) :: lower = -huge(1.0_wp)              !! lower limit, SI [any]
+      real(wp) :: upper = huge(1.0_wp)               !! upper limit, SI [any]
+      type(location_t) :: location                   !! of the channel
+      type(location_t) :: at(2)                      !! (2) of the limits
+      logical :: has(2) = .false.                    !! (2) whether it has a lower and an upper one
+      type(dim_t) :: dimensions(2)                   !! (2) of the limits
+   end type limit_t
+
+   !> Sampling.
+   type :: sampling_t
+      integer :: members = 0                    !! mechanisms that are sampled
+      integer :: seed = 0                       !! of the random numbers
+      logical :: is_hypercube = .false.         !! a Latin hypercube, not independent members
+      integer :: method = method_auto           !! one of the above
+      real(wp) :: accuracy = 0.0_wp             !! accepted error of the expansion, of a standard deviation [1]
+      real(wp) :: budget = 0.0_wp               !! time to assemble all members, if the method is chosen [s]
+      integer :: checked = 0                    !! members that are assembled to find it
+      integer :: points = 0                     !! of the plan of Sobol' indices
+      integer :: resamples = 0                  !! for their intervals
+      integer :: bins = 0                       !! of histograms
+   end type sampling_t
+
+   !> All of it.
+   type :: tolerance_plan_t
+      type(tolerated_t), allocatable :: parameters(:)  !! (parameters) with their tolerances
+      type(pin_t), allocatable :: pins(:)              !! (any) rows of [tolerance.joint]
+      type(limit_t), allocatable :: limits(:)          !! (any) rows of [tolerance.limit]
+      type(text_t), allocatable :: requests(:)         !! (any) channels that are named as requests
+      type(location_t), allocatable :: places(:)       !! (any) where they stand
+      type(sampling_t) :: sampling                     !! of the members
+   end type tolerance_plan_t
+
+end module tolerance_plan
