@@ -396,7 +396,8 @@ DEFINES := -DSUNDIALS_VERSION=$(SUNDIALS_VERSION) -DSUNDIALS_INDEX=$(SUNDIALS_IN
 CFLAGS := -std=c11 -Wall -Wextra $(filter -fno-pie,$(OPTIMISE)) $(filter-out -f%,$(OPTIMISE))$(if $(SANITIZE), $(SANITIZE))
 PREFIX_MAP := -ffile-prefix-map=$(CURDIR)=.
 COMPILE = $(FC) $(FFLAGS) $(PREFIX_MAP) -J$(B)/mod -I$(B)/mod $(SUNDIALS_INCLUDE) $(HDF5_INCLUDE)
-LINK_PROGRAM = $(FC) $(FFLAGS) $(FIXED_PLACE) -o $@ $(sort $(filter %.o,$^)) $(LIBRARIES)
+# Lists of objects go by files: a shell takes 128 kB of words at most.
+LINK_PROGRAM = $(file >$@.objects,$(sort $(filter %.o,$^)))$(FC) $(FFLAGS) $(FIXED_PLACE) -o $@ @$@.objects $(LIBRARIES)
 
 # Files that change only when their content does: flags, what is linked, build_info, the test program.
 keep_if_equal = cmp -s $(1).new $(1) && rm -f $(1).new || mv $(1).new $(1)
@@ -405,10 +406,11 @@ $(shell mkdir -p $(sort $(B)/mod $(B)/obj/gen $(B)/tests $(B)/bench $(B)/films \
   $(FILM_MAINS) $(FILM_HELPERS) $(FUZZ_MAIN) $(COVERAGE)))))
 $(shell { $(FC) --version | head -n 1; echo '$(COMPILE) $(DEFINES) $(CC) $(CFLAGS)'; } > $(B)/flags.new; \
   $(call keep_if_equal,$(B)/flags); \
-  echo '$(OBJECTS) $(TEST_OBJECTS) $(LIBRARIES)' > $(B)/objects.new; $(call keep_if_equal,$(B)/objects); \
   scripts/buildinfo $(FC) '$(FFLAGS)' > $(B)/build_info.f90.new; $(call keep_if_equal,$(B)/build_info.f90); \
   awk -f scripts/testmain.awk $(TEST_SOURCES) > $(B)/tests/run_tests.f90.new; \
   $(call keep_if_equal,$(B)/tests/run_tests.f90))
+$(file >$(B)/objects.new,$(OBJECTS) $(TEST_OBJECTS) $(LIBRARIES))
+$(shell $(call keep_if_equal,$(B)/objects))
 ifneq ($(shell awk -v obj=$(B)/obj -v mod=$(B)/mod -v gen=$(B) -f scripts/moddeps.awk $(SOURCES) $(MAIN) \
   $(TEST_HELPERS) $(TEST_SOURCES) $(BENCH_HELPERS) $(BENCH_MAINS) $(FILM_HELPERS) $(FILM_MAINS) $(FUZZ_MAIN) \
   $(GENERATED) > $(B)/deps.mk || echo failed),)

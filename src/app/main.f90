@@ -76,5 +76,4 @@ program gudgeon
       call end_process(error%code)
    end if
    call end_process(exit_ok)
-
 end program gudgeon

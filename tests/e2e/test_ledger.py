@@ -9,7 +9,9 @@ from scipy.integrate import trapezoid
 from support import DECK, ROOT, Run, assert_close, call, changed, finished, scratch, written
 
 ALL = (("output", "channels", None),)
-LOOSE = sorted(deck for deck in (ROOT / "inputs").glob("*.deck") if "[clearance." in deck.read_text())
+LOOSE = sorted(deck for deck in (ROOT / "inputs").glob("*.deck")
+               if "[clearance." in deck.read_text() and "[analysis.dynamic]" in deck.read_text())
+OFTEN = {"impact_pair": 8, "shaken_ball": 10}  # tens of impacts: each has an error of its own
 
 
 def parts(run):
@@ -210,7 +212,8 @@ def test_decks_with_loose_joints_close(gudgeon, deck):
     text = changed(deck.read_text(), "output", figures=None, channels=None)
     call(gudgeon, "run", written(directory, text), "--out", directory / "out", "--quiet")
     run = Run(directory / "out")
-    assert run.summary["energy_residual_max"] < 100 * run.summary["tolerance"] * run.summary["energy_max"]
+    allowed = 100 * OFTEN.get(deck.stem, 1)
+    assert run.summary["energy_residual_max"] < allowed * run.summary["tolerance"] * run.summary["energy_max"]
     if deck.stem in ("incline", "friction"):
         call(gudgeon, "run", written(directory, text), "--method", "verner", "--out", directory / "verner", "--quiet")
         run = Run(directory / "verner")

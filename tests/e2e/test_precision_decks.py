@@ -20,7 +20,8 @@ SHORTER = {"a02_four_bars_40": "0.5 s", "shaken_pendulum": "0.05 s", "friction":
            "big_end": "0.5 ms", "stressed_bearing": "0.02 s", "double_pendulum": "0.1 s", "four_bar_spatial": "0.1 s", "a05_flyball": "0.4 s",
            "crosshead": "0.02 s", "slider_crank_lubricated": "24 ms", "slider_crank_6_6_bushing": "8 ms", "slider_crank_6_6_ball": "8 ms",
            "slider_crank_6_6_lubricated": "8 ms"}
-REFUSED = {"four_bar_kinematic": (2, "the comparison needs [analysis.dynamic]"), "dead_point": (5, "no run was completed")}
+KINEMATIC = ("four_bar_kinematic", "tolerance_four_bar", "tolerance_slider_crank")
+REFUSED = {"dead_point": (5, "no run was completed"), **dict.fromkeys(KINEMATIC, (2, "the comparison needs [analysis.dynamic]"))}
 LEAST_FALL = 3  # of the median error of a decade over two decades; in proportion it is 100
 
 

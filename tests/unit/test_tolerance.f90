@@ -45,7 +45,7 @@ contains
 
       integer(i8), parameter :: all_ones = 4294967295_i8
       integer, parameter :: n = 20000
-      real(wp) :: u(n)
+      real(wp), allocatable :: u(:)
       integer :: k, order(100), other(100)
 
       call check_true(error, all(threefry([0_i8, 0_i8], [0_i8, 0_i8]) == [int(z'6b200159', i8), int(z'99ba4efe', i8)]), "zeros")
@@ -229,10 +229,11 @@ contains
       real(wp), intent(out) :: first(3, 3)    !! (3, 3) value, interval
       real(wp), intent(out) :: total(3, 3)    !! (3, 3) the same of total indices
 
-      real(wp) :: a(n), ab(n, 3), b(n), u(3), v(3), w(3)
-      real(wp), allocatable :: weights(:, :)
+      real(wp), allocatable :: a(:), ab(:, :), b(:), weights(:, :)
+      real(wp) :: u(3), v(3), w(3)
       integer :: k, m
 
+      allocate (a(n), ab(n, 3), b(n))
       do m = 1, n
          u = [(uniform_at(seed, 3, int(m, i8), k), k=1, 3)]
          v = [(uniform_at(seed, 4, int(m, i8), k), k=1, 3)]

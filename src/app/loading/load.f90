@@ -158,8 +158,9 @@ contains
          end if
          if (has_conditions(loaded%scene)) call check_conditions(loaded%scene, loaded%catalogue, mistakes)
          if (loaded%has_sensitivity .and. loaded%scene%analysis == analysis_dynamic) then
-            call plan_sensitivity(loaded%deck, loaded%sensitivity_keys, loaded%system, loaded%catalogue, loaded%plan%end, &
-                                  loaded%sensitivity, mistakes)
+            call plan_sensitivity(loaded%deck, loaded%sensitivity_keys, loaded%system, loaded%catalogue, &
+                                  merge(huge(1.0_wp), loaded%plan%end, options%verb == "run"), loaded%sensitivity, &
+                                  mistakes)  ! a run may be shorter than what [sensitivity] asks for
          end if
       else
          call check_words(loaded%deck, loaded%scene, loaded%figures, loaded%sweep, loaded%plan%end, catalogue, mistakes)
