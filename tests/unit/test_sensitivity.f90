@@ -1,5 +1,6 @@
 !> Derivatives of a ball that falls on a linear spring, against closed forms; what is refused.
 module test_sensitivity
+   use, intrinsic :: ieee_arithmetic, only: ieee_is_nan
    use check, only: check_close, check_equal, check_true, suite_t
    use deck_scene, only: load_text, loaded_t
    use errors, only: error_t
@@ -209,7 +210,7 @@ contains
       call derive("verner", 1.0_wp, study, error)
       if (allocated(error)) return
       call check_true(error, index(study%reason(1, 3)%s, "beyond its bound") > 0, "at the bound: "//study%reason(1, 3)%s)
-      call check_true(error, .not. study%derivative(1, 3) <= huge(1.0_wp), "no derivative")
+      call check_true(error, ieee_is_nan(study%derivative(1, 3)), "no derivative")
    end subroutine test_bound
 
 end module test_sensitivity

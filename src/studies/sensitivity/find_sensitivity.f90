@@ -18,7 +18,7 @@ module find_sensitivity
    public :: compare_motions, find_sensitivities
 
    real(wp), parameter :: part_of_parameter = 1.0e-3_wp  !! changes of parameters, of them; twice that in the first motion [1]
-   real(wp), parameter :: noise = 1.0e-12_wp     !! error by round-off: of the result, for a change of the parameter by itself [1]
+   real(wp), parameter :: noise = 1.0e-12_wp     !! minimum error, or the tolerance: of the result, for a change of the parameter by itself [1]
    real(wp), parameter :: of_tolerance = 10.0_wp !! minimum relative error, of the tolerance [1]
    real(wp), parameter :: tighter = 0.1_wp       !! tolerance of the second motion, of that of the first [1]
    real(wp), parameter :: shared = 1.0e-3_wp     !! difference of onsets that are the same, of the mean time between onsets [1]
@@ -97,7 +97,8 @@ contains
                   if (difference(m) < useless*abs(d(m))) relative = max(relative, difference(m)/abs(d(m)))
                end do
                relative = max(relative, of_tolerance*study%plan%tolerance)
-               study%error(p, k) = max(twice*difference(k), relative*abs(d(k)), noise*abs(second%value(k))/magnitude)
+               study%error(p, k) = max(twice*difference(k), relative*abs(d(k)), &
+                                       max(noise, study%plan%tolerance)*abs(second%value(k))/magnitude)
                if (study%error(p, k) > useless*abs(d(k)) .and. &
                    study%error(p, k)*magnitude > no_effect*abs(second%value(k))) then
                   study%reason(p, k)%s = "error "//real_text(study%error(p, k), 2)//" of the derivative "//real_text(d(k), 2)// &
