@@ -18,7 +18,7 @@ module find_sensitivity
    public :: compare_motions, find_sensitivities
 
    real(wp), parameter :: part_of_parameter = 1.0e-3_wp  !! changes of parameters, of them; twice that in the first motion [1]
-   real(wp), parameter :: noise = 1.0e-12_wp     !! minimum error, or the tolerance: of a result, by a change of the parameter by itself [1]
+   real(wp), parameter :: noise = 1.0e-12_wp     !! minimum error, or the tolerance: of results, by relative changes [1]
    real(wp), parameter :: of_tolerance = 10.0_wp !! minimum relative error, of the tolerance [1]
    real(wp), parameter :: tighter = 0.1_wp       !! tolerance of the second motion, of that of the first [1]
    real(wp), parameter :: shared = 1.0e-3_wp     !! difference of onsets that are the same, of the mean time between onsets [1]
