@@ -83,8 +83,8 @@ contains
    end subroutine surface_max_depth
 
    !> Angle of all that has lost something, full, at the centre of the surface. Each stretch of worn cells ends within the two outer
-   !> cells of its sides, where the areas of the next cells come to zero: the outer ones are worn by what is elastic, too. Where these
-   !> do not come to zero there, it ends in the outer cell, which they would give its area.
+   !> cells of its sides, where the areas of the next cells come to zero: the outer ones are worn by elastic overlap, too. Where
+   !> these do not come to zero there, it ends in the outer cell, which they would give its area.
    pure real(wp) function worn_arc(self) result(arc)
       class(worn_surface_t), intent(in) :: self   !! the surface
 
@@ -123,7 +123,8 @@ contains
       if (n > 2) width = n - 2 + part_of_outer(area(1), area(2:n - 1)) + part_of_outer(area(n), area(n - 1:2:-1))
    end function width_of
 
-   !> Part of an outer cell that is worn, of the next one too if negative: where pairs of the six cells behind these two come to zero.
+   !> Part of an outer cell that is worn, of the next one too if negative: to where pairs of the six cells behind these two come to
+   !> zero.
    pure real(wp) function part_of_outer(outer, inner) result(part)
       real(wp), intent(in) :: outer      !! area of the outer cell [m^2]
       real(wp), intent(in) :: inner(:)   !! (n) those of the cells beside it, from the outer cell on [m^2]
