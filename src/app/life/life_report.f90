@@ -1,6 +1,5 @@
 !> The summaries of a life, for people and for scripts.
 module life_report
-   use console, only: say
    use errors, only: error_t
    use json_table, only: put_tables
    use json_text, only: json_object_t
@@ -11,11 +10,10 @@ module life_report
    use options, only: options_t
    use output_plan, only: output_plan_t
    use recorder, only: status_complete, status_failed
+   use study_summary, only: show_summaries, start_summary
    use text, only: counted, real_text, text_t, to_text
    use text_buffer, only: buffer_t
-   use text_file, only: replace_file
    use text_of_table, only: add_table
-   use version, only: program_version
    use wear_object, only: put_wear
    use wear_tables, only: tables_of_wear
    use worn_surface, only: worn_surface_t
@@ -41,13 +39,7 @@ contains
 
       text = text_of(plan, life, n_made, pictures, warnings, failure)
       object = object_of(loaded, plan, life, n_made, pictures, warnings, failure)
-      call replace_file(plan%directory//"/summary.txt", text, error)
-      if (.not. allocated(error)) call replace_file(plan%directory//"/summary.json", object//new_line("a"), error)
-      if (options%is_json) then
-         call say(object)
-      else if (.not. options%is_quiet) then
-         call say(text(:len(text) - 1))
-      end if
+      call show_summaries(options, plan%directory, text, object, error)
    end subroutine report_life
 
    !> The summary for people.
@@ -125,17 +117,10 @@ contains
       type(json_object_t) :: json
       type(worn_surface_t), allocatable :: worn(:)
 
-      call json%start(0)
-      call json%put_text("program", "gudgeon "//program_version)
-      call json%put_text("deck", loaded%path)
-      call json%put_text("title", plan%title)
-      call json%put_text("directory", plan%directory)
       if (allocated(failure)) then
-         call json%put_text("status", status_failed)
-         call json%put_text("message", failure%message)
+         call start_summary(json, loaded%path, plan, status_failed, failure%message)
       else
-         call json%put_text("status", status_complete)
-         call json%put_text("message", "")
+         call start_summary(json, loaded%path, plan, status_complete, "")
       end if
       call json%put_integer("made", int(n_made, i8))
       associate (node => life%nodes(life%last))

@@ -13,7 +13,7 @@ module run_limits
    use units, only: parse_unit, unit_t
    implicit none (type, external)
    private
-   public :: check_conditions, find_scalars, has_conditions, limits_of, words_of
+   public :: dimension_of, check_conditions, find_scalars, has_conditions, limits_of, words_of
 
 contains
 

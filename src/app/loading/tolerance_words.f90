@@ -7,13 +7,13 @@ module tolerance_words
    use diagnostics, only: diagnostics_t
    use dimension_text, only: dimension_name
    use item, only: location_t
-   use kind_info, only: dim_none, dim_t, same_dimension
+   use kind_info, only: dim_t, same_dimension
    use read_tolerance, only: read_tolerance_plan
+   use run_limits, only: dimension_of
    use scene, only: scene_t
    use spelling, only: nearest_word
    use text, only: append_text, join, text_t
    use tolerance_plan, only: tolerance_plan_t
-   use units, only: parse_unit, unit_t
    implicit none (type, external)
    private
    public :: check_tolerances, find_numbers, names_of_pins
@@ -50,7 +50,7 @@ contains
          associate (limit => plan%limits(k))
             call find_numbers(limit%channel, catalogue, limit%location, .true., scalars, mistakes)
             if (size(scalars) == 0) cycle
-            call check_limit(dimension_of_scalar(catalogue, scalars(1)), limit%dimensions, limit%has, limit%at, mistakes)
+            call check_limit(dimension_of(catalogue, scalars(1)), limit%dimensions, limit%has, limit%at, mistakes)
          end associate
       end do
    end subroutine check_tolerances
@@ -94,23 +94,6 @@ contains
       call mistakes%add(location, message, "unknown here", hint)
       scalars = scalars(:0)
    end subroutine find_numbers
-
-   !> Dimension of a number.
-   type(dim_t) function dimension_of_scalar(catalogue, scalar) result(dimension)
-      type(catalogue_t), intent(in) :: catalogue    !! what can be reported
-      type(scalar_t), intent(in) :: scalar          !! the number
-
-      type(unit_t) :: unit
-      character(:), allocatable :: message
-      integer :: first, last
-
-      dimension = dim_none
-      associate (symbol => catalogue%groups(scalar%group)%channel%unit)
-         if (symbol == "1") return
-         call parse_unit(symbol, unit, message, first, last)
-         dimension = unit%dimension
-      end associate
-   end function dimension_of_scalar
 
    !> Names of the planar revolute joints with clearance: those of a table with a bearing and a clearance.
    function names_of_pins(scene) result(names)

@@ -1,6 +1,5 @@
 !> The summaries of a study of sensitivities, for people and for scripts.
 module sensitivity_report
-   use console, only: say
    use errors, only: error_t
    use json_table, only: put_tables
    use json_text, only: json_object_t
@@ -13,11 +12,10 @@ module sensitivity_report
    use sensitivity_object, only: put_sensitivity
    use sensitivity_results, only: sensitivity_t
    use sensitivity_tables, only: table_of_derivatives, table_of_motion, table_of_parameters, table_of_results
+   use study_summary, only: show_summaries, start_summary
    use text, only: counted, real_text, text_t, to_text
    use text_buffer, only: buffer_t
-   use text_file, only: replace_file
    use text_of_table, only: add_table
-   use version, only: program_version
    implicit none (type, external)
    private
    public :: report_sensitivity
@@ -37,13 +35,7 @@ contains
 
       text = text_of(plan, study, warnings)
       object = object_of(loaded, plan, study, warnings)
-      call replace_file(plan%directory//"/summary.txt", text, error)
-      if (.not. allocated(error)) call replace_file(plan%directory//"/summary.json", object//new_line("a"), error)
-      if (options%is_json) then
-         call say(object)
-      else if (.not. options%is_quiet) then
-         call say(text(:len(text) - 1))
-      end if
+      call show_summaries(options, plan%directory, text, object, error)
    end subroutine report_sensitivity
 
    !> The summary for people.
@@ -106,13 +98,7 @@ contains
 
       type(json_object_t) :: json
 
-      call json%start(0)
-      call json%put_text("program", "gudgeon "//program_version)
-      call json%put_text("deck", loaded%path)
-      call json%put_text("title", plan%title)
-      call json%put_text("directory", plan%directory)
-      call json%put_text("status", status_complete)
-      call json%put_text("message", "")
+      call start_summary(json, loaded%path, plan, status_complete, "")
       call put_sensitivity(json, study)
       call put_tables(json, [table_of_motion(study), table_of_parameters(study), table_of_results(study)])
       call json%put_list("warnings", warnings)

@@ -1,6 +1,5 @@
 !> The summaries of a study of tolerances, for people and for scripts.
 module tolerance_report
-   use console, only: say
    use errors, only: error_t
    use json_text, only: json_object_t
    use kinds, only: wp
@@ -8,14 +7,13 @@ module tolerance_report
    use options, only: options_t
    use output_plan, only: output_plan_t
    use recorder, only: status_complete
+   use study_summary, only: show_summaries, start_summary
    use text, only: append_text, counted, real_text, text_t, to_text
    use text_buffer, only: buffer_t
-   use text_file, only: replace_file
    use text_of_table, only: add_table
    use tolerance_object, only: put_tolerances
    use tolerance_results, only: tolerance_study_t
    use tolerance_tables, only: table_of_contributors, table_of_requests
-   use version, only: program_version
    implicit none (type, external)
    private
    public :: note_members, report_tolerances
@@ -61,13 +59,7 @@ contains
 
       text = text_of(plan, study, pictures, warnings)
       object = object_of(loaded, plan, study, pictures, warnings)
-      call replace_file(plan%directory//"/summary.txt", text, error)
-      if (.not. allocated(error)) call replace_file(plan%directory//"/summary.json", object//new_line("a"), error)
-      if (options%is_json) then
-         call say(object)
-      else if (.not. options%is_quiet) then
-         call say(text(:len(text) - 1))
-      end if
+      call show_summaries(options, plan%directory, text, object, error)
    end subroutine report_tolerances
 
    !> The summary for people.
@@ -121,13 +113,7 @@ contains
 
       type(json_object_t) :: json
 
-      call json%start(0)
-      call json%put_text("program", "gudgeon "//program_version)
-      call json%put_text("deck", loaded%path)
-      call json%put_text("title", plan%title)
-      call json%put_text("directory", plan%directory)
-      call json%put_text("status", status_complete)
-      call json%put_text("message", "")
+      call start_summary(json, loaded%path, plan, status_complete, "")
       call put_tolerances(json, study)
       call json%put_list("figures", pictures)
       call json%put_list("warnings", warnings)

@@ -98,7 +98,7 @@ contains
 
    contains
 
-      !> A number, or zero where there is none.
+      !> A number; 0 if it is undefined.
       pure real(wp) function known(x)
          real(wp), intent(in) :: x   !! NaN: nothing scatters [1]
 

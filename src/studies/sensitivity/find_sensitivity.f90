@@ -24,7 +24,7 @@ module find_sensitivity
    real(wp), parameter :: shared = 1.0e-3_wp     !! difference of onsets that are the same, of the mean time between onsets [1]
    real(wp), parameter :: twice = 2.0_wp         !! error of a derivative, of the difference of both motions [1]
    real(wp), parameter :: useless = 0.1_wp       !! error of a derivative that is refused, of it [1]
-   real(wp), parameter :: no_effect = 1.0e-9_wp  !! error that is none: of the result, for a change of the parameter by itself [1]
+   real(wp), parameter :: no_effect = 1.0e-9_wp  !! error of a derivative that is zero: of results, by relative changes [1]
 
 contains
 

@@ -21,7 +21,7 @@ module parameter_source
          integer, intent(in) :: parameter                    !! number of the parameter among those asked for
          real(wp), intent(in) :: value                       !! its value, SI [any]
          type(job_t), intent(out) :: job                     !! the scene with it
-         character(:), allocatable, intent(out) :: reason    !! why there is none; blank: there is
+         character(:), allocatable, intent(out) :: reason    !! why no mechanism could be made; blank: one was made
       end subroutine make_interface
    end interface
 

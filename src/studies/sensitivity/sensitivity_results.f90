@@ -53,7 +53,7 @@ module sensitivity_results
       real(wp), allocatable :: t(:)                 !! (results) when [s]
       real(wp), allocatable :: value(:)             !! (results) [any]
       real(wp), allocatable :: derivative(:, :)     !! (parameters, results) NaN: none [any]
-      type(text_t), allocatable :: reason(:)        !! (parameters) why there is none from some time on; blank: nothing is wrong
+      type(text_t), allocatable :: reason(:)        !! (parameters) why derivatives end at some time; blank: they do not
       real(wp), allocatable :: until(:)             !! (parameters) that time [s]
       real(wp), allocatable :: grazing(:)           !! (parameters) minimum change at which a contact would graze; huge: none [any]
       real(wp), allocatable :: onset(:)             !! (any) times of all onsets [s]

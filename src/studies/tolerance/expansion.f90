@@ -6,7 +6,7 @@
 !> $$ 2 h_i h_j H_{ij} = R(h_i, h_j) + R(-h_i, -h_j) - 2 R_0 - h_i^2 H_{ii} - h_j^2 H_{jj} . $$
 !> K likewise, of each pin. Limits: no mixed terms of pins and parameters, or of two pins; parameters without tolerance have
 !> no second derivatives; where a mechanism next to the nominal one cannot be assembled they are zero, and the
-!> expansion is not used by itself.
+!> study assembles its members, if its budget allows.
 module expansion
    use errors, only: error_t
    use, intrinsic :: ieee_arithmetic, only: ieee_is_finite
