@@ -16,6 +16,7 @@ program gudgeon
    use verb_life, only: live_deck
    use verb_merge, only: merge_sweep
    use verb_new, only: new_deck
+   use verb_orbit, only: orbit_deck
    use verb_precision, only: compare_precision
    use verb_run, only: run_deck
    use verb_sensitivity, only: derive_deck
@@ -48,6 +49,8 @@ program gudgeon
          call live_deck(options, error)
       case ("sensitivity")
          call derive_deck(options, error)
+      case ("orbit")
+         call orbit_deck(options, error)
       case ("tolerance")
          call study_tolerances(options, error)
       case ("precision")
