@@ -69,7 +69,7 @@ contains
       call lines%line("output     "//plan%directory//"/")
       call lines%line("           orbit.h5"//trim(merge(", branch.csv", "            ", study%plan%parameter /= "")))
       do k = 1, size(pictures)
-         call lines%line("           figures/"//pictures(k)%s)
+         call lines%line("           "//pictures(k)%s)
       end do
       do k = 1, size(warnings)
          call lines%line("warning: "//warnings(k)%s)

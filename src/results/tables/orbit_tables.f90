@@ -26,8 +26,8 @@ contains
          end do
          call table%start("orbit_onsets", "orbit_onsets", size(contacts), title="Onsets of the orbit")
          call table%put("contact", "1", "joint, or joint and contact", texts=contacts, heading="contact")
-         call table%put("time", "s", "from the start of the period", orbit%onset, heading="time [s]", digits=10)
-         call table%put("impact_speed", "m/s", "normal approach speed", orbit%speed, heading="impact speed [m/s]", digits=10)
+         call table%put("time", "s", "from the start of the period", orbit%onset, heading="time", digits=10)
+         call table%put("impact_speed", "m/s", "normal approach speed", orbit%speed, heading="impact speed", digits=10)
       end associate
    end function table_of_onsets
 
@@ -116,7 +116,7 @@ contains
          call table%put("parameter", "list", "value of the parameter", [(some(k)%orbit%p, k=1, size(some))], &
                         heading=study%plan%parameter, digits=10, formats=in_hdf5 + in_csv)
          table%units = [(text_t(study%plan%unit), k=1, size(some))]
-         call table%put("phase", "rad", "as of the branch", [(some(k)%orbit%phase, k=1, size(some))], heading="phase [rad]", &
+         call table%put("phase", "rad", "as of the branch", [(some(k)%orbit%phase, k=1, size(some))], heading="phase", &
                         digits=10, formats=in_hdf5 + in_csv)
       end associate
    end function table_of_bifurcations
