@@ -18,7 +18,7 @@ module continuation
    private
    public :: follow_branch
 
-   integer, parameter :: easy = 4                    !! iterations after which steps grow
+   integer, parameter :: easy = 6                    !! iterations after which steps grow
    real(wp), parameter :: growth = 1.5_wp            !! of steps [1]
    real(wp), parameter :: first_part = 0.25_wp       !! first step, of the longest one [1]
    real(wp), parameter :: shortest = 1.0e-3_wp       !! step at which the branch is given up, of the longest one [1]

@@ -3,7 +3,8 @@
 !> $$ P(z; p) - z = 0, \qquad \tau_z^T (z - z_0) + \tau_p (p - p_0) = 0 $$
 !>
 !> with the direction tau, in which the point is searched in the plane through (z_0, p_0); tau = (0, 1) keeps the parameter. While
-!> the residual is small the matrix of the iteration before is used again (chord method).
+!> corrections are small and the residual falls, the matrix of an earlier orbit or iteration is used (chord method); that of the
+!> orbit found is its own.
 !> Source: R. Seydel, Practical Bifurcation and Stability Analysis (2010), chapters 4 and 7.
 module find_orbit
    use, intrinsic :: ieee_arithmetic, only: ieee_is_finite
@@ -17,10 +18,9 @@ module find_orbit
    public :: correct_orbit, drop_cyclic
 
    integer, parameter :: most_iterations = 15           !! of Newton's method
-   integer, parameter :: renewed = 7                    !! iteration after which the matrix is renewed in any case
+   real(wp), parameter :: slow = 0.2_wp                 !! residual, of that before, after which the matrix is renewed [1]
    real(wp), parameter :: of_tolerance = 30.0_wp        !! residual of an orbit, of the tolerance of the motion [1]
    real(wp), parameter :: chord = 1.0e-3_wp             !! correction below which the matrix is used again, of the scales [1]
-   real(wp), parameter :: same = 1.0e-8_wp              !! distance at which M is that of the orbit, of the scales [1]
    real(wp), parameter :: longest = 0.3_wp              !! correction, of the scales [1]
    real(wp), parameter :: cyclic = 1.0e-6_wp            !! difference of a column of M and of a unit vector [1]
 
@@ -36,82 +36,88 @@ contains
       integer, intent(out) :: n_iteration                     !! iterations
       character(:), allocatable, intent(out) :: reason        !! why none was found; blank: one was
 
-      type(period_t) :: period, trial
-      real(wp) :: a(size(direction), size(direction)), right(size(direction)), size_of
-      real(wp) :: start(size(orbit%z)), x(size(direction))
-      integer :: info, k, m, wanted
+      type(period_t) :: own, trial
+      real(wp) :: a(size(direction), size(direction)), previous, right(size(direction)), x(size(direction))
+      integer :: info, m, wanted
       logical :: has_matrix
 
       m = size(orbit%z)
       wanted = merge(with_parameter, with_matrix, p_scale > 0.0_wp)
-      has_matrix = .false.
+      has_matrix = allocated(orbit%matrix) .and. (allocated(orbit%by_p) .or. wanted == with_matrix)
+      previous = huge(1.0_wp)
       reason = ""
       do n_iteration = 1, most_iterations
          call map%follow(orbit%p, orbit%z, merge(only_end, wanted, has_matrix), trial)
          reason = trial%reason
          if (reason /= "") return
          if (.not. has_matrix) then
-            period = trial
-         else
-            period%end = trial%end
+            own = trial
+            orbit%matrix = own%matrix
+            if (wanted == with_parameter) orbit%by_p = own%by_p
          end if
-         right = 0.0_wp
-         right(:m) = orbit%z - period%end
+         right(:m) = orbit%z - trial%end
+         right(m + 1) = 0.0_wp
          orbit%residual = maxval(abs(right))
          if (orbit%residual <= of_tolerance*plan%tolerance) then
             if (.not. has_matrix) exit
-            has_matrix = maxval(abs(orbit%z - start)) <= same
-            if (has_matrix) exit
+            has_matrix = .false.  ! the matrix of the orbit itself is wanted
             cycle
          end if
-         if (.not. has_matrix) then
-            start = orbit%z
-            a = 0.0_wp
-            a(:m, :m) = period%matrix
-            do k = 1, m
-               a(k, k) = a(k, k) - 1.0_wp
-            end do
-            if (p_scale > 0.0_wp) a(:m, m + 1) = period%by_p*p_scale
-            a(m + 1, :) = direction
-         end if
+         call fill_matrix(orbit, direction, p_scale, a)
          call solve(a, right, x, info)
          if (info /= 0 .or. .not. all(ieee_is_finite(x))) then
             reason = "the matrix of Newton's method is singular: a multiplier is 1"
             return
          end if
-         size_of = maxval(abs(x))
-         x = x*min(1.0_wp, longest/max(size_of, tiny(1.0_wp)))
+         has_matrix = maxval(abs(x)) < chord .and. orbit%residual < slow*previous
+         previous = orbit%residual
+         x = x*min(1.0_wp, longest/max(maxval(abs(x)), tiny(1.0_wp)))
          orbit%z = orbit%z + x(:m)
          orbit%p = orbit%p + x(m + 1)*p_scale
-         has_matrix = size_of < chord .and. n_iteration /= renewed
       end do
       if (n_iteration > most_iterations) then
          reason = "Newton's method ends after "//to_text(most_iterations)//" iterations at a residual of "// &
                   real_text(orbit%residual, 2)//" of the scales"
-         return
+      else
+         call take_over(map, plan, own, orbit)
       end if
-      call take_over(map, plan, trial, period, orbit)
    end subroutine correct_orbit
 
+   !> The matrix of an iteration: derivatives of the residual, and the direction.
+   pure subroutine fill_matrix(orbit, direction, p_scale, a)
+      type(orbit_t), intent(in) :: orbit             !! derivatives of the map
+      real(wp), intent(in) :: direction(:)           !! (m + 1) tau [1]
+      real(wp), intent(in) :: p_scale                !! scale of the parameter; 0: it is kept [any]
+      real(wp), intent(out) :: a(:, :)               !! (m + 1, m + 1) the matrix [1]
+
+      integer :: k, m
+
+      m = size(direction) - 1
+      a = 0.0_wp
+      a(:m, :m) = orbit%matrix
+      do k = 1, m
+         a(k, k) = a(k, k) - 1.0_wp
+      end do
+      if (p_scale > 0.0_wp) a(:m, m + 1) = orbit%by_p*p_scale
+      a(m + 1, :) = direction
+   end subroutine fill_matrix
+
    !> What is known of the orbit.
-   subroutine take_over(map, plan, last, period, orbit)
+   subroutine take_over(map, plan, period, orbit)
       type(period_map_t), intent(in) :: map          !! the map of a period
       type(orbit_plan_t), intent(in) :: plan         !! for the phase
-      type(period_t), intent(in) :: last             !! the last period
-      type(period_t), intent(in) :: period           !! the last one with derivatives
+      type(period_t), intent(in) :: period           !! the period
       type(orbit_t), intent(inout) :: orbit          !! the orbit
 
       real(wp) :: phase
       integer :: k
 
-      orbit%matrix = period%matrix
-      if (allocated(period%by_p)) orbit%by_p = period%by_p
       orbit%multipliers = find_multipliers(period%matrix)
       orbit%is_stable = all(abs(orbit%multipliers) <= 1.0_wp)
-      orbit%period = last%length
-      orbit%onset = last%found%onset
-      orbit%contact = last%found%contact
-      orbit%speed = last%found%speed
+      orbit%period = period%length
+      orbit%onset = period%found%onset
+      orbit%contact = period%found%contact
+      orbit%speed = period%found%speed
       orbit%phase = not_a_number()
       do k = 1, size(orbit%onset)
          if (orbit%contact(k) < plan%first .or. orbit%contact(k) > plan%last) cycle
