@@ -10,7 +10,7 @@ module orbit_words
    use mechanism, only: mechanism_t
    use orbit_results, only: orbit_plan_t
    use spelling, only: nearest_word
-   use text, only: join, text_t
+   use text, only: join, real_text, text_t
    use time_plan, only: seconds
    implicit none (type, external)
    private
@@ -120,6 +120,13 @@ contains
       associate (value => section%values(place_of(section, "to")))
          if (.not. plan%from < plan%to) call mistakes%add(value%location, "'to' must be greater than 'from'", "not greater")
       end associate
+      if (plan%p < plan%from .or. plan%p > plan%to) then
+         associate (value => section%values(place_of(section, "parameter")))
+            call mistakes%add(value%location, "parameter '"//plan%parameter//"' is "//real_text(plan%p, 6)//", not within "// &
+                              real_text(plan%from, 6)//" to "//real_text(plan%to, 6)//" (SI)", "the branch does not start", &
+                              "give other bounds, or another value of the parameter")
+         end associate
+      end if
 
    contains
 

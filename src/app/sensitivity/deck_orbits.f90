@@ -1,5 +1,6 @@
 !> Scenes of a deck along a branch, as `--set` gives them, each with the period that its section [orbit] has then.
 module deck_orbits
+   use changed_parameter, only: change_parameter
    use diagnostics, only: diagnostics_t
    use errors, only: error_t
    use item, only: item_t, place_of
@@ -11,7 +12,7 @@ module deck_orbits
    use orbit_results, only: orbit_plan_t
    use orbit_source, only: orbit_source_t
    use settings, only: read_settings
-   use text, only: append_text, exact_text
+   use text, only: exact_text
    use time_plan, only: seconds
    implicit none (type, external)
    private
@@ -51,8 +52,7 @@ contains
          options = self%options
          options%runs%is_member = .true.
          options%runs%has_known_words = .true.
-         if (self%plan%parameter /= "") call append_text(options%change%overrides, self%plan%parameter//"="//exact_text(p)//" "// &
-                                                         self%plan%unit)
+         if (self%plan%parameter /= "") call change_parameter(options, self%plan%parameter, p, self%plan%unit)
          if (self%is_loaded) then
             call load_case(options, self%loaded, error)
          else

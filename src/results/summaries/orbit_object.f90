@@ -1,7 +1,6 @@
 !> The object `orbit` of summary.json.
 module orbit_object
    use json_text, only: json_object_t
-   use kinds, only: wp
    use orbit_results, only: bifurcation_names, orbit_study_t
    use text, only: exact_text, text_t
    implicit none (type, external)
@@ -56,6 +55,9 @@ contains
             end associate
          end do
          call object%put_objects("bifurcations", list)
+         if (plan%parameter /= "") then
+            call object%put_list("branch_ends", [text_t(study%branch%low), text_t(study%branch%high)])
+         end if
       end associate
       call json%put_object("orbit", object%get())
    end subroutine put_orbit

@@ -130,9 +130,17 @@ contains
       next%orbit%p = here%orbit%p + length*here%tangent(m + 1)*s
       call correct_orbit(map, plan, direction, s, next%orbit, n_iteration, reason)
       if (reason /= "") return
-      if (next%orbit%p < plan%from - 1.0e-9_wp*s .or. next%orbit%p > plan%to + 1.0e-9_wp*s) then
-         reason = "the branch leaves the range within a step"
-         return
+      bound = min(max(next%orbit%p, plan%from), plan%to)
+      if (.not. is_last .and. abs(next%orbit%p - bound) > 0.0_wp) then
+         is_last = .true.
+         direction = 0.0_wp
+         direction(m + 1) = 1.0_wp
+         associate (back => (bound - next%orbit%p)/(here%orbit%p - next%orbit%p))
+            next%orbit%z = next%orbit%z + back*(here%orbit%z - next%orbit%z)
+         end associate
+         next%orbit%p = bound
+         call correct_orbit(map, plan, direction, s, next%orbit, n_iteration, reason)
+         if (reason /= "") return
       end if
       call tangent_at(next%orbit, s, here%tangent, next%tangent, reason)
    end subroutine step_along

@@ -69,6 +69,10 @@ contains
             reason = "the matrix of Newton's method is singular: a multiplier is 1"
             return
          end if
+         if (n_iteration == 1 .and. has_matrix .and. maxval(abs(x)) > chord) then
+            has_matrix = .false.  ! that of the neighbour is not near enough
+            cycle
+         end if
          has_matrix = maxval(abs(x)) < chord .and. orbit%residual < slow*previous
          previous = orbit%residual
          x = x*min(1.0_wp, longest/max(maxval(abs(x)), tiny(1.0_wp)))
