@@ -16,6 +16,7 @@ program gudgeon
    use verb_life, only: live_deck
    use verb_merge, only: merge_sweep
    use verb_new, only: new_deck
+   use verb_orbit, only: orbit_deck
    use verb_precision, only: compare_precision
    use verb_run, only: run_deck
    use verb_sensitivity, only: derive_deck
@@ -28,8 +29,7 @@ program gudgeon
 
    call begin_process()
    call use_one_blas_thread(error)
-   ! Forces fade along a chain by a factor per body until they are below the least normal number, where some processors take a
-   ! hundred times as long: there they are zero.
+   ! Forces that fade along a chain below the least normal number are zero: some processors take a hundred times as long there.
    if (ieee_support_underflow_control(1.0_wp)) call ieee_set_underflow_mode(gradual=.false.)
    if (.not. allocated(error)) call read_options(options, error)
    if (.not. allocated(error)) then
@@ -48,6 +48,8 @@ program gudgeon
          call live_deck(options, error)
       case ("sensitivity")
          call derive_deck(options, error)
+      case ("orbit")
+         call orbit_deck(options, error)
       case ("tolerance")
          call study_tolerances(options, error)
       case ("precision")
@@ -69,9 +71,8 @@ program gudgeon
    call write_said(console_error)
    if (allocated(console_error) .and. .not. allocated(error)) call move_alloc(console_error, error)
    if (allocated(error)) then
-      if (all(error%code /= [exit_different, exit_stopped]) .and. .not. starts_with(error%message, "error: ")) then
+      if (all(error%code /= [exit_different, exit_stopped]) .and. .not. starts_with(error%message, "error: ")) &
          error%message = "error: "//error%message
-      end if
       call write_error(error%message//new_line("a"))
       call end_process(error%code)
    end if

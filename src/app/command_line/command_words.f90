@@ -39,6 +39,8 @@ module command_words
                 "--out --set --tolerance --method --quiet --json --jobs"), &
       command_t("sensitivity", "DECK", "derivatives of results by parameters, through impacts, by [sensitivity]", &
                 "--out --set --tolerance --method --quiet --json"), &
+      command_t("orbit", "DECK", "periodic orbits, Floquet multipliers, branches and bifurcations, by [orbit]", &
+                "--out --set --tolerance --method --quiet --json"), &
       command_t("tolerance", "DECK", "tolerances and clearances by [tolerance]: derivatives, worst case, scatter, yield", &
                 "--out --set --tolerance --quiet --json"), &
       command_t("precision", "DECK", "compare methods and tolerances: accuracy against cost", &

@@ -25,6 +25,9 @@ module load
    use memory_purpose, only: memory_is_for
    use name_table, only: name_table_t
    use options, only: options_t
+   use orbit_info, only: orbit_section
+   use orbit_results, only: orbit_plan_t
+   use orbit_words, only: plan_orbit
    use parameter_change, only: change_parameters
    use read_scene, only: scene_from_deck
    use read_tolerance, only: has_tolerances
@@ -60,6 +63,9 @@ module load
       logical :: has_sensitivity = .false.        !! it has a section [sensitivity]
       type(item_t) :: sensitivity_keys            !! this section
       type(sensitivity_plan_t) :: sensitivity     !! what it asks for
+      logical :: has_orbit = .false.              !! it has a section [orbit]
+      type(item_t) :: orbit_keys                  !! this section
+      type(orbit_plan_t) :: orbit                 !! what it asks for
       logical :: is_stream = .false.              !! the deck came through a pipe and cannot be read again
    end type loaded_t
 
@@ -88,6 +94,9 @@ contains
          call read_sweep(loaded%deck, sweep_info(), loaded%sweep, mistakes)
          if (has_section(loaded%deck, "sensitivity")) then
             call read_settings(loaded%deck, sensitivity_section(), loaded%sensitivity_keys, loaded%has_sensitivity, mistakes)
+         end if
+         if (has_section(loaded%deck, "orbit")) then
+            call read_settings(loaded%deck, orbit_section(), loaded%orbit_keys, loaded%has_orbit, mistakes)
          end if
       end if
       call mistakes%to_error(loaded%deck%sources, error)
@@ -161,6 +170,9 @@ contains
             call plan_sensitivity(loaded%deck, loaded%sensitivity_keys, loaded%system, loaded%catalogue, &
                                   merge(huge(1.0_wp), loaded%plan%end, options%verb == "run"), loaded%sensitivity, &
                                   mistakes)  ! a run may be shorter than what [sensitivity] asks for
+         end if
+         if (loaded%has_orbit .and. loaded%scene%analysis == analysis_dynamic) then
+            call plan_orbit(loaded%deck, loaded%orbit_keys, loaded%system, loaded%orbit, mistakes)
          end if
       else
          call check_words(loaded%deck, loaded%scene, loaded%figures, loaded%sweep, loaded%plan%end, catalogue, mistakes)

@@ -1,5 +1,6 @@
 !> Scenes of a deck with other values of its parameters, as `--set` gives them.
 module deck_parameters
+   use changed_parameter, only: change_parameter
    use errors, only: error_t
    use jobs, only: first_line, job_t
    use kinds, only: wp
@@ -7,7 +8,7 @@ module deck_parameters
    use options, only: options_t
    use parameter_source, only: parameter_source_t
    use sensitivity_results, only: sensitivity_plan_t
-   use text, only: append_text, exact_text
+   use text, only: exact_text
    implicit none (type, external)
    private
    public :: deck_parameters_t
@@ -38,8 +39,7 @@ contains
       options = self%options
       options%runs%is_member = .true.
       options%runs%has_known_words = .true.
-      call append_text(options%change%overrides, self%plan%parameters(parameter)%s//"="//exact_text(value)//" "// &
-                       self%plan%units(parameter)%s)
+      call change_parameter(options, self%plan%parameters(parameter)%s, value, self%plan%units(parameter)%s)
       if (self%is_loaded) then
          call load_case(options, self%loaded, error)
       else

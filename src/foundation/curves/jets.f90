@@ -25,9 +25,10 @@ contains
       real(wp) :: v(3)              !! (3) f(u(t)) and its derivatives [any]
 
       v(1) = f
-      v(2) = not_a_number()
-      v(3) = not_a_number()
-      if (.not. (ieee_is_finite(df) .and. ieee_is_finite(ddf))) return
+      if (.not. (ieee_is_finite(df) .and. ieee_is_finite(ddf))) then
+         v(2:) = not_a_number()  ! only here: it saves and restores the state of the processor
+         return
+      end if
       v(2) = df*u(2)
       v(3) = total(ddf*u(2)*u(2), df*u(3))  ! in this order: the square alone may overflow where ddf is 0
    end function jet_chain

@@ -23,6 +23,7 @@ module kind_list
    use requests, only: motion_request_info, reaction_info, request_info
    use shapes, only: shapes_info
    use section_info, only: dynamic_info, kinematic_info, output_info, scene_info, static_info
+   use orbit_info, only: orbit_section
    use sensitivity_info, only: sensitivity_section
    use study_info, only: ensemble_info, life_info, statistics_info, sweep_info
    use tolerance_info, only: tolerance_joint_info, tolerance_limit_info, tolerance_study_info, tolerance_table_info
@@ -176,7 +177,7 @@ contains
       before_films = before_wears + n_wear_kinds() + 1
       before_worn = before_films + n_film_kinds()
       before_settings = before_worn + n_worn_kinds()
-      allocate (known(before_settings + 19))
+      allocate (known(before_settings + 20))
       known(1) = scene_info()
       known(2) = bodies_info()
       known(3) = points_info()
@@ -269,6 +270,7 @@ contains
       known(before_settings + 17) = tolerance_limit_info()
       known(before_settings + 18) = tolerance_study_info()
       known(before_settings + 19) = precision_section()
+      known(before_settings + 20) = orbit_section()
    end subroutine ask_settings
 
 end module kind_list

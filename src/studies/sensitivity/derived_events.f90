@@ -37,7 +37,11 @@ contains
          call look_for_parting_events(motion)
          do k = 1, size(rates)
             is_onset(k) = .not. system%clearance_joints%sets(touched(1, k))%set%contact(touched(2, k))%is_touching
-            if (is_onset(k)) found%onset = [found%onset, method%t]
+            if (is_onset(k)) then
+               found%onset = [found%onset, method%t]
+               found%contact = [found%contact, touched(3, k)]
+               found%speed = [found%speed, rates(k)]
+            end if
             if (is_onset(k)) call look_for_grazing(motion, touched(3, k), rates(k), found)
             do i = 1, size(motion%results)
                call motion%results(i)%at_touch(touched(3, k), touched(1, k), touched(2, k), is_onset(k), method%t, rates(k), &

@@ -24,7 +24,7 @@ module sensitivity_motion
    use varied_system, only: instants_of, want_only
    implicit none (type, external)
    private
-   public :: find_motion
+   public :: after_step, find_motion, setting_of
 
 contains
 

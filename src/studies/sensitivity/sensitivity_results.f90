@@ -57,6 +57,8 @@ module sensitivity_results
       real(wp), allocatable :: until(:)             !! (parameters) that time [s]
       real(wp), allocatable :: grazing(:)           !! (parameters) minimum change at which a contact would graze; huge: none [any]
       real(wp), allocatable :: onset(:)             !! (any) times of all onsets [s]
+      integer, allocatable :: contact(:)            !! (any) contacts of the onsets
+      real(wp), allocatable :: speed(:)             !! (any) their impact speeds [m/s]
       integer :: n_step = 0                         !! steps of the motion
       integer :: n_event = 0                        !! events
    contains
@@ -91,7 +93,7 @@ contains
       allocate (self%is_found(n_result), source=.false.)
       allocate (self%t(n_result), self%value(n_result), self%derivative(n_parameter, n_result), source=not_a_number())
       allocate (self%until(n_parameter), self%grazing(n_parameter), source=huge(1.0_wp))
-      allocate (self%reason(n_parameter), self%onset(0))
+      allocate (self%reason(n_parameter), self%onset(0), self%contact(0), self%speed(0))
       do k = 1, n_parameter
          self%reason(k)%s = ""
       end do

@@ -1,0 +1,80 @@
+!> Scenes of a deck along a branch, as `--set` gives them, each with the period that its section [orbit] has then.
+module deck_orbits
+   use changed_parameter, only: change_parameter
+   use diagnostics, only: diagnostics_t
+   use errors, only: error_t
+   use item, only: item_t, place_of
+   use jobs, only: first_line, job_t
+   use kinds, only: wp
+   use load, only: load_case, load_deck, loaded_t
+   use options, only: options_t
+   use orbit_info, only: orbit_section
+   use orbit_results, only: orbit_plan_t
+   use orbit_source, only: orbit_source_t
+   use settings, only: read_settings
+   use text, only: exact_text
+   use time_plan, only: seconds
+   implicit none (type, external)
+   private
+   public :: deck_orbits_t
+
+   !> A deck. Options and plan are set before the first scene is asked for.
+   type, extends(orbit_source_t) :: deck_orbits_t
+      type(options_t) :: options             !! the command line
+      type(orbit_plan_t) :: plan             !! for name and unit of the parameter
+      type(loaded_t) :: loaded               !! the deck with the last value
+      logical :: is_loaded = .false.         !! it was loaded without errors
+      real(wp) :: p = 0.0_wp                 !! this value [any]
+      real(wp) :: period = 0.0_wp            !! and its period [s]
+   contains
+      procedure :: scene_at => deck_scene_at
+   end type deck_orbits_t
+
+contains
+
+   !> The scene with another value of the parameter.
+   subroutine deck_scene_at(self, p, job, period, reason)
+      class(deck_orbits_t), intent(inout) :: self         !! the deck
+      real(wp), intent(in) :: p                           !! value of the parameter, SI; not used without one [any]
+      type(job_t), intent(out) :: job                     !! the scene with it
+      real(wp), intent(out) :: period                     !! of its drivers [s]
+      character(:), allocatable, intent(out) :: reason    !! what the deck says of the value; blank: it takes it
+
+      type(error_t), allocatable :: error
+      type(diagnostics_t) :: mistakes
+      type(item_t) :: keys
+      type(options_t) :: options
+      logical :: has_section
+
+      reason = ""
+      period = self%period
+      if (.not. self%is_loaded .or. abs(p - self%p) > 0.0_wp) then
+         options = self%options
+         options%runs%is_member = .true.
+         options%runs%has_known_words = .true.
+         if (self%plan%parameter /= "") call change_parameter(options, self%plan%parameter, p, self%plan%unit)
+         if (self%is_loaded) then
+            call load_case(options, self%loaded, error)
+         else
+            call load_deck(options, self%loaded, error)
+         end if
+         self%is_loaded = .not. allocated(error)
+         if (self%is_loaded) then
+            call read_settings(self%loaded%deck, orbit_section(), keys, has_section, mistakes)
+            if (mistakes%count() == 0) then
+               period = seconds(keys%values(place_of(keys, "period")), "period", -1.0_wp, self%loaded%system, mistakes)
+            end if
+            call mistakes%to_error(self%loaded%deck%sources, error)
+         end if
+         if (allocated(error)) then
+            reason = "the deck does not take "//exact_text(p)//" "//self%plan%unit//": "//first_line(error%message)
+            self%is_loaded = .false.
+            return
+         end if
+         self%p = p
+         self%period = period
+      end if
+      job = self%loaded%job_t
+   end subroutine deck_scene_at
+
+end module deck_orbits
