@@ -9,6 +9,7 @@ program gudgeon
    use posix, only: write_error
    use processes, only: begin_process, end_process
    use text, only: starts_with
+   use verb_fit, only: fit_deck_to_data
    use verb_explain, only: check_deck, explain_deck
    use verb_compare, only: compare_runs
    use verb_import, only: import_model
@@ -48,6 +49,8 @@ program gudgeon
          call live_deck(options, error)
       case ("sensitivity")
          call derive_deck(options, error)
+      case ("fit")
+         call fit_deck_to_data(options, error)
       case ("tolerance")
          call study_tolerances(options, error)
       case ("precision")

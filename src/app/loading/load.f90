@@ -3,6 +3,7 @@ module load
    use build_clearances, only: has_ideal
    use build_system, only: levels_as_written, levels_ideal, levels_clearance_joints, new_system
    use catalogue, only: catalogue_t
+   use channel_names, only: scalar_t
    use change_scene, only: scene_with_changes
    use columns, only: column_of
    use deck_file, only: read_deck
@@ -11,6 +12,8 @@ module load
    use errors, only: error_t, exit_usage, set_error
    use drawn_figures, only: check_drawn_figures
    use figure_words, only: figure_t
+   use fit_plan, only: fit_plan_t
+   use fit_words, only: plan_fit
    use formula_words, only: read_formulas
    use function_range, only: check_function_ranges
    use item, only: item_t, location_t, place_of
@@ -26,6 +29,7 @@ module load
    use name_table, only: name_table_t
    use options, only: options_t
    use parameter_change, only: change_parameters
+   use read_fit, only: has_fit
    use read_scene, only: scene_from_deck
    use read_tolerance, only: has_tolerances
    use run_limits, only: check_conditions, has_conditions
@@ -122,6 +126,8 @@ contains
 
       type(catalogue_t) :: catalogue
       type(diagnostics_t) :: mistakes
+      type(fit_plan_t) :: fit
+      type(scalar_t), allocatable :: sensors(:)
       logical :: has_all_words
 
       call memory_is_for("the equations of "//to_text(size(loaded%scene%bodies%names))//" bodies and their output")
@@ -144,6 +150,13 @@ contains
       call check_steps(loaded%scene%settings%integration, mistakes)
       call new_time_plan(loaded%scene, loaded%system, loaded%plan, mistakes)
       if (loaded%scene%settings%life%is_present) call check_life(loaded%scene, loaded%system, mistakes)
+      if (has_fit(loaded%deck) .and. .not. options%runs%is_member) then
+         if (has_all_words) then
+            call plan_fit(loaded%deck, loaded%catalogue, fit, sensors, mistakes)
+         else
+            call plan_fit(loaded%deck, catalogue, fit, sensors, mistakes)
+         end if
+      end if
       if (has_tolerances(loaded%deck) .and. .not. options%runs%is_member) then
          if (has_all_words) then
             call check_tolerances(loaded%deck, loaded%scene, loaded%catalogue, mistakes)

@@ -6,18 +6,14 @@ module verb_sensitivity
    use errors, only: error_t, exit_usage, set_error
    use file_store, only: keep_files
    use find_sensitivity, only: find_sensitivities
-   use integration_method, only: abilities_t, steps_fixed
-   use integrator, only: integrator_t
-   use integrator_controls, only: onset_located
    use kinds, only: wp
    use load, only: load_deck, loaded_t
-   use one_step, only: one_step_t
+   use one_step_check, only: check_one_step
    use options, only: options_t
    use output_directory, only: output_directory_t
    use output_plan, only: output_plan_t
    use recorder, only: status_complete
    use result_table, only: result_table_t
-   use rock4, only: rock4_t
    use run_limits, only: limits_of
    use run_place, only: directory_of
    use run_plan, only: tell_origin
@@ -74,36 +70,14 @@ contains
       type(loaded_t), intent(in) :: loaded                 !! the deck
       type(error_t), allocatable, intent(out) :: error     !! what is missing
 
-      class(integrator_t), allocatable :: method
-      type(abilities_t) :: can
-
       if (loaded%scene%analysis /= analysis_dynamic) then
          call set_error(error, exit_usage, "sensitivities need [analysis.dynamic] as the first analysis section of the deck")
-         return
       else if (.not. loaded%has_sensitivity) then
          call set_error(error, exit_usage, "the deck has no section [sensitivity]"//new_line("a")// &
                         "  = see 'gudgeon help sensitivity'")
-         return
+      else
+         call check_one_step(loaded%scene%settings%integration, "sensitivities need", error)
       end if
-      associate (settings => loaded%scene%settings%integration)
-         call settings%new_method(method)
-         can = method%abilities()
-         select type (method)
-         class is (rock4_t)
-            call set_error(error, exit_usage, "method "//method%name()//" chooses its stages by the steps before: they have no " &
-                           //"derivative"//new_line("a")//"  = give method = auto, verner, dop853 or radau, or --method")
-         class is (one_step_t)
-            if (can%steps == steps_fixed .or. settings%controls%fixed_step > 0.0_wp) then
-               call set_error(error, exit_usage, "sensitivities need variable steps"//new_line("a")// &
-                              "  = omit step, and give method = auto, verner, dop853 or radau")
-            else if (settings%controls%onset /= onset_located) then
-               call set_error(error, exit_usage, "sensitivities need contact_onset = located")
-            end if
-         class default
-            call set_error(error, exit_usage, "method "//method%name()//" is not a one-step method: its steps depend on earlier " &
-                           //"ones"//new_line("a")//"  = give method = auto, verner, dop853 or radau, or --method")
-         end select
-      end associate
    end subroutine check_request
 
    !> The files.
