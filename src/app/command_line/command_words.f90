@@ -42,7 +42,7 @@ module command_words
       command_t("tolerance", "DECK", "tolerances and clearances by [tolerance]: derivatives, worst case, scatter, yield", &
                 "--out --set --tolerance --quiet --json"), &
       command_t("fit", "DECK DATA", "parameters from measured data by [fit], with 95 % intervals", &
-                "--out --set --time --tolerance --method --quiet --json"), &
+                "--out --set --time --tolerance --method --write --quiet --json"), &
       command_t("precision", "DECK", "compare methods and tolerances: accuracy against cost", &
                 "--out --set --ideal --methods --accuracy --budget --quiet --json"), &
       command_t("check", "DECK", "check the deck completely without integrating", &

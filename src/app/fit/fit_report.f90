@@ -20,7 +20,7 @@ module fit_report
    private
    public :: note_fit, report_fit
 
-   real(wp), parameter :: next_to = 1.0e-6_wp       !! distance from a bound, of the distance of both [1]
+   real(wp), parameter :: at_bound = 2.0e-5_wp      !! distance from a bound, of the distance of both [1]
    real(wp), parameter :: odd = 1.5_wp              !! residuals over given standard deviations that are noted [1]
 
 contains
@@ -41,7 +41,7 @@ contains
                call append_text(warnings, "the data do not see '"//place%name//"'"//words)
             else if (words /= "") then
                call append_text(warnings, "correlation of '"//place%name//"'"//words)
-            else if (min(fit%value(k) - place%lower, place%upper - fit%value(k)) < 2.0e-5_wp*(place%upper - place%lower)) then
+            else if (min(fit%value(k) - place%lower, place%upper - fit%value(k)) < at_bound*(place%upper - place%lower)) then
                call append_text(warnings, "'"//place%name//"' is at a bound: the data ask for a value beyond")
             end if
          end associate
@@ -73,12 +73,13 @@ contains
       type(text_t), intent(in) :: warnings(:)                !! (m) what was noticed
       type(error_t), allocatable, intent(out) :: error       !! a file cannot be written
 
-      call show_summaries(options, plan%directory, text_of(plan, fit, pictures, warnings), &
+      call show_summaries(options, plan%directory, text_of(options%write /= "numbers", plan, fit, pictures, warnings), &
                           object_of(loaded, plan, fit, pictures, warnings), error)
    end subroutine report_fit
 
    !> The summary for people.
-   function text_of(plan, fit, pictures, warnings) result(text)
+   function text_of(has_files, plan, fit, pictures, warnings) result(text)
+      logical, intent(in) :: has_files                       !! tables were written
       type(output_plan_t), intent(in) :: plan                !! what files say
       type(fit_t), intent(in) :: fit                         !! the fit
       type(text_t), intent(in) :: pictures(:)                !! (n) pictures made
@@ -97,7 +98,7 @@ contains
       call add_table(lines, table_of_sensors(fit))
       call lines%line("")
       call lines%line("output     "//plan%directory//"/")
-      call lines%line("           fit.h5, fit.csv")
+      if (has_files) call lines%line("           fit.h5, fit.csv")
       do k = 1, size(pictures)
          call lines%line("           "//pictures(k)%s)
       end do

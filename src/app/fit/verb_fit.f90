@@ -87,7 +87,7 @@ contains
       call find_parameters(model, model%plan%sensors%has(1), fit, error)
       if (.not. allocated(error)) then
          call note_fit(fit, warnings)
-         call write_results(loaded, plan, fit, pictures, warnings, error)
+         call write_results(options%write, loaded, plan, fit, pictures, warnings, error)
       end if
       if (.not. allocated(error)) call report_fit(options, loaded, plan, fit, pictures, warnings, error)
       call directory%close()
@@ -161,7 +161,8 @@ contains
    end function spread_of
 
    !> The files and figures.
-   subroutine write_results(loaded, plan, fit, pictures, warnings, error)
+   subroutine write_results(write, loaded, plan, fit, pictures, warnings, error)
+      character(*), intent(in) :: write                          !! numbers: none of them; channels: no figures; all
       type(loaded_t), intent(inout) :: loaded                    !! the deck; defaults are noted
       type(output_plan_t), intent(in) :: plan                    !! what files say
       type(fit_t), intent(in) :: fit                             !! the fit
@@ -173,6 +174,7 @@ contains
       character(:), allocatable :: folder
 
       allocate (pictures(0))
+      if (write == "numbers") return
       call replace_file(plan%directory//"/deck.echo", echo_scene(loaded%deck, loaded%scene)//echo_of_tables(loaded), error)
       if (.not. allocated(error)) then
          call write_table_file("fit.h5", "gudgeon fit", plan, status_complete, &
@@ -180,7 +182,7 @@ contains
                                error)
       end if
       if (.not. allocated(error)) call replace_file(plan%directory//"/fit.csv", csv_text(table_of_data(fit)), error)
-      if (allocated(error)) return
+      if (allocated(error) .or. write /= "all") return
       folder = plan%directory//"/figures"
       call make_folder(folder, error)
       if (.not. allocated(error)) call write_fit_plots(folder, plan%title, file_heading(plan), fit, names, error)

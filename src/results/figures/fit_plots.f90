@@ -129,8 +129,10 @@ contains
                             quoted(fit%channels(s)%s//" ["//unit%symbol//"]"))
             call lines%line("plot "//file//" using 1:($2*f) with points pointtype 7 pointsize 0.6 linecolor rgb '"//colours(1)// &
                             "' title 'data', \")
-            call lines%line("     "//file//" using 1:($5*f) with points pointtype 7 pointsize 0.6 linecolor rgb '#b0b0b0' "// &
-                            "title 'not fitted', \")
+            if (any(ieee_is_finite(fit%sets(k)%x(s, :)) .and. .not. ieee_is_finite(fit%sets(k)%model(s, :)))) then
+               call lines%line("     "//file//" using 1:($5*f) with points pointtype 7 pointsize 0.6 linecolor rgb '#b0b0b0' "// &
+                               "title 'not fitted', \")
+            end if
             call lines%line("     "//file//" using 1:($3*f) with lines linewidth 2 linecolor rgb '"//colours(2)//"' title 'model'")
          end if
       end do
@@ -202,7 +204,8 @@ contains
       call preamble(lines, "fit_ellipses", 1200, 150 + 500*((n + 1)/2))
       call lines%line("set multiplot layout "//to_text((n + 1)/2)//","//to_text(min(n, 2))//" title "//quoted(title)// &
                       " font ',17'")
-      call lines%line("set format '%.5g'; set xtics autofreq rotate by -25; set offsets graph 0.1, graph 0.1, graph 0.1, graph 0.1")
+      call lines%line("set format '%.5g'; set xtics autofreq rotate by -25; set rmargin 7")
+      call lines%line("set offsets graph 0.1, graph 0.1, graph 0.1, graph 0.1")
       do k = 1, size(pairs, 2)
          associate (a => pairs(1, k), b => pairs(2, k))
             call lines%line("set xlabel "//quoted(label_of(a))//"; set ylabel "//quoted(label_of(b)))

@@ -11,7 +11,7 @@ module find_fit
    use fit_results, only: fit_t
    use kinds, only: wp
    use least_squares, only: end_failed, minimise, minimum_t
-   use text, only: to_text
+   use text, only: real_text, to_text
    implicit none (type, external)
    private
    public :: find_parameters
@@ -40,20 +40,16 @@ contains
          if (k <= size(model%plan%until)) model%stage = model%plan%until(k)
          call search(model, u, fit, found, error)
          if (allocated(error)) return
+         if (k <= size(model%plan%until)) call find_noise(model, is_given)  ! the horizon of the next stage depends on it
       end do
       do k = 1, most_rounds
          before = model%sigma
          call find_noise(model, is_given)
-         if (count(.not. is_given) < size(is_given) .or. size(is_given) > 1) then
-            if (all(abs(model%sigma - before) <= settled*before)) exit
-            call search(model, u, fit, found, error)
-            if (allocated(error)) return
-         else
-            found%r = found%r*before(1)/model%sigma(1)   ! of one sensor weights change nothing
-            found%jac = found%jac*before(1)/model%sigma(1)
-            exit
-         end if
+         if (all(abs(model%sigma - before) <= settled*before)) exit
+         call search(model, u, fit, found, error)
+         if (allocated(error)) return
       end do
+      model%sigma = before   ! that of the residuals
       call take_results(model, is_given, found, fit)
    end subroutine find_parameters
 
@@ -77,12 +73,29 @@ contains
       if (found%end == end_failed) then
          call set_error(error, exit_integration, "the fit has no motion to start from: "//model%message)
       else if (size(found%r) <= size(u)) then
+         if (model%stage < huge(1.0_wp)) return
          call set_error(error, exit_integration, to_text(size(found%r))//" data within the horizon of the motions are too few " &
-                        //"for "//to_text(size(u))//" unknowns")
+                        //"for "//to_text(size(u))//" unknowns"//reasons(model))
       else
          u = found%u
       end if
    end subroutine search
+
+   !> Why data are left out, set by set, as lines of a message.
+   function reasons(model) result(lines)
+      type(fit_model_t), intent(in) :: model     !! the model
+      character(:), allocatable :: lines         !! each with a new line before it
+
+      integer :: k
+
+      lines = ""
+      do k = 1, size(model%sets)
+         associate (set => model%sets(k))
+            if (set%until < huge(1.0_wp)) lines = lines//new_line("a")//"  = set '"//set%name//"' from t = "// &
+                                                  real_text(set%until, 4)//" s on: "//set%reason
+         end associate
+      end do
+   end function reasons
 
    !> Standard deviations of the sensors from their residuals.
    subroutine find_noise(model, is_given)

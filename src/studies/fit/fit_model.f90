@@ -26,8 +26,11 @@ module fit_model
    public :: fit_model_t, measured_t
 
    real(wp), parameter :: coarser = 10.0_wp         !! tolerance of the second motion, of the first [1]
+   real(wp), parameter :: finer = 0.5_wp            !! tolerance of a motion whose derivatives end, of the one before [1]
+   integer, parameter :: most_attempts = 3          !! such motions, each with other steps: a kink may be next to their ends
+   character(*), parameter :: beyond = "the motion is beyond its horizon"
    real(wp), parameter :: of_sigma = 0.1_wp         !! difference of both at the horizon, of the noise [1]
-   real(wp), parameter :: of_spread = 1.0e-3_wp     !! the same, of the spread of the data [1]
+   real(wp), parameter :: of_spread = 1.0e-5_wp     !! the same, of the spread of the data [1]
    real(wp), parameter :: part = 1.0e-3_wp          !! first changes of parameters, of what they are measured by [1]
    real(wp), parameter :: of_width = 0.01_wp        !! that is at least this part of the distance of the bounds [1]
 
@@ -105,15 +108,24 @@ contains
       logical, intent(out) :: is_good                     !! .false.: a motion fails
 
       type(channel_samples_t) :: other, samples
-      integer :: k
+      type(found_t) :: found
+      character(:), allocatable :: reason
+      real(wp) :: until
+      integer :: attempt, k
 
       allocate (r(0), jac(0, size(u)))
       do k = 1, size(self%sets)
-         call self%move(u, k, .true., self%plan%tolerance, samples, is_good)
-         if (.not. is_good) return
          call self%move(u, k, .false., coarser*self%plan%tolerance, other, is_good)
-         call leave_out(self, k, samples, other)
-         is_good = .true.
+         do attempt = 0, most_attempts
+            call self%move(u, k, .true., self%plan%tolerance*finer**attempt, samples, is_good, found)
+            if (.not. is_good) return
+            call find_end(self, samples, other, found, until, reason)
+            if (until >= huge(1.0_wp) .or. reason == beyond) exit
+         end do
+         if (until < self%sets(k)%until) then
+            self%sets(k)%until = until
+            self%sets(k)%reason = reason
+         end if
          call self%add_residuals(u, k, samples, .true., r, jac)
       end do
       is_good = size(r) > 0 .and. all(ieee_is_finite(r)) .and. all(ieee_is_finite(jac))
@@ -121,7 +133,7 @@ contains
    end subroutine model_derive
 
    !> The motion of a set: its channels at the times of the data.
-   subroutine move(self, u, set, is_derived, tolerance, samples, is_good)
+   subroutine move(self, u, set, is_derived, tolerance, samples, is_good, details)
       class(fit_model_t), intent(inout) :: self           !! the model
       real(wp), intent(in) :: u(:)                        !! (n) unknowns [1]
       integer, intent(in) :: set                          !! number of the set
@@ -129,6 +141,7 @@ contains
       real(wp), intent(in) :: tolerance                   !! of the motion [1]
       type(channel_samples_t), intent(out) :: samples     !! what it gives
       logical, intent(out) :: is_good                     !! .false.: it fails before any data
+      type(found_t), intent(out), optional :: details     !! why derivatives end
 
       type(error_t), allocatable :: error
       type(found_t) :: found
@@ -166,21 +179,8 @@ contains
       call find_motion(job, self%source, plan, tolerance, part, found, error, samples)
       if (allocated(error)) self%message = first_line(error%message)
       is_good = ieee_is_finite(samples%values(1, 1))
-      if (is_derived) call note_reason(self%sets(set), found)
+      if (present(details)) details = found
    end subroutine move
-
-   !> Why derivatives end, in case data are left out for it.
-   subroutine note_reason(set, found)
-      type(measured_t), intent(inout) :: set       !! its reason is set
-      type(found_t), intent(in) :: found           !! of the motion
-
-      integer :: k
-
-      set%reason = "the motion is beyond its horizon"
-      do k = 1, size(found%reason)
-         if (found%reason(k)%s /= "") set%reason = found%reason(k)%s
-      end do
-   end subroutine note_reason
 
    !> Times at which the channels of a set are wanted, ascending: those of its data less the delays of the sensors.
    subroutine list_times(self, u, set, times)
@@ -235,16 +235,20 @@ contains
       end do
    end function of_sensor
 
-   !> Leave data out from the first time on that has no derivative, or at which both motions differ.
-   subroutine leave_out(self, set, samples, other)
-      class(fit_model_t), intent(inout) :: self          !! the model
-      integer, intent(in) :: set                         !! number of the set
+   !> The first time at which a derivative is missing, or at which both motions differ.
+   subroutine find_end(self, samples, other, found, until, reason)
+      class(fit_model_t), intent(in) :: self             !! the model
       type(channel_samples_t), intent(in) :: samples     !! of the motion
       type(channel_samples_t), intent(in) :: other       !! of the motion at the greater tolerance
+      type(found_t), intent(in) :: found                 !! why derivatives end
+      real(wp), intent(out) :: until                     !! that time; huge: there is none [s]
+      character(:), allocatable, intent(out) :: reason   !! why
 
       logical :: is_good(size(self%sigma))
-      integer :: k, s
+      integer :: c, k, s
 
+      until = huge(1.0_wp)
+      reason = ""
       do k = 1, size(samples%times)
          do s = 1, size(is_good)
             is_good(s) = all(ieee_is_finite(samples%derivatives(s, :, k))) .and. ieee_is_finite(samples%values(s, k)) .and. &
@@ -253,10 +257,15 @@ contains
                                          max(of_sigma*self%sigma(s), of_spread*self%spread(s))
          end do
          if (all(is_good)) cycle
-         self%sets(set)%until = min(self%sets(set)%until, samples%times(k))
+         until = samples%times(k)
+         reason = beyond
+         do c = 1, size(found%reason)
+            if (all(ieee_is_finite(samples%derivatives(:, c, k))) .or. found%reason(c)%s == "") cycle
+            reason = found%reason(c)%s
+         end do
          return
       end do
-   end subroutine leave_out
+   end subroutine find_end
 
    !> Residuals of a set, and their derivatives.
    subroutine add_residuals(self, u, set, samples, is_derived, r, jac)
