@@ -148,7 +148,7 @@ contains
       model%most = 0.5_wp
       call minimise(model, [0.1_wp, 0.9_wp], 200, found)
       call check_equal(error, found%end, end_converged, "end")
-      call check_close(error, found%u, [1.0_wp, 0.9_wp], 1.0e-9_wp, "x = 1/2, y = 1/4")
+      call check_close(error, found%u, [1.0_wp, 0.9_wp], 1.0e-7_wp, "x = 1/2, y = 1/4")
    end subroutine test_bound
 
    !> No residuals at the start.

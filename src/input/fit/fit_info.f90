@@ -1,4 +1,8 @@
 !> The tables of `gudgeon fit`: unknown parameters [fit], [fit.sensor], sets of data [fit.set], and its settings [fit.study].
+!>
+!> A sensor with offset b and delay d shows x(t - d) + b of its channel x. The fit minimises
+!> $$ F = \frac{1}{2} \sum_i \left( \frac{x(t_i - d; p) + b - m_i}{\sigma} \right)^2 $$
+!> over the parameters p, b and d between their bounds; m_i are the data, sigma is the standard deviation of the noise.
 module fit_info
    use kind_info, only: add_any_number, add_list, add_number, add_word, dim_none, dim_time, kind_info_t
    use kinds, only: min_tolerance, wp

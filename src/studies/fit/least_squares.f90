@@ -28,6 +28,8 @@ module least_squares
    real(wp), parameter :: small_step = 1.0e-10_wp       !! negligible step [1]
    real(wp), parameter :: small_fall = 1.0e-9_wp        !! negligible fall of F, of F [1]
 
+   real(wp), parameter :: visible_fall = 1.0e-6_wp      !! promised fall of F of a rejected step that is noted, of F [1]
+
    !> The residuals of a model.
    type, abstract :: residuals_t
    contains
@@ -86,6 +88,7 @@ contains
       damping = first_damping
       growth = 2.0_wp
       do
+         found%end = end_failed
          call model%derive(found%u, found%r, found%jac, is_good)
          if (.not. is_good) return
          found%n_derived = found%n_derived + 1
@@ -97,18 +100,21 @@ contains
          do
             call find_step(found, is_free, damping, norms, d, promised)
             if (maxval(abs(d)) <= small_step) return
-            call model%evaluate(found%u + d, r, is_good)
-            found%n_evaluated = found%n_evaluated + 1
             fall = -1.0_wp
+            is_good = promised > 0.0_wp   ! a step that is cut at bounds may promise nothing
+            if (is_good) then
+               if (promised <= small_fall*0.5_wp*sum(found%r**2)) return
+               call model%evaluate(found%u + d, r, is_good)
+               found%n_evaluated = found%n_evaluated + 1
+            end if
             if (is_good) fall = 0.5_wp*(sum(found%r**2) - sum(r**2))
             if (fall >= least_ratio*promised .and. fall > 0.0_wp) exit
             damping = damping*growth
             growth = 2.0_wp*growth
-            if (promised <= small_fall*0.5_wp*sum(found%r**2)) return
-            found%end = end_stalled
+            if (promised > visible_fall*0.5_wp*sum(found%r**2)) found%end = end_stalled
             if (damping > most_damping) return
          end do
-         found%u = found%u + d
+         found%u = min(1.0_wp, max(0.0_wp, found%u + d))
          damping = damping*max(1.0_wp/3.0_wp, 1.0_wp - (2.0_wp*fall/promised - 1.0_wp)**3)
          growth = 2.0_wp
          if (max(fall, promised) > small_fall*0.5_wp*sum(r**2)) cycle
@@ -178,11 +184,10 @@ contains
          d(list) = b(:n)
          deallocate (a, b, work)
          to = found%u + d
-         if (all(to >= 0.0_wp .and. to <= 1.0_wp)) exit
+         if (all(to >= 0.0_wp .and. to <= 1.0_wp .or. .not. moves)) exit
+         where (moves) d = min(1.0_wp, max(0.0_wp, to)) - found%u
          moves = moves .and. to >= 0.0_wp .and. to <= 1.0_wp
-         d = min(1.0_wp, max(0.0_wp, to)) - found%u
       end do
-      d = min(1.0_wp, max(0.0_wp, found%u + d)) - found%u
       promised = 0.5_wp*(sum(found%r**2) - sum((found%r + matmul(found%jac, d))**2))
    end subroutine find_step
 
