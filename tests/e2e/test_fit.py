@@ -142,7 +142,7 @@ def test_not_seen(gudgeon):
     assert_close([summary["fit"]["inertia"][end] for end in ("low", "high")], [1e-4, 1e-2], relative=1e-2)
     assert summary["fit"]["k"]["low"] < STIFFNESS < summary["fit"]["k"]["high"]
     summary = fit_of(gudgeon, oscillator("k 100N/m 300N/m\nm 1kg 3kg"), data(scratch(), rows))
-    assert any("'k'; it cannot be told from 'm'" in warning for warning in summary["warnings"])
+    assert any("'k'; it cannot be separated from 'm'" in warning for warning in summary["warnings"])
     assert_close(summary["fit"]["k"]["value"] / summary["fit"]["m"]["value"], STIFFNESS / MASS, relative=2e-2)
 
 

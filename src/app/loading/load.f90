@@ -126,8 +126,6 @@ contains
 
       type(catalogue_t) :: catalogue
       type(diagnostics_t) :: mistakes
-      type(fit_plan_t) :: fit
-      type(scalar_t), allocatable :: sensors(:)
       logical :: has_all_words
 
       call memory_is_for("the equations of "//to_text(size(loaded%scene%bodies%names))//" bodies and their output")
@@ -150,18 +148,11 @@ contains
       call check_steps(loaded%scene%settings%integration, mistakes)
       call new_time_plan(loaded%scene, loaded%system, loaded%plan, mistakes)
       if (loaded%scene%settings%life%is_present) call check_life(loaded%scene, loaded%system, mistakes)
-      if (has_fit(loaded%deck) .and. .not. options%runs%is_member) then
+      if (.not. options%runs%is_member) then
          if (has_all_words) then
-            call plan_fit(loaded%deck, loaded%catalogue, fit, sensors, mistakes)
+            call check_studies(loaded%deck, loaded%scene, loaded%catalogue, mistakes)
          else
-            call plan_fit(loaded%deck, catalogue, fit, sensors, mistakes)
-         end if
-      end if
-      if (has_tolerances(loaded%deck) .and. .not. options%runs%is_member) then
-         if (has_all_words) then
-            call check_tolerances(loaded%deck, loaded%scene, loaded%catalogue, mistakes)
-         else
-            call check_tolerances(loaded%deck, loaded%scene, catalogue, mistakes)
+            call check_studies(loaded%deck, loaded%scene, catalogue, mistakes)
          end if
       end if
       if (mistakes%count() == 0) call check_function_ranges(loaded%scene, loaded%plan%end, mistakes)
@@ -184,6 +175,20 @@ contains
       end if
       call mistakes%to_error(loaded%deck%sources, error)
    end subroutine prepare
+
+   !> Check the tables of studies: each checks its own.
+   subroutine check_studies(deck, scene, catalogue, mistakes)
+      type(deck_t), intent(inout) :: deck             !! the deck
+      type(scene_t), intent(in) :: scene              !! its scene
+      type(catalogue_t), intent(in) :: catalogue      !! all that it can report
+      type(diagnostics_t), intent(inout) :: mistakes  !! errors found
+
+      type(fit_plan_t) :: fit
+      type(scalar_t), allocatable :: sensors(:)
+
+      if (has_fit(deck)) call plan_fit(deck, catalogue, fit, sensors, mistakes)
+      if (has_tolerances(deck)) call check_tolerances(deck, scene, catalogue, mistakes)
+   end subroutine check_studies
 
    !> Whether words must be looked up to load a deck: of a case of a sweep whose words are known only expressions and conditions.
    logical function needs_catalogue(options, scene)

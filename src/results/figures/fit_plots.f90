@@ -82,13 +82,13 @@ contains
          call find_panel(fit, panel, k, s)
          if (k == 0) exit
          associate (set => fit%sets(k))
-            call lines%line("# time, data, model, residual, data not fitted of "//fit%channels(s)%s//" in "//set%name)
+            call lines%line("# time, data, model, residual, data not fitted of "//fit%sensors(s)%channel//" in "//set%name)
             do i = 1, size(set%t)
                if (.not. ieee_is_finite(set%x(s, i))) cycle
                unused = not_a_number()
                if (.not. ieee_is_finite(set%model(s, i))) unused = set%x(s, i)
-               call lines%line(number_row([set%t(i), set%x(s, i), set%model(s, i), (set%x(s, i) - set%model(s, i))/fit%sigma(s), &
-                                           unused]))
+               call lines%line(number_row([set%t(i), set%x(s, i), set%model(s, i), &
+                                           (set%x(s, i) - set%model(s, i))/fit%sensors(s)%sigma, unused]))
             end do
          end associate
          call lines%line("")
@@ -118,15 +118,15 @@ contains
          file = "'fit.dat' index "//to_text(panel - 1)
          call lines%line("set title "//quoted(fit%sets(k)%name))
          if (is_residual) then
-            call lines%line("set ylabel "//quoted(fit%channels(s)%s//": residual / sigma"))
+            call lines%line("set ylabel "//quoted(fit%sensors(s)%channel//": residual / sigma"))
             call lines%line("plot 1.96 with lines dashtype 2 linecolor rgb '#4d4d4d' title '95 %', "// &
                             "-1.96 with lines dashtype 2 linecolor rgb '#4d4d4d' notitle, \")
             call lines%line("     "//file//" using 1:4 with points pointtype 7 pointsize 0.6 linecolor rgb '"//colours(1)// &
                             "' title 'residual'")
          else
-            unit = choose_unit(fit%units(s)%s, maxval(abs(fit%sets(k)%x(s, :)), mask=ieee_is_finite(fit%sets(k)%x(s, :))))
+            unit = choose_unit(fit%sensors(s)%unit, maxval(abs(fit%sets(k)%x(s, :)), mask=ieee_is_finite(fit%sets(k)%x(s, :))))
             call lines%line("f = "//exact_text(unit%factor)//"; set ylabel "// &
-                            quoted(fit%channels(s)%s//" ["//unit%symbol//"]"))
+                            quoted(fit%sensors(s)%channel//" ["//unit%symbol//"]"))
             call lines%line("plot "//file//" using 1:($2*f) with points pointtype 7 pointsize 0.6 linecolor rgb '"//colours(1)// &
                             "' title 'data', \")
             if (any(ieee_is_finite(fit%sets(k)%x(s, :)) .and. .not. ieee_is_finite(fit%sets(k)%model(s, :)))) then
@@ -172,7 +172,7 @@ contains
       call list_pairs(fit, pairs)
       freedom = real(fit%n_data - size(fit%places), wp)
       radius = sqrt(freedom*(0.05_wp**(-2.0_wp/freedom) - 1.0_wp))
-      if (all(fit%is_given)) radius = sqrt(-2.0_wp*log(0.05_wp))
+      if (all(fit%sensors%is_given)) radius = sqrt(-2.0_wp*log(0.05_wp))
       do k = 1, size(pairs, 2)
          associate (a => pairs(1, k), b => pairs(2, k))
             call lines%line("# "//fit%places(a)%name//", "//fit%places(b)%name//", SI")

@@ -26,7 +26,7 @@ contains
             units(k)%s = fit%places(k)%unit
             notes(k)%s = ""
             if (.not. fit%is_seen(k)) notes(k)%s = "not seen"
-            if (fit%partner(k) > 0) notes(k)%s = notes(k)%s//merge(", ", "  ", .not. fit%is_seen(k))//"not told from "// &
+            if (fit%partner(k) > 0) notes(k)%s = notes(k)%s//merge(", ", "  ", .not. fit%is_seen(k))//"not separated from "// &
                fit%places(fit%partner(k))%name
             notes(k)%s = trim(adjustl(notes(k)%s))
          end do
@@ -41,7 +41,7 @@ contains
          call table%put("deviation", "list", "its standard deviation along what the data see", fit%deviation, heading="deviation", &
                         digits=3)
          call table%put("seen", "1", "whether the data see it", logicals=fit%is_seen)
-         call table%put("note", "1", "not seen, or which unknown it cannot be told from", texts=notes, &
+         call table%put("note", "1", "not seen, or which unknown it cannot be separated from", texts=notes, &
                         heading="note")
          call table%put("unit", "1", "its SI unit", texts=units, formats=in_json + in_csv)
          table%units = units
@@ -79,15 +79,26 @@ contains
       type(fit_t), intent(in) :: fit           !! the fit
       type(result_table_t) :: table            !! noise and residuals
 
-      call table%start("fit_sensors", "fit_sensors", size(fit%sensors), title="Sensors")
-      call table%put("sensor", "1", "name of the sensor", texts=fit%sensors, heading="sensor")
-      call table%put("channel", "1", "its channel", texts=fit%channels, heading="channel")
-      call table%put("data", "1", "numbers that were fitted", integers=fit%n_used, heading="data")
-      call table%put("sigma", "list", "standard deviation of its noise", fit%sigma, heading="sigma", digits=4)
-      call table%put("given", "1", "whether the deck gives it; else it is that of the residuals", logicals=fit%is_given)
-      call table%put("rms", "list", "root mean square of its residuals", fit%rms, heading="residuals", digits=4)
-      call table%put("unit", "1", "its SI unit", texts=fit%units, formats=in_json + in_csv)
-      table%units = fit%units
+      type(text_t), allocatable :: channels(:), names(:), units(:)
+      integer :: k
+
+      associate (sensors => fit%sensors)
+         allocate (channels(size(sensors)), names(size(sensors)), units(size(sensors)))
+         do k = 1, size(sensors)
+            channels(k)%s = sensors(k)%channel
+            names(k)%s = sensors(k)%name
+            units(k)%s = sensors(k)%unit
+         end do
+         call table%start("fit_sensors", "fit_sensors", size(sensors), title="Sensors")
+         call table%put("sensor", "1", "name of the sensor", texts=names, heading="sensor")
+         call table%put("channel", "1", "its channel", texts=channels, heading="channel")
+         call table%put("data", "1", "numbers that were fitted", integers=sensors%n_used, heading="data")
+         call table%put("sigma", "list", "standard deviation of its noise", sensors%sigma, heading="sigma", digits=4)
+         call table%put("given", "1", "whether the deck gives it; else it is that of the residuals", logicals=sensors%is_given)
+         call table%put("rms", "list", "root mean square of its residuals", sensors%rms, heading="residuals", digits=4)
+         call table%put("unit", "1", "its SI unit", texts=units, formats=in_json + in_csv)
+         table%units = units
+      end associate
    end function table_of_sensors
 
    !> Facts of the search.
@@ -98,9 +109,9 @@ contains
       call table%start("fit_search", "fit_search", 0, object="fit_search")
       call table%fact("data", fit%n_data)
       call table%fact("deviation", fit%deviation_of_residuals)
-      call table%fact("end", end_words(fit%end))
-      call table%fact("derivatives", fit%n_derived)
-      call table%fact("motions", fit%n_motion)
+      call table%fact("end", end_words(fit%search%end))
+      call table%fact("derivatives", fit%search%n_derived)
+      call table%fact("motions", fit%search%n_motion)
    end function table_of_search
 
    !> How the search ended.
@@ -134,10 +145,10 @@ contains
                do i = 1, size(set%t)
                   n = n + 1
                   sets(n)%s = set%name
-                  sensors(n)%s = fit%sensors(s)%s
-                  units(n)%s = fit%units(s)%s
+                  sensors(n)%s = fit%sensors(s)%name
+                  units(n)%s = fit%sensors(s)%unit
                   x(:, n) = [set%t(i), set%x(s, i), set%model(s, i), not_a_number()]
-                  x(4, n) = (set%x(s, i) - set%model(s, i))/fit%sigma(s)
+                  x(4, n) = (set%x(s, i) - set%model(s, i))/fit%sensors(s)%sigma
                end do
             end do
          end associate

@@ -67,9 +67,9 @@ contains
          model%sets(k)%until = huge(1.0_wp)
       end do
       call minimise(model, u, model%plan%most, found)
-      fit%n_derived = fit%n_derived + found%n_derived
-      fit%n_motion = model%n_motion
-      fit%end = found%end
+      fit%search%n_derived = fit%search%n_derived + found%n_derived
+      fit%search%n_motion = model%n_motion
+      fit%search%end = found%end
       if (found%end == end_failed) then
          call set_error(error, exit_integration, "the fit has no motion to start from: "//model%message)
       else if (size(found%r) <= size(u)) then
@@ -152,17 +152,14 @@ contains
       fit%is_seen = known%is_seen
       fit%partner = known%partner
       fit%correlation = known%correlation
-      fit%quantile = known%quantile
-      fit%sigma = model%sigma
-      fit%is_given = is_given
+      fit%sensors%sigma = model%sigma
+      fit%sensors%is_given = is_given
       fit%sets = model%sets
       fit%n_data = size(found%r)
       fit%deviation_of_residuals = sqrt(sum(found%r**2)/(size(found%r) - size(found%u)))
-      allocate (fit%rms(size(is_given)), source=0.0_wp)
-      allocate (fit%n_used(size(is_given)), source=0)
       do s = 1, size(is_given)
-         call sum_residuals(model, s, fit%n_used(s), square)
-         if (fit%n_used(s) > 0) fit%rms(s) = sqrt(square/fit%n_used(s))
+         call sum_residuals(model, s, fit%sensors(s)%n_used, square)
+         if (fit%sensors(s)%n_used > 0) fit%sensors(s)%rms = sqrt(square/fit%sensors(s)%n_used)
       end do
    end subroutine take_results
 

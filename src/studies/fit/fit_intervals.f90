@@ -30,7 +30,7 @@ module fit_intervals
       real(wp), allocatable :: correlation(:, :)     !! (n, n) of C; 0 where there is none [1]
       real(wp), allocatable :: low(:), high(:)       !! (n) ends of the intervals [1]
       logical, allocatable :: is_seen(:)             !! (n) whether the data see it
-      integer, allocatable :: partner(:)             !! (n) unknown that it cannot be told from; 0: none
+      integer, allocatable :: partner(:)             !! (n) unknown that it cannot be separated from; 0: none
       real(wp), allocatable :: singular(:)           !! (n) singular values, descending [1]
    end type intervals_t
 

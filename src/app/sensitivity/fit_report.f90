@@ -36,7 +36,7 @@ contains
       do k = 1, size(fit%places)
          associate (place => fit%places(k))
             words = ""
-            if (fit%partner(k) > 0) words = "; it cannot be told from '"//fit%places(fit%partner(k))%name//"'"
+            if (fit%partner(k) > 0) words = "; it cannot be separated from '"//fit%places(fit%partner(k))%name//"'"
             if (.not. fit%is_seen(k)) then
                call append_text(warnings, "the data do not see '"//place%name//"'"//words)
             else if (words /= "") then
@@ -52,12 +52,12 @@ contains
                              " s on are not fitted: "//fit%sets(k)%reason)
          end if
       end do
-      if (fit%end == end_limit) then
+      if (fit%search%end == end_limit) then
          call append_text(warnings, "the search ended after too many iterations: start nearer, or use until in [fit.study]")
-      else if (fit%end /= end_converged) then
+      else if (fit%search%end /= end_converged) then
          call append_text(warnings, "the search ended where no step was better, short of its criteria")
       end if
-      if (all(fit%is_given) .and. fit%deviation_of_residuals > odd) then
+      if (all(fit%sensors%is_given) .and. fit%deviation_of_residuals > odd) then
          call append_text(warnings, "residuals are "//real_text(fit%deviation_of_residuals, 3)//" times the given standard " &
                           //"deviations: the model or these are wrong, and the intervals too narrow")
       end if
@@ -92,7 +92,8 @@ contains
       call lines%line(plan%title)
       call lines%line("complete: "//counted(size(fit%places), "unknown", "unknowns")//" from "//to_text(fit%n_data)//" data of "// &
                       counted(size(fit%sensors), "sensor", "sensors")//" in "//counted(size(fit%sets), "set", "sets")//"; "// &
-                      counted(fit%n_derived, "derivative", "derivatives")//", "//counted(fit%n_motion, "motion", "motions"))
+                      counted(fit%search%n_derived, "derivative", "derivatives")//", "// &
+                      counted(fit%search%n_motion, "motion", "motions"))
       call add_table(lines, table_of_unknowns(fit))
       if (size(fit%places) > 1) call add_table(lines, table_of_correlations(fit))
       call add_table(lines, table_of_sensors(fit))

@@ -118,6 +118,7 @@ contains
 
       type(diagnostics_t) :: ignored  ! there are no errors: the tables were checked
       type(scalar_t), allocatable :: scalars(:)
+      type(text_t), allocatable :: units(:)
       integer :: k
 
       call plan_fit(loaded%deck, loaded%catalogue, model%plan, scalars, ignored)
@@ -129,17 +130,18 @@ contains
       call read_data(options, loaded%catalogue, scalars, loaded%plan%end, model%plan, model%sets, warnings, error)
       if (allocated(error)) return
       allocate (model%channels(3, size(scalars)), model%sigma(size(scalars)), model%spread(size(scalars)))
-      allocate (fit%sensors(size(scalars)), fit%channels(size(scalars)), fit%units(size(scalars)))
+      allocate (fit%sensors(size(scalars)), units(size(scalars)))
       do k = 1, size(scalars)
          model%channels(:, k) = [scalars(k)%group, scalars(k)%component, scalars(k)%item]
-         fit%sensors(k)%s = model%plan%sensors(k)%name
-         fit%channels(k)%s = scalar_name(loaded%catalogue, scalars(k))
-         fit%units(k)%s = loaded%catalogue%groups(scalars(k)%group)%channel%unit
+         fit%sensors(k)%name = model%plan%sensors(k)%name
+         fit%sensors(k)%channel = scalar_name(loaded%catalogue, scalars(k))
+         units(k)%s = loaded%catalogue%groups(scalars(k)%group)%channel%unit
+         fit%sensors(k)%unit = units(k)%s
          model%spread(k) = spread_of(model, k)
          model%sigma(k) = model%spread(k)
          if (model%plan%sensors(k)%has(1)) model%sigma(k) = model%plan%sensors(k)%sigma
       end do
-      model%places = layout_of(model%plan, fit%units)
+      model%places = layout_of(model%plan, units)
       if (size(model%places) == 0) call set_error(error, exit_usage, "the deck has no unknowns: table [fit] has no rows")
    end subroutine set_up
 
