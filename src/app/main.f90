@@ -8,20 +8,16 @@ program gudgeon
    use options, only: options_t, read_options
    use posix, only: write_error
    use processes, only: begin_process, end_process
+   use study_verbs, only: make_study
    use text, only: starts_with
    use verb_explain, only: check_deck, explain_deck
    use verb_compare, only: compare_runs
    use verb_import, only: import_model
    use verb_help, only: list_kinds, show_help, show_version
-   use verb_life, only: live_deck
    use verb_merge, only: merge_sweep
    use verb_new, only: new_deck
-   use verb_orbit, only: orbit_deck
-   use verb_precision, only: compare_precision
    use verb_run, only: run_deck
-   use verb_sensitivity, only: derive_deck
    use verb_sweep, only: sweep_deck
-   use verb_tolerance, only: study_tolerances
    implicit none (type, external)
 
    type(error_t), allocatable :: console_error, error
@@ -44,16 +40,8 @@ program gudgeon
          call sweep_deck(options, error)
       case ("merge")
          call merge_sweep(options, error)
-      case ("life")
-         call live_deck(options, error)
-      case ("sensitivity")
-         call derive_deck(options, error)
-      case ("orbit")
-         call orbit_deck(options, error)
-      case ("tolerance")
-         call study_tolerances(options, error)
-      case ("precision")
-         call compare_precision(options, error)
+      case ("life", "sensitivity", "orbit", "fit", "tolerance", "precision")
+         call make_study(options, error)
       case ("compare")
          call compare_runs(options, error)
       case ("import")

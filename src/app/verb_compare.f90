@@ -1,8 +1,6 @@
 !> `gudgeon compare A B`: a run against another run, or against columns of another program.
 module verb_compare
    use channel_spec, only: parse_spec, spec_t
-   use column_file, only: column_table_t, read_columns
-   use column_history, only: history_of_columns
    use comparison, only: compare_histories, comparison_t
    use comparison_figures, only: write_overlays
    use comparison_report, only: comparison_json, comparison_text, verdict_text
@@ -10,6 +8,7 @@ module verb_compare
    use console, only: say
    use csv_table, only: csv_text
    use errors, only: error_t, exit_different, exit_file, exit_usage, set_error
+   use external_columns, only: read_external
    use gnuplot_runs, only: draw_figures, make_folder
    use kinds, only: wp
    use options, only: options_t
@@ -66,7 +65,7 @@ contains
          if (.not. allocated(error)) call shift_time(b, time)
          if (.not. allocated(error)) call adapt(b, specs, error)
       else
-         call read_legacy(second, specs, time, a, b, notes, error)
+         call read_external(second, specs, time, a, b, notes, error)
       end if
       if (allocated(error)) return
       relative = options%legacy%relative
@@ -194,49 +193,6 @@ contains
 
       part = trim(adjustl(line(index(line, "=") + 1:)))
    end function behind_sign
-
-   !> Read the columns of another program.
-   subroutine read_legacy(path, specs, time, like, history, notes, error)
-      character(*), intent(in) :: path                     !! of the file, perhaps with `:K` for its table number K
-      type(spec_t), intent(in) :: specs(:)                 !! (n) channels
-      type(spec_t), intent(in) :: time                     !! the time
-      type(history_t), intent(in) :: like                  !! the run
-      type(history_t), intent(out) :: history              !! the columns
-      type(text_t), allocatable, intent(inout) :: notes(:) !! (n) what is said of them
-      type(error_t), allocatable, intent(out) :: error     !! it cannot be read, or has no such table
-
-      type(column_table_t), allocatable :: tables(:)
-      type(source_t) :: source
-      character(:), allocatable :: file, message
-      integer :: at, k, status
-
-      file = path
-      k = 1
-      at = index(path, ":", back=.true.)
-      if (at > 1 .and. at < len(path)) then
-         if (verify(path(at + 1:), "0123456789") == 0 .and. len(path) - at < 6) then
-            read (path(at + 1:), *, iostat=status) k
-            if (status == 0) file = line_before(path, at)
-         end if
-      end if
-      call read_source(file, source, message, may_be_stream=.true.)
-      if (message /= "") then
-         call set_error(error, exit_file, "cannot read '"//file//"': "//message)
-         return
-      end if
-      call read_columns(source, tables)
-      if (size(tables) == 0) then
-         call set_error(error, exit_file, "'"//file//"' has no rows of numbers"//new_line("a")// &
-                        "  = a row needs at least two numbers, separated by commas, semicolons, tabs or blanks")
-      else if (k < 1 .or. k > size(tables)) then
-         call set_error(error, exit_usage, "'"//file//"' has "//to_text(size(tables))//" tables, no table "//to_text(k))
-      else
-         if (size(tables) > 1 .and. file == path) call append_text(notes, "'"//file//"' has "//to_text(size(tables))// &
-            " tables; this comparison uses the first, "//counted(size(tables(1)%x, 2), "row", "rows")//" from line "// &
-            to_text(tables(1)%line)//" on; the second is "//file//":2, from line "//to_text(tables(2)%line))
-         call history_of_columns(file, tables(k), specs, time, like, history, error)
-      end if
-   end subroutine read_legacy
 
    !> Shift and scale the time of a run.
    subroutine shift_time(history, time)

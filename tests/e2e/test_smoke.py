@@ -22,7 +22,7 @@ SWEEP = "\n[sweep]\nlaw = hertz lankarani_nikravesh\nc = 0.5 0.2 mm\n"
 def test_every_verb_has_a_smoke_test(gudgeon):
     """The verbs of `gudgeon help` are those below."""
     verbs = set(re.findall(r"(?m)^  gudgeon (\w+)", call(gudgeon, "help").stdout))
-    known = "run sweep merge life sensitivity orbit tolerance precision check explain compare import new list help version"
+    known = "run sweep merge life sensitivity orbit tolerance fit precision check explain compare import new list help version"
     assert verbs == set(known.split())
 
 
@@ -88,6 +88,14 @@ def test_tolerance(gudgeon):
     folder = scratch()
     call(gudgeon, "tolerance", ROOT / "inputs" / "tolerance_four_bar.deck", "--out", folder / "out", "--quiet")
     assert (folder / "out" / "tolerance.h5").exists()
+
+
+def test_fit(gudgeon):
+    """Restitution of a bouncing ball from a record."""
+    folder = scratch()
+    deck, record = (ROOT / "inputs" / f"fit_restitution.{ending}" for ending in ("deck", "csv"))
+    call(gudgeon, "fit", deck, record, "--out", folder / "out", "--quiet", "--write", "channels")
+    assert (folder / "out" / "fit.h5").exists()
 
 
 def test_precision(gudgeon):

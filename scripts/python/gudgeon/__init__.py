@@ -14,6 +14,6 @@ Runs need nothing but the program (`gudgeon.program()` says which), arrays h5py 
 from .call import GudgeonError, program
 from .deck import Deck
 from .result import Run, read
-from .verbs import life, precision, run, sweep
+from .verbs import fit, life, precision, run, sweep
 
-__all__ = ["Deck", "GudgeonError", "Run", "life", "precision", "program", "read", "run", "sweep"]
+__all__ = ["Deck", "GudgeonError", "Run", "fit", "life", "precision", "program", "read", "run", "sweep"]

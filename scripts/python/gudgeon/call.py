@@ -12,7 +12,7 @@ import subprocess
 import sys
 import sysconfig
 import tempfile
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Mapping, Sequence
 from typing import TYPE_CHECKING, Any, Union
 
 from .deck import Deck, spelled
@@ -71,16 +71,16 @@ def words_of(options: Mapping[str, Any]) -> list[str]:
 
 def call(
     verb: str, deck: str | os.PathLike[str] | Deck, values: Mapping[str, Any] | None, out: str | os.PathLike[str] | None,
-    progress: Progress, options: Mapping[str, Any],
+    progress: Progress, options: Mapping[str, Any], files: Sequence[str | os.PathLike[str]] = (),
 ) -> tuple[int, str, dict[str, Any]]:
-    """Exit code, message and summary ({} if there is none) of `gudgeon VERB DECK`; its directory in the summary is absolute."""
+    """Exit code, message and summary ({} if there is none) of `gudgeon VERB DECK FILES`; its directory in the summary is absolute."""
     text, folder, name = None, None, str(deck)
     values = dict(values or {})
     if isinstance(deck, Deck):
         text, values = deck.having(**values).parts()
         folder, name = deck.folder, f"{deck.name}.deck"
         out = out or pathlib.Path("outputs", deck.name + ("_precision" if verb == "precision" else ""))
-    command = [program(), verb, "/dev/stdin" if text is not None else name, "--json"]
+    command = [program(), verb, "/dev/stdin" if text is not None else name, *map(os.path.abspath, files), "--json"]
     command += [word for key, value in values.items() for word in ("--set", f"{key}={spelled(value)}")]
     command += words_of({"out": os.path.abspath(out) if out else None, **options})
     said = []

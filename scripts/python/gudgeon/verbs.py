@@ -89,6 +89,24 @@ def life(
     return table(summary, "life.csv")
 
 
+def fit(
+    deck: str | os.PathLike[str] | Deck, *data: str | os.PathLike[str], set: Mapping[str, Any] | None = None,
+    out: str | os.PathLike[str] | None = None, progress: Progress = False, **options: Any,
+) -> pandas.DataFrame:
+    """Parameters of a deck with `[fit]` from files of data, an unknown in a row: `value`, `low` and `high` of the 95 % interval, `deviation`,
+    `seen`, `unit`.
+
+    Options are those of `gudgeon fit`: `tolerance=1e-9`, `time="1 unit=ms"`. `attrs` has `summary` and `directory`.
+    """
+    pandas = needed("pandas", "a table")
+    code, message, summary = call("fit", deck, set, out, progress, options, data)
+    if code:
+        raise GudgeonError(code, message)
+    frame: pandas.DataFrame = pandas.DataFrame.from_dict(summary["fit"], orient="index")
+    frame.attrs.update(summary=summary, directory=summary["directory"])
+    return frame
+
+
 def table(summary: dict[str, Any], name: str) -> pandas.DataFrame:
     """A file of comma-separated values, its headings without units."""
     path = pathlib.Path(summary["directory"], name)

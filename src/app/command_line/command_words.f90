@@ -15,7 +15,7 @@ module command_words
    !> What follows a verb.
    type :: command_t
       character(11) :: name = ""     !! the verb
-      character(8) :: operand = ""   !! what it works on: DECK, NAME, [KIND]; blank: nothing
+      character(9) :: operand = ""   !! what it works on: DECK, NAME, [KIND]; blank: nothing
       character(88) :: help = ""     !! one line
       character(170) :: options = ""  !! the options that it takes, blank-separated
    end type command_t
@@ -43,6 +43,8 @@ module command_words
                 "--out --set --tolerance --method --quiet --json"), &
       command_t("tolerance", "DECK", "tolerances and clearances by [tolerance]: derivatives, worst case, scatter, yield", &
                 "--out --set --tolerance --quiet --json"), &
+      command_t("fit", "DECK DATA", "parameters from measured data by [fit], with 95 % intervals", &
+                "--out --set --time --tolerance --method --write --quiet --json"), &
       command_t("precision", "DECK", "compare methods and tolerances: accuracy against cost", &
                 "--out --set --ideal --methods --accuracy --budget --quiet --json"), &
       command_t("check", "DECK", "check the deck completely without integrating", &

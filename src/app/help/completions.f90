@@ -118,7 +118,7 @@ contains
       character(*), intent(in) :: names    !! of the kinds, blank-separated
 
       select case (verb%operand)
-      case ("DECK")
+      case ("DECK", "DECK DATA")
          call say(trim(verb%name)//")", 8)
          call say("compopt -o filenames 2>/dev/null", 12)
          call say("mapfile -t COMPREPLY < <(compgen -f -X '!*.deck' -- ""$word""; compgen -d -- ""$word"") ;;", 12)
@@ -186,7 +186,7 @@ contains
          call say("'"//takes//"' \", 8)
       end do
       select case (verb%operand)
-      case ("DECK"); call say("'1:deck:_files -g ""*.deck""' ;;", 8)
+      case ("DECK", "DECK DATA"); call say("'1:deck:_files -g ""*.deck""' ;;", 8)
       case ("[KIND]"); call say("'*:kind:("//names//")' ;;", 8)
       case default; call say("'1:name:' ;;", 8)
       end select

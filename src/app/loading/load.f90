@@ -3,6 +3,7 @@ module load
    use build_clearances, only: has_ideal
    use build_system, only: levels_as_written, levels_ideal, levels_clearance_joints, new_system
    use catalogue, only: catalogue_t
+   use channel_names, only: scalar_t
    use change_scene, only: scene_with_changes
    use columns, only: column_of
    use deck_file, only: read_deck
@@ -11,6 +12,8 @@ module load
    use errors, only: error_t, exit_usage, set_error
    use drawn_figures, only: check_drawn_figures
    use figure_words, only: figure_t
+   use fit_plan, only: fit_plan_t
+   use fit_words, only: plan_fit
    use formula_words, only: read_formulas
    use function_range, only: check_function_ranges
    use item, only: item_t, location_t, place_of
@@ -29,6 +32,7 @@ module load
    use orbit_results, only: orbit_plan_t
    use orbit_words, only: plan_orbit
    use parameter_change, only: change_parameters
+   use read_fit, only: has_fit
    use read_scene, only: scene_from_deck
    use read_tolerance, only: has_tolerances
    use run_limits, only: check_conditions, has_conditions
@@ -153,11 +157,11 @@ contains
       call check_steps(loaded%scene%settings%integration, mistakes)
       call new_time_plan(loaded%scene, loaded%system, loaded%plan, mistakes)
       if (loaded%scene%settings%life%is_present) call check_life(loaded%scene, loaded%system, mistakes)
-      if (has_tolerances(loaded%deck) .and. .not. options%runs%is_member) then
+      if (.not. options%runs%is_member) then
          if (has_all_words) then
-            call check_tolerances(loaded%deck, loaded%scene, loaded%catalogue, mistakes)
+            call check_studies(loaded%deck, loaded%scene, loaded%catalogue, mistakes)
          else
-            call check_tolerances(loaded%deck, loaded%scene, catalogue, mistakes)
+            call check_studies(loaded%deck, loaded%scene, catalogue, mistakes)
          end if
       end if
       if (mistakes%count() == 0) call check_function_ranges(loaded%scene, loaded%plan%end, mistakes)
@@ -183,6 +187,20 @@ contains
       end if
       call mistakes%to_error(loaded%deck%sources, error)
    end subroutine prepare
+
+   !> Check the tables of studies: each checks its own.
+   subroutine check_studies(deck, scene, catalogue, mistakes)
+      type(deck_t), intent(inout) :: deck             !! the deck
+      type(scene_t), intent(in) :: scene              !! its scene
+      type(catalogue_t), intent(in) :: catalogue      !! all that it can report
+      type(diagnostics_t), intent(inout) :: mistakes  !! errors found
+
+      type(fit_plan_t) :: fit
+      type(scalar_t), allocatable :: sensors(:)
+
+      if (has_fit(deck)) call plan_fit(deck, catalogue, fit, sensors, mistakes)
+      if (has_tolerances(deck)) call check_tolerances(deck, scene, catalogue, mistakes)
+   end subroutine check_studies
 
    !> Whether words must be looked up to load a deck: of a case of a sweep whose words are known only expressions and conditions.
    logical function needs_catalogue(options, scene)

@@ -9,6 +9,7 @@ module verb_orbit
    use kinds, only: wp
    use load, only: load_deck, loaded_t
    use mechanism, only: mechanism_t
+   use one_step_check, only: check_one_step
    use options, only: options_t
    use orbit_info, only: orbit_section
    use orbit_plots, only: write_orbit_plots
@@ -25,7 +26,6 @@ module verb_orbit
    use run_plan, only: tell_origin
    use scene, only: analysis_dynamic
    use scene_echo, only: echo_scene
-   use steps_with_map, only: check_method
    use table_file, only: write_table_file
    use text, only: text_t
    use text_file, only: replace_file
@@ -82,7 +82,7 @@ contains
       else if (.not. loaded%has_orbit) then
          call set_error(error, exit_usage, "the deck has no section [orbit]"//new_line("a")//"  = see 'gudgeon help orbit'")
       else
-         call check_method(loaded%scene%settings%integration, "orbits", error)
+         call check_one_step(loaded%scene%settings%integration, "orbits need", error)
       end if
    end subroutine check_request
 

@@ -8,6 +8,7 @@ module verb_sensitivity
    use find_sensitivity, only: find_sensitivities
    use kinds, only: wp
    use load, only: load_deck, loaded_t
+   use one_step_check, only: check_one_step
    use options, only: options_t
    use output_directory, only: output_directory_t
    use output_plan, only: output_plan_t
@@ -22,7 +23,6 @@ module verb_sensitivity
    use sensitivity_report, only: report_sensitivity
    use sensitivity_results, only: sensitivity_t
    use sensitivity_tables, only: table_of_derivatives, table_of_parameters, table_of_results
-   use steps_with_map, only: check_method
    use table_file, only: write_table_file
    use text, only: text_t
    use text_file, only: replace_file
@@ -72,13 +72,12 @@ contains
 
       if (loaded%scene%analysis /= analysis_dynamic) then
          call set_error(error, exit_usage, "sensitivities need [analysis.dynamic] as the first analysis section of the deck")
-         return
       else if (.not. loaded%has_sensitivity) then
          call set_error(error, exit_usage, "the deck has no section [sensitivity]"//new_line("a")// &
                         "  = see 'gudgeon help sensitivity'")
-         return
+      else
+         call check_one_step(loaded%scene%settings%integration, "sensitivities need", error)
       end if
-      call check_method(loaded%scene%settings%integration, "sensitivities", error)
    end subroutine check_request
 
    !> The files.

@@ -36,8 +36,10 @@ contains
       integer :: k
 
       is_read = .not. is_touched
-      do k = 1, size(is_read)  ! tables of a study of tolerances are no part of the scene
-         is_read(k) = is_read(k) .or. deck%sections(k)%name == "tolerance" .or. starts_with(deck%sections(k)%name, "tolerance.")
+      do k = 1, size(is_read)  ! tables of studies are no part of the scene
+         associate (name => deck%sections(k)%name//".")
+            is_read(k) = is_read(k) .or. starts_with(name, "tolerance.") .or. starts_with(name, "fit.")
+         end associate
       end do
       do k = 1, n_base
          call read_again(scene%tables%base(k))

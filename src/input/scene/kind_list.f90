@@ -8,6 +8,7 @@ module kind_list
    use contact_registry, only: n_friction_kinds, n_law_kinds, n_wear_kinds, new_friction_law, new_normal_law, new_wear_law
    use film_law, only: film_law_t
    use film_registry, only: n_film_kinds, new_film_law
+   use fit_info, only: fit_sensor_info, fit_set_info, fit_study_info, fit_table_info
    use force_registry, only: n_force_kinds, new_force_set
    use force_set, only: force_set_t
    use friction_law, only: friction_law_t
@@ -177,7 +178,7 @@ contains
       before_films = before_wears + n_wear_kinds() + 1
       before_worn = before_films + n_film_kinds()
       before_settings = before_worn + n_worn_kinds()
-      allocate (known(before_settings + 20))
+      allocate (known(before_settings + 24))
       known(1) = scene_info()
       known(2) = bodies_info()
       known(3) = points_info()
@@ -269,8 +270,12 @@ contains
       known(before_settings + 16) = tolerance_joint_info()
       known(before_settings + 17) = tolerance_limit_info()
       known(before_settings + 18) = tolerance_study_info()
-      known(before_settings + 19) = precision_section()
-      known(before_settings + 20) = orbit_section()
+      known(before_settings + 19) = fit_table_info()
+      known(before_settings + 20) = fit_sensor_info()
+      known(before_settings + 21) = fit_set_info()
+      known(before_settings + 22) = fit_study_info()
+      known(before_settings + 23) = precision_section()
+      known(before_settings + 24) = orbit_section()
    end subroutine ask_settings
 
 end module kind_list

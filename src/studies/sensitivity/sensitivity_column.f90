@@ -85,13 +85,14 @@ contains
    end function derivative
 
    !> Start: mechanisms beside, and the derivative of the start.
-   subroutine begin_column(self, variation, number, p, part, method)
+   subroutine begin_column(self, variation, number, p, part, method, span)
       class(column_t), intent(inout) :: self            !! the column, new
       type(variation_t), intent(inout) :: variation     !! how mechanisms beside are made
       integer, intent(in) :: number                     !! of the parameter
       real(wp), intent(in) :: p                         !! its value in the deck [any]
       real(wp), intent(in) :: part                      !! first e, of the parameter [1]
       class(integrator_t), intent(in) :: method         !! the method, started
+      real(wp), intent(in), optional :: span            !! what e is measured by; default: |p| [any]
 
       integer :: i
 
@@ -99,6 +100,7 @@ contains
       self%p = p
       self%part = part
       self%size = merge(abs(p), 1.0_wp, abs(p) > 0.0_wp)
+      if (present(span)) self%size = span
       self%reason = ""
       associate (base => variation%base)
          allocate (self%s(base%n), self%u(base%clearance_joints%n_contact), self%rate(base%clearance_joints%n_contact), &

@@ -20,6 +20,7 @@ module sensitivity_motion
    use result_tracker, only: tracker_t
    use sensitivity_results, only: found_t, is_of_contact, result_peak_penetration, result_value, sensitivity_plan_t
    use step_map, only: section_t
+   use step_viewer, only: step_viewer_t
    use text, only: real_text
    use varied_system, only: instants_of, want_only
    implicit none (type, external)
@@ -29,7 +30,7 @@ module sensitivity_motion
 contains
 
    !> Find the results and their derivatives.
-   subroutine find_motion(job, source, plan, tolerance, part, found, error)
+   subroutine find_motion(job, source, plan, tolerance, part, found, error, viewer)
       type(job_t), intent(inout) :: job                              !! scene and times; left as it is
       class(parameter_source_t), target, intent(inout) :: source     !! where scenes with other parameters come from
       type(sensitivity_plan_t), intent(in) :: plan                   !! what is asked for
@@ -37,13 +38,14 @@ contains
       real(wp), intent(in) :: part                                   !! first e, of the parameters [1]
       type(found_t), intent(out) :: found                            !! what it gives
       type(error_t), allocatable, intent(out) :: error               !! it cannot start, or the integration failed
+      class(step_viewer_t), intent(inout), optional :: viewer        !! looks at every step
 
       type(motion_t), target :: motion
       real(wp) :: until
       integer :: k
 
       call found%start(size(plan%results), size(plan%parameters))
-      call begin(motion, job, source, plan, tolerance, part, found, error)
+      call begin(motion, job, source, plan, tolerance, part, found, error, viewer)
       if (allocated(error)) return  ! before any column has started
       associate (mover => motion%mover)
          do while (mover%method%t < plan%end)
@@ -60,7 +62,7 @@ contains
                exit
             end if
             found%n_step = found%n_step + 1
-            call after_step(motion, plan%end, found, error)
+            call after_step(motion, plan%end, found, error, viewer)
             if (allocated(error)) exit
          end do
       end associate
@@ -70,7 +72,7 @@ contains
    end subroutine find_motion
 
    !> The start of the motion and of its derivatives.
-   subroutine begin(motion, job, source, plan, tolerance, part, found, error)
+   subroutine begin(motion, job, source, plan, tolerance, part, found, error, viewer)
       type(motion_t), target, intent(inout) :: motion                !! the motion
       type(job_t), intent(inout) :: job                              !! scene and times
       class(parameter_source_t), target, intent(inout) :: source     !! where scenes with other parameters come from
@@ -79,6 +81,7 @@ contains
       real(wp), intent(in) :: part                                   !! first e, of the parameters [1]
       type(found_t), intent(inout) :: found                          !! results
       type(error_t), allocatable, intent(out) :: error               !! it cannot start
+      class(step_viewer_t), intent(inout), optional :: viewer        !! looks at every step
 
       type(integration_t) :: settings
       integer :: k
@@ -97,10 +100,16 @@ contains
          call motion%map%begin(settings, mover%system, mover%method%step%y1, plan%end, k)
          call build_catalogue(mover%system, motion%catalogue)
          call list_results(plan, motion%catalogue, motion%results, variation%channels)
+         if (present(viewer)) variation%channels = reshape([variation%channels, viewer%channels], &
+                                                           [3, size(variation%channels, 2) + size(viewer%channels, 2)])
          call want_only(mover%system, variation%channels, motion%catalogue)
          variation%instants = instants_of(job, mover%system)
          do k = 1, size(motion%columns)
-            call motion%columns(k)%begin(variation, k, plan%values(k), part, mover%method)
+            if (allocated(plan%spans)) then
+               call motion%columns(k)%begin(variation, k, plan%values(k), part, mover%method, plan%spans(k))
+            else
+               call motion%columns(k)%begin(variation, k, plan%values(k), part, mover%method)
+            end if
          end do
       end associate
       motion%is_behind_events = .true.
@@ -109,6 +118,7 @@ contains
       do k = 1, size(motion%results)
          call motion%results(k)%at_start(motion%mover%system, motion%mover%method, motion%catalogue, motion%columns, found)
       end do
+      if (present(viewer)) call viewer%see_start(motion)
       call restore(motion)
    end subroutine begin
 
@@ -146,11 +156,12 @@ contains
    end subroutine list_results
 
    !> What follows a step: derivatives, results, events, instants.
-   subroutine after_step(motion, end, found, error)
+   subroutine after_step(motion, end, found, error, viewer)
       type(motion_t), target, intent(inout) :: motion      !! the motion
       real(wp), intent(in) :: end                          !! of the motion [s]
       type(found_t), intent(inout) :: found                !! results
       type(error_t), allocatable, intent(out) :: error     !! no way to continue
+      class(step_viewer_t), intent(inout), optional :: viewer  !! looks at the step
 
       type(section_t) :: section
       integer, allocatable :: touched(:, :)
@@ -168,6 +179,7 @@ contains
          do k = 1, size(motion%results)
             call motion%results(k)%in_step(motion%map, system, method, motion%catalogue, motion%columns, behind, found)
          end do
+         if (present(viewer)) call viewer%see_step(motion, behind)
          call motion%map%take_step(method)
          call find_section(motion, is_event, is_instant .or. method%t >= end, section)
          call list_touched(motion, is_event, touched, rates)

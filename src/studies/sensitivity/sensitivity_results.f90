@@ -43,6 +43,7 @@ module sensitivity_results
       type(text_t), allocatable :: parameters(:)    !! (parameters) their names
       type(text_t), allocatable :: units(:)         !! (parameters) SI
       real(wp), allocatable :: values(:)            !! (parameters) in the deck [any]
+      real(wp), allocatable :: spans(:)             !! (parameters) what their changes are measured by; none: their values [any]
       real(wp) :: tolerance = 0.0_wp                !! of the motion [1]
       real(wp) :: end = 0.0_wp                      !! of the motion [s]
    end type sensitivity_plan_t
