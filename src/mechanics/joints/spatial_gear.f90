@@ -36,10 +36,10 @@ module spatial_gear
 
    !> All pairs of gears of a spatial scene.
    type, extends(counted_joint_t) :: spatial_gear_t
-      real(wp), allocatable, private :: radius(:, :)       !! (2, n) of i and j; of axes that point opposite ways one is turned [m]
-      logical, allocatable, private :: is_parallel(:)      !! (n) whether the axes are parallel
+      real(wp), allocatable :: radius(:, :)                !! (2, n) of i and j; of axes that point opposite ways one is turned [m]
+      logical, allocatable :: is_parallel(:)               !! (n) whether the axes are parallel
       real(wp), allocatable, private :: start(:)           !! (n) R_i phi_i + R_j phi_j where the deck puts the bodies [m]
-      real(wp), allocatable, private :: between(:, :)      !! (2, n) sine of the angle of the axes, distance across z_i there [1, m]
+      real(wp), allocatable :: between(:, :)               !! (2, n) sine of the angle of the axes, distance across z_i there [1, m]
    contains
       procedure, nopass :: info => gear_info
       procedure :: prepare => gear_prepare

@@ -74,7 +74,7 @@ contains
       character(:), allocatable, intent(inout) :: words           !! name and what is wrong; left alone: nothing
 
       select type (joint)
-      type is (spatial_gear_t)
+      class is (spatial_gear_t)
          if (gear_is_lost(joint, i, motion)) words = words_of_lost_gear(joint, i, motion)
       type is (spatial_rack_t)
          if (rack_is_lost(joint, i, motion)) words = words_of_lost_rack(joint, i, motion)
