@@ -1,20 +1,18 @@
-!> Bushings and beams: the textbooks' matrices, frequencies of a chain of beams, moments of large rotations, maps of rotations.
+!> Bushings and beams: the textbooks' matrices, frequencies of a chain of beams, moments of large rotations.
 module test_frame_springs
    use bodies, only: points_t
    use check, only: check_close, check_true, suite_t
    use differences, only: five_point, places
    use errors, only: error_t
-   use fixed_random, only: random_t
-   use force_registry, only: n_force_kinds, new_force_set
+   use frame_spring_rows, only: find_set, make_item
    use force_set, only: force_set_t
-   use generic_item, only: column_number, fill_item
+   use generic_item, only: column_number
    use item, only: item_t
-   use kind_info, only: is_of_space, kind_info_t
-   use kinds, only: i8, pi, wp
+   use kind_info, only: kind_info_t
+   use kinds, only: pi, wp
    use lapack, only: dsygv
    use motion, only: loads_t, motion_t, new_loads, new_motion
    use planar_coordinates, only: set_planar_motion
-   use rotation_maps, only: inverse_map_of, map_of
    use rotations, only: rotation_about
    implicit none (type, external)
    private
@@ -28,85 +26,12 @@ contains
    subroutine run_test_frame_springs(suite)
       type(suite_t), intent(inout) :: suite  !! where tests are registered
 
-      call suite%test("rotation_maps", test_rotation_maps)
       call suite%test("spatial_beam_matrix", test_spatial_beam_matrix)
       call suite%test("planar_beam_matrix", test_planar_beam_matrix)
       call suite%test("frequencies", test_frequencies)
       call suite%test("large_rotation", test_large_rotation)
       call suite%test("half_a_turn", test_half_a_turn)
    end subroutine run_test_frame_springs
-
-   !> A row of a kind with its numbers zero but those given.
-   subroutine make_item(info, names, numbers, item)
-      type(kind_info_t), intent(in) :: info      !! the kind
-      character(*), intent(in) :: names(:)       !! (n) columns
-      real(wp), intent(in) :: numbers(:)         !! (n) their numbers, SI [any]
-      type(item_t), intent(out) :: item          !! the row
-
-      type(random_t) :: random
-      integer :: c
-
-      random%state = 3_i8
-      call fill_item(info, 1, random, item)
-      do c = 1, size(item%values)
-         item%values(c)%number = 0.0_wp
-         item%values(c)%given = .false.
-         if (allocated(item%values(c)%table)) deallocate (item%values(c)%table)
-      end do
-      do c = 1, size(names)
-         item%values(column_number(info, trim(names(c))))%number = numbers(c)
-         item%values(column_number(info, trim(names(c))))%given = .true.
-      end do
-      item%values(column_number(info, "i"))%index = 1
-      item%values(column_number(info, "j"))%index = 2
-   end subroutine make_item
-
-   !> An empty set of a kind.
-   subroutine find_set(name, is_spatial, set, info)
-      character(*), intent(in) :: name                       !! of the kind
-      logical, intent(in) :: is_spatial                      !! of space
-      class(force_set_t), allocatable, intent(out) :: set    !! the set
-      type(kind_info_t), intent(out) :: info                 !! the kind
-
-      integer :: k
-
-      do k = 1, n_force_kinds()
-         call new_force_set(k, set)
-         info = set%info()
-         if (info%name == name .and. is_of_space(info, is_spatial)) return
-      end do
-      error stop "test_frame_springs: no such kind"
-   end subroutine find_set
-
-   !> w = J psi' against differences of a rotation, and the inverse; in the range of the series and out of it.
-   subroutine test_rotation_maps(error)
-      type(error_t), allocatable, intent(out) :: error  !! what failed
-
-      real(wp), parameter :: step = 1.0e-3_wp, direction(3) = [0.48_wp, -0.6_wp, 0.64_wp], rate(3) = [0.3_wp, 0.9_wp, -0.4_wp], &
-                             sizes(6) = [1.0e-9_wp, 1.0e-3_wp, 0.09999_wp, 0.10001_wp, 1.0_wp, 3.1_wp]
-      real(wp) :: a(3, 3, 4), psi(3), spin(3, 3), w(3), z(3)
-      integer :: i, j, k, m
-
-      do m = 1, size(sizes)
-         psi = sizes(m)*direction
-         do k = 1, 4
-            z = psi + places(k)*step*rate
-            a(:, :, k) = rotation_about(z, norm2(z))
-         end do
-         do i = 1, 3
-            do j = 1, 3
-               spin(i, j) = five_point(a(i, j, :), step)
-            end do
-         end do
-         spin = matmul(spin, transpose(rotation_about(psi, norm2(psi))))
-         w = map_of(rate, psi, .false.)
-         call check_close(error, w, [spin(3, 2), spin(1, 3), spin(2, 1)], 1.0e-11_wp, "J by differences")
-         call check_close(error, inverse_map_of(w, psi, .false.), rate, 1.0e-14_wp, "inverse")
-         call check_close(error, inverse_map_of(map_of(rate, psi, .true.), psi, .true.), rate, 1.0e-14_wp, "inverse of transpose")
-         call check_close(error, dot_product(direction([2, 3, 1]), w), &
-                          dot_product(map_of(direction([2, 3, 1]), psi, .true.), rate), 1.0e-14_wp, "transpose")
-      end do
-   end subroutine test_rotation_maps
 
    !> Loads of a beam along x between two bodies of space by small displacements of its ends: the matrix of 12 x 12.
    subroutine test_spatial_beam_matrix(error)

@@ -4,7 +4,8 @@
 !> Phi_q = [ 0, 0, R_i, 0, 0, -R_j ],   gamma = 0
 !>
 !> Signs: both radii positive, an open chain; one negative, a crossed one. The multiplier is the chain's pull.
-!> Source: rolling without slip, as for gears. Limits: a chain without mass that does not stretch; sprockets whose frame does not turn.
+!> Source: rolling without slip, as for gears. Limits: a chain without mass that does not stretch;
+!> sprockets whose frame does not turn.
 module joint_chain
    use item, only: item_t
    use joint_set, only: add_joint_channels, joint_set_t
@@ -40,7 +41,8 @@ contains
       call add_reference(info, "i", "bodies", "the first sprocket")
       call add_reference(info, "j", "bodies", "the second sprocket")
       call add_number(info, "radius_i", dim_length, "radius of the first sprocket", not_zero=.true.)
-      call add_number(info, "radius_j", dim_length, "radius of the second sprocket; negative: the chain is crossed", not_zero=.true.)
+      call add_number(info, "radius_j", dim_length, "radius of the second sprocket; negative: the chain is crossed", &
+                      not_zero=.true.)
       call add_joint_channels(info)
    end function chain_info
 

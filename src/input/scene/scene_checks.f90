@@ -120,14 +120,7 @@ contains
       do k = 1, n_force_kinds()
          call new_force_set(k, forces)
          do i = 1, size(scene%forces(k)%items)
-            associate (info => scene%forces(k)%info, item => scene%forces(k)%items(i))
-               call check_pair(info, item)
-               call check_start_axes(info, item)
-               call check_start_length(info, item)
-               call check_references(info, item)
-               call forces%mistake(item, column, message, help)
-               if (column > 0) call diagnostics%add(item%values(column)%location, message, "does not match", help)
-            end associate
+            call check_force(scene%forces(k)%info, scene%forces(k)%items(i))
          end do
       end do
       do k = 1, n_clearance_kinds()
@@ -165,6 +158,19 @@ contains
                               info%columns(tie%column(2))%name//" must name two different bodies, or points of them")
       end subroutine check_pair
 
+      !> A row of a force element.
+      subroutine check_force(info, item)
+         type(kind_info_t), intent(in) :: info  !! the kind
+         type(item_t), intent(in) :: item       !! the row
+
+         call check_pair(info, item)
+         call check_start_axes(info, item)
+         call check_references(info, item)
+         call check_start_length(info, item)
+         call forces%mistake(item, column, message, help)
+         if (column > 0) call diagnostics%add(item%values(column)%location, message, "does not match", help)
+      end subroutine check_force
+
       !> The two axes of a torsional spring, which some joint holds parallel, must be so at the start, or nearly.
       subroutine check_start_axes(info, item)
          type(kind_info_t), intent(in) :: info  !! the kind
@@ -176,7 +182,7 @@ contains
 
          c = find_column(info, "axis_j")
          if (c == 0) return
-         if (.not. item%values(c)%given) return
+         if (.not. item%values(c)%given .or. .not. any(abs(item%direction("axis_i")) > 0.0_wp)) return
          tie = tie_of(scene, info, item)
          if (dot_product(start_direction(scene, tie%body(1), item%direction("axis_i")), &
                          start_direction(scene, tie%body(2), item%direction("axis_j"))) > minimum) return

@@ -27,13 +27,18 @@ module spatial_beam
    private
    public :: spatial_beam_t
 
+   !> What a beam is made of.
+   type :: section_t
+      real(wp) :: rigidity(4) = 0.0_wp    !! (4) E A, G J, E I_y, E I_z [N, N.m^2]
+      real(wp) :: shear(2) = 0.0_wp       !! (2) 12 E I a/(G A) for bending along y and along z [m^2]
+      real(wp) :: damping_time = 0.0_wp   !! C over K [s]
+      logical :: is_open = .false.        !! the length follows from the start
+   end type section_t
+
    !> All beams of a spatial scene.
    type, extends(spatial_frame_spring_t) :: spatial_beam_t
       real(wp), allocatable :: direction(:, :, :, :)   !! (3, 2, 2, n) axis and y of i and of j as in the deck; zero: omitted [1]
-      real(wp), allocatable :: rigidity(:, :)          !! (4, n) E A, G J, E I_y, E I_z [N, N.m^2]
-      real(wp), allocatable :: shear(:, :)             !! (2, n) 12 E I a/(G A) for bending along y and along z [m^2]
-      real(wp), allocatable :: damping_time(:)         !! (n) C over K [s]
-      logical, allocatable :: is_open(:)               !! (n) the length follows from the start
+      type(section_t), allocatable :: section(:)       !! (n) rigidities, damping
    contains
       procedure, nopass :: info => beam_info
       procedure :: prepare => beam_prepare
@@ -94,28 +99,27 @@ contains
 
       call self%make_storage(size(items))
       self%share = 0.5_wp
-      allocate (self%direction(3, 2, 2, self%n), self%rigidity(4, self%n), self%shear(2, self%n), self%damping_time(self%n), &
-                source=0.0_wp)
-      allocate (self%is_open(self%n))
+      allocate (self%direction(3, 2, 2, self%n), source=0.0_wp)
+      allocate (self%section(self%n))
       do k = 1, self%n
-         associate (item => items(k), of => self%rigidity(:, k))
+         associate (item => items(k), of => self%section(k)%rigidity)
             self%names(k)%s = items(k)%name
             point = [item%reference("i"), item%reference("j")]
             do end = 1, 2
                self%body(end, k) = points%body(point(end))
                self%s(:, end, k) = points%s(:, point(end))
             end do
-            self%is_open(k) = .not. item%is_given("length")
+            self%section(k)%is_open = .not. item%is_given("length")
             self%free(1, k) = item%number("length")
             self%direction(:, :, 1, k) = reshape([item%direction("axis_i"), item%direction("y_i")], [3, 2])
             self%direction(:, :, 2, k) = reshape([item%direction("axis_j"), item%direction("y_j")], [3, 2])
             of = [item%number("modulus")*item%number("area"), item%number("shear_modulus")*item%number("torsion_constant"), &
                   item%number("modulus")*item%number("second_moment_y"), item%number("modulus")*item%number("second_moment_z")]
-            self%shear(:, k) = [shear_flexibility(of(4), item%number("shear_ratio_y"), item%number("shear_modulus"), &
+            self%section(k)%shear = [shear_flexibility(of(4), item%number("shear_ratio_y"), item%number("shear_modulus"), &
                                                   item%number("area")), &
                                 shear_flexibility(of(3), item%number("shear_ratio_z"), item%number("shear_modulus"), &
                                                   item%number("area"))]
-            self%damping_time(k) = item%number("damping_time")
+            self%section(k)%damping_time = item%number("damping_time")
          end associate
       end do
    end subroutine beam_prepare
@@ -129,10 +133,10 @@ contains
       integer :: c, end, k
 
       do k = 1, self%n
-         associate (i => self%body(1, k), j => self%body(2, k), l => self%free(1, k), of => self%rigidity(:, k), &
+         associate (i => self%body(1, k), j => self%body(2, k), l => self%free(1, k), of => self%section(k)%rigidity, &
                     direction => self%direction(:, :, :, k))
             d = point_position(motion, j, self%s(:, 2, k)) - point_position(motion, i, self%s(:, 1, k))
-            if (self%is_open(k)) l = norm2(d)
+            if (self%section(k)%is_open) l = norm2(d)
             axis = direction(:, 1, 1)
             if (.not. any(abs(axis) > 0.0_wp)) axis = matmul(motion%spatial%own(:, :, i), matmul(d, motion%rot(:, :, i)))
             ! find_frames has the axis third: y, z, x
@@ -141,11 +145,12 @@ contains
             do end = 1, 2
                self%frame(:, :, end, k) = self%frame(:, [3, 1, 2], end, k)
             end do
-            k_diagonal = [of(1)/l, 12.0_wp*of(4)/(l*(l**2 + self%shear(1, k))), 12.0_wp*of(3)/(l*(l**2 + self%shear(2, k))), &
-                          of(2)/l, of(3)/l, of(4)/l]
+            k_diagonal(1:3) = [of(1)/l, 12.0_wp*of(4)/(l*(l**2 + self%section(k)%shear(1))), &
+                               12.0_wp*of(3)/(l*(l**2 + self%section(k)%shear(2)))]
+            k_diagonal(4:6) = of(2:4)/l
             do c = 1, 6
                self%stiffness(c, c, k) = k_diagonal(c)
-               self%damping(c, c, k) = self%damping_time(k)*k_diagonal(c)
+               self%damping(c, c, k) = self%section(k)%damping_time*k_diagonal(c)
             end do
          end associate
       end do

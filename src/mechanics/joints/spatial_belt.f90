@@ -16,7 +16,7 @@ module spatial_belt
    use mesh, only: close_enough, pulley_overlap
    use motion, only: motion_t
    use rows, only: rows_t
-   use spatial_gear, only: spatial_gear_t
+   use spatial_gear, only: between_gears, parallel, spatial_gear_t
    use spatial_joint, only: add_axis_columns, add_joint_columns, add_spatial_channels
    implicit none (type, external)
    private
@@ -24,6 +24,7 @@ module spatial_belt
 
    !> All belts of a spatial scene: gears whose second radius is negative where the belt is open.
    type, extends(spatial_gear_t) :: spatial_belt_t
+      real(wp), allocatable, private :: pulley(:, :)   !! (2, n) radii of the pulleys [m]
    contains
       procedure, nopass :: info => belt_info
       procedure :: prepare => belt_prepare
@@ -58,8 +59,10 @@ contains
       integer :: k
 
       call self%spatial_gear_t%prepare(items, angle)
+      allocate (self%pulley(2, self%n))
       do k = 1, self%n
-         self%radius(2, k) = sign_of_belt(items(k))*self%radius(2, k)
+         self%pulley(:, k) = [items(k)%number("radius_i"), items(k)%number("radius_j")]
+         if (sign_of_belt(items(k)) < 0.0_wp) call self%reverse_second(k)
       end do
    end subroutine belt_prepare
 
@@ -70,10 +73,13 @@ contains
       type(motion_t), intent(in) :: motion       !! positions
       character(:), allocatable :: fault         !! what is wrong; blank: nothing
 
-      fault = repeat("", size(motion%angle))
-      if (.not. self%is_parallel(k)) then
+      real(wp) :: between(2)
+
+      between = between_gears(self, k, motion)
+      fault = ""
+      if (between(1) >= parallel) then
          fault = "has pulleys whose axes are not parallel: align axis_i and axis_j"
-      else if (.not. self%between(2, k) > close_enough*maxval(abs(self%radius(:, k)))) then
+      else if (.not. between(2) > close_enough*maxval(self%pulley(:, k))) then
          fault = "has pulleys on one axis: separate the points i and j"
       end if
    end function belt_closing_fault
@@ -85,7 +91,10 @@ contains
       type(motion_t), intent(in) :: motion       !! positions
       character(:), allocatable :: doubt         !! what does not match; blank: nothing
 
-      doubt = repeat("", size(motion%angle))//pulley_overlap(self%radius(:, k), self%between(2, k))
+      real(wp) :: between(2)
+
+      between = between_gears(self, k, motion)
+      doubt = pulley_overlap(self%pulley(:, k), between(2))
    end function belt_closing_doubt
 
    !> The pull, which is the multiplier of the row.
