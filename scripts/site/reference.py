@@ -271,12 +271,12 @@ def pages_of(manual):
 
 def units_page():
     """Names of units, from the list of the program that reads them."""
-    source = next((ROOT / "src").rglob("units.f90")).read_text(encoding="utf-8")
+    source = next((ROOT / "src").rglob("named_units.f90")).read_text(encoding="utf-8")
     rows = []
     for name, prefixes, unit in re.findall(r'named_unit_t\("(\w+)", "(\w*)", unit_t\((.*)\)\)', source):
         number = {word: float(value) for word, value in re.findall(r"(numerator|denominator|power)=([-\d.]+)", unit)}
         factor = number.get("numerator", 1) / number.get("denominator", 1) * 10 ** number.get("power", 0)
-        value = f"pi/{1 / factor:.0f}" if "numerator=pi" in unit else f"{factor:g}{' pi' if 'pi' in unit else ''}"
+        value = f"pi/{1 / factor:.0f}" if "numerator=pi" in unit else f"{factor:.10g}{' pi' if 'pi' in unit else ''}"
         base = ".".join(
             f"{n}" + (f"^{power}" if power != "1" else "")
             for n, power in re.findall(r"(\w+)=(-?\d+)", unit.partition("dim_t(")[2])

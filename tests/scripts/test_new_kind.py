@@ -27,10 +27,10 @@ KINDS = {
         (CONTACT, "allocate (law_persson_t :: law)", "      case ({n}); allocate (law_power_t :: law)"),
     ],
     "joint": [
-        ("joint_belt.f90", "src/mechanics/joints"),
-        (JOINTS, "   use initial_speed, only: initial_speed_t", "   use joint_belt, only: joint_belt_t"),
+        ("joint_chain.f90", "src/mechanics/joints"),
+        (JOINTS, "   use initial_speed, only: initial_speed_t", "   use joint_chain, only: joint_chain_t"),
         (JOINTS, "      n_joint_kinds = ", "+1"),
-        (JOINTS, "allocate (spatial_constant_velocity_t :: set)", "      case ({n}); allocate (joint_belt_t :: set)"),
+        (JOINTS, "allocate (spatial_constant_velocity_t :: set)", "      case ({n}); allocate (joint_chain_t :: set)"),
     ],
     "geometry": [
         ("clearance_rollers.f90", "src/mechanics/clearance"),
@@ -147,7 +147,7 @@ def test_help_lists_what_is_new(program):
         done = subprocess.run([program, *words], capture_output=True, text=True)
         return done.stdout + done.stderr
 
-    assert "F = K delta^n" in said("help", "contact", "power") and "belt drive" in said("help", "joint", "belt")
+    assert "F = K delta^n" in said("help", "contact", "power") and "chain drive" in said("help", "joint", "chain")
     assert "equal rollers" in said("help", "clearance", "rollers")
     assert "masses" in said("help") and "--total" in said("help", "masses") and "masses" in said("mases")
 
@@ -191,7 +191,7 @@ channels = pair.penetration left.velocity right.velocity
 
 
 def test_joint_and_method(program, tmp_path):
-    """A driving moment on the first pulley: its acceleration has both inertias; the error of Heun's method falls by four with half the step."""
+    """A driving moment on the first sprocket: its acceleration has both inertias; the error of Heun's method falls by four with half the step."""
     errors = []
     for step in (2e-3, 1e-3):
         summary = run(program, tmp_path, HEAD + f"""
@@ -212,9 +212,9 @@ l large 0 0
 name i j
 first o1 s
 second o2 l
-[joint.belt]
+[joint.chain]
 name i j radius_i[mm] radius_j[mm]
-belt small large 50 150
+chain small large 50 150
 [force.torque]
 name body moment[N.m]
 drive small {{load*cos(rate*t)}}

@@ -74,6 +74,15 @@ contains
       call expect(error, "mrad", 1.0e-3_wp, dim_angle)
       call expect(error, "cP", 1.0e-3_wp, dim_viscosity)
       call expect(error, "P", 0.1_wp, dim_viscosity)
+      call expect(error, "inch", 0.0254_wp, dim_length)
+      call expect(error, "ft", 0.3048_wp, dim_length)
+      call expect(error, "lb", 0.45359237_wp, dim_mass)
+      call expect(error, "slug", 14.593902937206364_wp, dim_mass)
+      call expect(error, "lbf", 4.4482216152605_wp, dim_force)
+      call expect(error, "psi", 6894.757293168361_wp, dim_pressure)
+      call expect(error, "kpsi", 6894757.293168361_wp, dim_pressure)
+      call expect(error, "hp", 745.6998715822702_wp, dim_power)
+      call expect(error, "gal/inch", 0.003785411784_wp/0.0254_wp, dim_area)
    end subroutine test_factors
 
    !> Products, quotients, exponents, parentheses.

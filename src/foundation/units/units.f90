@@ -5,7 +5,8 @@
 !> power of ten, so that `0.1 mm` is read as exactly the number 1e-4.
 module units
    use kind_info, only: dim_t, same_dimension
-   use kinds, only: pi, wp
+   use kinds, only: wp
+   use named_units, only: n_named, named, spelt_out, unit_t
    use numbers, only: number_length, read_number
    use spelling, only: nearest_word
    use text, only: append_text, lower, starts_with, text_t, to_text
@@ -14,54 +15,9 @@ module units
    public :: dimension_power, dimension_product, exponent_length, largest_quantity, parse_unit, read_quantity, to_si, &
       unit_factor, unit_t
 
-   !> A unit: x of it are `(x + offset)*numerator/denominator*10**power` in SI.
-   type :: unit_t
-      real(wp) :: numerator = 1.0_wp    !! of the factor [1]
-      real(wp) :: denominator = 1.0_wp  !! of the factor [1]
-      integer :: power = 0              !! of ten
-      real(wp) :: offset = 0.0_wp       !! of degrees Celsius, else zero [K]
-      type(dim_t) :: dimension          !! what it measures
-   end type unit_t
-
-   !> A unit that has a name of its own.
-   type :: named_unit_t
-      character(4) :: name = ""       !! as written
-      character(8) :: prefixes = ""   !! letters that may stand before it
-      type(unit_t) :: unit            !! its factor and dimension
-   end type named_unit_t
-
    real(wp), parameter :: largest_quantity = 1.0e290_wp  !! numbers below keep products in range [any]
-
    character(*), parameter :: prefix_letters = "GMkdcmunp"
    integer, parameter :: prefix_power(9) = [9, 6, 3, -1, -2, -3, -6, -9, -12]
-   real(wp), parameter :: kelvin_of_ice = 273.15_wp  !! 0 degC [K]
-
-   integer, parameter :: n_named = 19
-   type(named_unit_t), parameter :: named(n_named) = [ &
-      & named_unit_t("m", "GMkdcmun", unit_t(dimension=dim_t(m=1))), &
-      & named_unit_t("g", "Mkmun", unit_t(power=-3, dimension=dim_t(kg=1))), &
-      & named_unit_t("s", "munp", unit_t(dimension=dim_t(s=1))), &
-      & named_unit_t("N", "GMkmun", unit_t(dimension=dim_t(kg=1, m=1, s=-2))), &
-      & named_unit_t("Pa", "GMkmu", unit_t(dimension=dim_t(kg=1, m=-1, s=-2))), &
-      & named_unit_t("J", "GMkmun", unit_t(dimension=dim_t(kg=1, m=2, s=-2))), &
-      & named_unit_t("W", "GMkmun", unit_t(dimension=dim_t(kg=1, m=2, s=-3))), &
-      & named_unit_t("Hz", "GMkm", unit_t(dimension=dim_t(s=-1))), &
-      & named_unit_t("rad", "mun", unit_t(dimension=dim_t(rad=1))), &
-      & named_unit_t("K", "m", unit_t(dimension=dim_t(k=1))), &
-      & named_unit_t("t", "", unit_t(power=3, dimension=dim_t(kg=1))), &
-      & named_unit_t("min", "", unit_t(numerator=6.0_wp, power=1, dimension=dim_t(s=1))), &
-      & named_unit_t("h", "", unit_t(numerator=36.0_wp, power=2, dimension=dim_t(s=1))), &
-      & named_unit_t("deg", "", unit_t(numerator=pi, denominator=18.0_wp, power=-1, dimension=dim_t(rad=1))), &
-      & named_unit_t("rev", "", unit_t(numerator=2.0_wp*pi, dimension=dim_t(rad=1))), &
-      & named_unit_t("rpm", "", unit_t(numerator=pi, denominator=3.0_wp, power=-1, dimension=dim_t(rad=1, s=-1))), &
-      & named_unit_t("bar", "m", unit_t(power=5, dimension=dim_t(kg=1, m=-1, s=-2))), &
-      & named_unit_t("P", "cm", unit_t(power=-1, dimension=dim_t(kg=1, m=-1, s=-1))), &
-      & named_unit_t("degC", "", unit_t(offset=kelvin_of_ice, dimension=dim_t(k=1)))]
-
-   character(*), parameter :: spelt_out = "sec:s second:s seconds:s meter:m metre:m newton:N degree:deg degrees:deg " &
-      & //"radian:rad radians:rad celsius:degC C:degC kelvin:K kilogram:kg gram:g minute:min hour:h hr:h turn:rev " &
-      & //"turns:rev revolution:rev pascal:Pa joule:J watt:W hertz:Hz msec:ms poise:P micron:um " &
-      & //"rps:rev/s rads:rad/s degs:deg/s mps:m/s mms:mm/s kmh:km/h kph:km/h"
 
 contains
 

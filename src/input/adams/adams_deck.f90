@@ -9,6 +9,7 @@
 module adams_deck
    use adams_arguments, only: name_small_degrees, name_unknown_arguments
    use adams_constraints, only: add_constraints
+   use adams_elastic, only: add_elastic
    use adams_forces, only: add_forces
    use adams_gears, only: add_gears
    use adams_joints, only: add_joints, add_primitives
@@ -76,6 +77,7 @@ contains
       call add_motions(model, draft, mistakes)
       call add_forces(model, draft, mistakes)
       call add_loads(model, draft, mistakes)
+      call add_elastic(model, draft, mistakes)
       do k = 1, size(model%statements)
          associate (it => model%statements(k))
             if (is_setting(it%keyword)) then

@@ -5,21 +5,18 @@ module scene_checks
    use columns, only: cell_index, column_of, find_column
    use deck_types, only: add_default, deck_t
    use diagnostics, only: diagnostics_t
-   use film_law, only: film_bearing_t, n_film_parameter
-   use film_places, only: film_bearing_of, place_of_film
    use friction_law, only: memory_slip
-   use force_registry, only: n_force_kinds
+   use force_registry, only: n_force_kinds, new_force_set
+   use force_set, only: force_set_t
    use item, only: item_t
-   use joint_level, only: level_clearance, level_ideal, level_lubricated, level_of
    use joint_registry, only: n_joint_kinds
    use kind_info, only: dim_angle, dim_length, dim_t, kind_info_t, free_rotation, free_translation, same_dimension
    use kinds, only: wp
    use name_table, only: name_table_t
-   use normal_law, only: n_law_parameter
    use references, only: add_names
    use scene, only: scene_t, table_bodies, table_motions, table_points, table_reactions
    use scene_size, only: start_direction, start_position
-   use surfaces, only: shape_face, surfaces_t
+   use surface_checks, only: check_law
    use text, only: text_t, to_text
    use ties, only: find_joint, tie_of, tie_t
    implicit none (type, external)
@@ -108,6 +105,7 @@ contains
       type(diagnostics_t), intent(inout) :: diagnostics   !! errors found
 
       class(clearance_set_t), allocatable :: set
+      class(force_set_t), allocatable :: forces
       character(:), allocatable :: help, message
       integer :: column, i, k
 
@@ -120,10 +118,9 @@ contains
          end do
       end do
       do k = 1, n_force_kinds()
+         call new_force_set(k, forces)
          do i = 1, size(scene%forces(k)%items)
-            call check_pair(scene%forces(k)%info, scene%forces(k)%items(i))
-            call check_start_axes(scene%forces(k)%info, scene%forces(k)%items(i))
-            call check_references(scene%forces(k)%info, scene%forces(k)%items(i))
+            call check_force(scene%forces(k)%info, scene%forces(k)%items(i))
          end do
       end do
       do k = 1, n_clearance_kinds()
@@ -161,6 +158,19 @@ contains
                               info%columns(tie%column(2))%name//" must name two different bodies, or points of them")
       end subroutine check_pair
 
+      !> A row of a force element.
+      subroutine check_force(info, item)
+         type(kind_info_t), intent(in) :: info  !! the kind
+         type(item_t), intent(in) :: item       !! the row
+
+         call check_pair(info, item)
+         call check_start_axes(info, item)
+         call check_references(info, item)
+         call check_start_length(info, item)
+         call forces%mistake(item, column, message, help)
+         if (column > 0) call diagnostics%add(item%values(column)%location, message, "does not match", help)
+      end subroutine check_force
+
       !> The two axes of a torsional spring, which some joint holds parallel, must be so at the start, or nearly.
       subroutine check_start_axes(info, item)
          type(kind_info_t), intent(in) :: info  !! the kind
@@ -172,7 +182,7 @@ contains
 
          c = find_column(info, "axis_j")
          if (c == 0) return
-         if (.not. item%values(c)%given) return
+         if (.not. item%values(c)%given .or. .not. any(abs(item%direction("axis_i")) > 0.0_wp)) return
          tie = tie_of(scene, info, item)
          if (dot_product(start_direction(scene, tie%body(1), item%direction("axis_i")), &
                          start_direction(scene, tie%body(2), item%direction("axis_j"))) > minimum) return
@@ -188,19 +198,26 @@ contains
 
          real(wp), parameter :: minimum = 1.0e-6_wp  ! sine of an angle that is none [1]
          character(6), parameter :: axis(2) = ["axis_i", "axis_j"]
-         character(3), parameter :: reference(2) = ["x_i", "x_j"]
+         character(3), parameter :: reference(2, 2) = reshape(["x_i", "x_j", "y_i", "y_j"], [2, 2])
          type(tie_t) :: tie
          real(wp) :: x(3), z(3)
-         integer :: c, side
+         integer :: c, set, side
 
-         if (find_column(info, "x_i") == 0) return
+         set = merge(1, 2, find_column(info, "x_i") > 0)
+         if (find_column(info, reference(1, set)) == 0) return
          tie = tie_of(scene, info, item)
          do side = 1, 2
-            c = column_of(info, reference(side))
+            c = column_of(info, reference(side, set))
             if (.not. item%values(c)%given) cycle
-            z = start_direction(scene, tie%body(1), item%direction("axis_i"))
+            z = item%direction("axis_i")
+            if (any(abs(z) > 0.0_wp)) then
+               z = start_direction(scene, tie%body(1), z)
+            else   ! along the line of the points
+               z = start_position(scene, tie%point(2)) - start_position(scene, tie%point(1))
+               z = z/max(norm2(z), tiny(1.0_wp))
+            end if
             if (item%is_given(axis(side))) z = start_direction(scene, tie%body(side), item%direction(axis(side)))
-            x = start_direction(scene, tie%body(side), item%direction(reference(side)))
+            x = start_direction(scene, tie%body(side), item%direction(reference(side, set)))
             if (1.0_wp - dot_product(x, z)**2 > minimum**2) cycle
             call diagnostics%add(item%values(c)%location, "the reference direction of '"//item%name//"' is parallel to its axis", &
                                  "its component normal to the axis is zero", "give a direction across the axis, or omit the column")
@@ -229,7 +246,7 @@ contains
             call add_default(deck, info%name//" "//item%name//" length = "//to_text(length)//" m, the initial distance")
             return
          end if
-         call diagnostics%add(item%values(tie%column(2))%location, "joint '"//item%name//"' has zero length", &
+         call diagnostics%add(item%values(tie%column(2))%location, "'"//item%name//"' has zero length", &
                               "the two points coincide initially", "set the column length, or move the bodies")
       end subroutine check_start_length
 
@@ -285,112 +302,5 @@ contains
       end subroutine check_friction
 
    end subroutine check_meaning
-
-   !> The normal law of a clearance joint must fit its surfaces.
-   subroutine check_law(scene, info, item, set, column, message, help)
-      type(scene_t), intent(in) :: scene                  !! the scene
-      type(kind_info_t), intent(in) :: info               !! the geometry
-      type(item_t), intent(in) :: item                    !! the row
-      class(clearance_set_t), intent(in) :: set           !! any set of the geometry
-      integer, intent(out) :: column                      !! column at fault, 0: all is well
-      character(:), allocatable, intent(out) :: message   !! what is wrong
-      character(:), allocatable, intent(out) :: help      !! what would be right
-
-      type(kind_info_t) :: law_info
-      type(surfaces_t) :: pair
-      real(wp) :: parameters(n_law_parameter)
-      integer :: face_law, law_number
-
-      column = 0
-      message = ""
-      help = ""
-      if (level_of(item) == level_ideal) return
-      call set%describe(item, scene%materials, pair)
-      law_number = cell_index(info, item, "law")
-      if (law_number > 0) call scene%laws(law_number)%law%fit(pair, parameters, message, help)
-      if (message /= "") column = column_of(info, "law")
-      if (column == 0) call check_film(scene, info, item, pair, column, message, help)
-      if (column == 0) call check_wear(scene, info, item, pair, column, message, help)
-      if (column > 0) return
-      face_law = cell_index(info, item, "face_law")
-      if (face_law == 0) return
-      pair%shape = shape_face
-      associate (law => scene%laws(face_law)%law)
-         law_info = law%info()
-         call law%fit(pair, parameters, message, help)
-         if (law_info%name /= "contact.plane_face") then
-            message = "'"//law%name//"' is not a law of a plane face"
-            help = "name a row of contact.plane_face"
-         end if
-      end associate
-      if (message /= "") column = column_of(info, "face_law")
-   end subroutine check_law
-
-   !> Surfaces that wear must touch, and have an area; a law of the work of friction needs friction.
-   subroutine check_wear(scene, info, item, pair, column, message, help)
-      type(scene_t), intent(in) :: scene                  !! the scene
-      type(kind_info_t), intent(in) :: info               !! the geometry
-      type(item_t), intent(in) :: item                    !! the row
-      type(surfaces_t), intent(in) :: pair                !! its surfaces
-      integer, intent(inout) :: column                    !! column at fault, 0: all is well
-      character(:), allocatable, intent(inout) :: message !! what is wrong
-      character(:), allocatable, intent(inout) :: help    !! what would be right
-
-      integer :: friction, wear
-      logical :: has_friction
-
-      wear = cell_index(info, item, "wear")
-      if (wear == 0) return
-      friction = cell_index(info, item, "friction")
-      has_friction = .false.
-      if (friction > 0) has_friction = scene%frictions(friction)%law%is_active()
-      if (level_of(item) == level_lubricated) then
-         message = "joint '"//item%name//"' with level = lubricated has a wear law"
-         help = "its surfaces do not touch: use level = clearance or hybrid, or wear = none"
-      else if (.not. pair%length > 0.0_wp) then
-         message = "joint '"//item%name//"' has a wear law but no length"
-         help = "the depth of wear is volume over area: give the length of the joint along its axis"
-      else if (scene%wears(wear)%law%by_friction .and. .not. has_friction) then
-         message = "joint '"//item%name//"' has the wear law '"//scene%wears(wear)%law%name//"' but no friction"
-         help = "this law is one of the work of friction: name a row of a friction table, or use wear.archard"
-      end if
-      if (message /= "") column = column_of(info, "wear")
-   end subroutine check_wear
-
-   !> The film of a clearance joint must fit its bearing.
-   subroutine check_film(scene, info, item, pair, column, message, help)
-      type(scene_t), intent(in) :: scene                    !! the scene
-      type(kind_info_t), intent(in) :: info                 !! the geometry
-      type(item_t), intent(in) :: item                      !! the row
-      type(surfaces_t), intent(in) :: pair                  !! its surfaces
-      integer, intent(inout) :: column                      !! column at fault, 0: all is well
-      character(:), allocatable, intent(inout) :: message   !! what is wrong
-      character(:), allocatable, intent(inout) :: help      !! what would be right
-
-      type(film_bearing_t) :: bearing
-      real(wp) :: parameters(n_film_parameter)
-      integer :: film
-
-      film = cell_index(info, item, "film")
-      if (film == 0 .or. level_of(item) == level_clearance) return
-      bearing = film_bearing_of(pair, place_of_film(item, scene%lubrication%oils))
-      associate (law => scene%lubrication%films(film)%law)
-         call law%fit(bearing, parameters, message, help)
-         if (law%is_of_sphere() .neqv. bearing%is_sphere) then
-            message = "film '"//law%name//"' is for a ball in a socket"
-            help = "use a row of another film table, as film.finite"
-            if (bearing%is_sphere) message = "film '"//law%name//"' is for a journal in a bearing"
-            if (bearing%is_sphere) help = "use a row of film.spherical"
-         end if
-      end associate
-      if (message /= "") column = column_of(info, "film")
-      if (message /= "" .or. bearing%is_sphere) return
-      if (item%word("heat") == "off") return
-      if (item%reference("lubricant") == 0) return
-      if (scene%lubrication%oils(item%reference("lubricant"))%grade /= "none") return
-      column = column_of(info, "heat")
-      message = "joint '"//item%name//"' has a heat balance, but the viscosity of its lubricant does not depend on temperature"
-      help = "give the lubricant a grade and its inlet temperature"
-   end subroutine check_film
 
 end module scene_checks

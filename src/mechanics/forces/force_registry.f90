@@ -1,10 +1,14 @@
 !> The kinds of force elements: two lines each (`use`, `case`), and their number.
 module force_registry
+   use force_beam, only: force_beam_t
+   use force_bushing, only: force_bushing_t
    use force_point, only: force_point_t
    use force_set, only: force_set_t
    use force_spring, only: force_spring_t
    use force_torque, only: force_torque_t
    use force_torsion_spring, only: force_torsion_spring_t
+   use spatial_beam, only: spatial_beam_t
+   use spatial_bushing, only: spatial_bushing_t
    use spatial_force, only: spatial_force_t
    use spatial_torque, only: spatial_torque_t
    use spatial_torsion_spring, only: spatial_torsion_spring_t
@@ -16,7 +20,7 @@ contains
 
    !> Number of kinds.
    pure integer function n_force_kinds()
-      n_force_kinds = 7
+      n_force_kinds = 11
    end function n_force_kinds
 
    !> An empty set of kind number k, 1 to `n_force_kinds`.
@@ -32,6 +36,10 @@ contains
       case (5); allocate (spatial_force_t :: set)
       case (6); allocate (spatial_torque_t :: set)
       case (7); allocate (spatial_torsion_spring_t :: set)
+      case (8); allocate (force_bushing_t :: set)
+      case (9); allocate (spatial_bushing_t :: set)
+      case (10); allocate (force_beam_t :: set)
+      case (11); allocate (spatial_beam_t :: set)
       end select
    end subroutine new_force_set
 

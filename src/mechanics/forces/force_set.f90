@@ -20,6 +20,7 @@ module force_set
       type(text_t), allocatable :: names(:)    !! (n) names
    contains
       procedure(info_interface), nopass, deferred :: info
+      procedure, nopass :: mistake => force_mistake
       procedure(prepare_interface), deferred :: prepare
       procedure(evaluate_interface), deferred :: evaluate
       procedure(report_interface), deferred :: report
@@ -90,6 +91,18 @@ module force_set
    end interface
 
 contains
+
+   !> What is wrong with a row as a whole: nothing, unless the kind says otherwise.
+   subroutine force_mistake(item, column, message, help)
+      type(item_t), intent(in) :: item                       !! the row
+      integer, intent(out) :: column                         !! column at fault, 0: all is well
+      character(:), allocatable, intent(out) :: message      !! what is wrong
+      character(:), allocatable, intent(out) :: help         !! what would be right
+
+      column = 0
+      message = repeat("", len(item%name))
+      help = ""
+   end subroutine force_mistake
 
    !> Take what the deck omits from where it puts the bodies at the start: nothing, unless the kind says otherwise.
    subroutine force_set_start(self, motion)

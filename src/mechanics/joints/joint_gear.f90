@@ -129,13 +129,13 @@ contains
          call span_of(motion, [i, j], self%s_i(:, k), self%s_j(:, k), u, length, along)
          n = [-u(2), u(1), 0.0_wp]
          r = sum(self%radius(:, k))/max(length, tiny(1.0_wp))
-         turn = 2.0_wp*pi*max(abs(sum(self%radius(:, k))), tiny(1.0_wp))
+         turn = 2.0_wp*pi*abs(sum(self%radius(:, k)))
          ! n . d', with d' = v_j + w_j R90 s_j - v_i - w_i R90 s_i
          tangential = dot_product(n, motion%v(:, j) - motion%v(:, i)) + dot_product(u, s_j)*motion%omega(3, j) &
                       - dot_product(u, s_i)*motion%omega(3, i)
          rows%phi(row) = sum(self%radius(:, k))*atan2(u(2), u(1)) - dot_product(self%radius(:, k), motion%angle([i, j])) &
                          - self%start(k)
-         rows%phi(row) = rows%phi(row) - turn*anint(rows%phi(row)/turn)
+         if (turn > 0.0_wp) rows%phi(row) = rows%phi(row) - turn*anint(rows%phi(row)/turn)
          rows%phi_t(row) = 0.0_wp
          rows%jac(:, row) = [-r*n(1), -r*n(2), -self%radius(1, k) - r*dot_product(u, s_i), &
                              r*n(1), r*n(2), -self%radius(2, k) + r*dot_product(u, s_j)]

@@ -5,6 +5,7 @@ module joint_registry
    use driver_position, only: driver_position_t
    use driver_speed, only: driver_speed_t
    use initial_speed, only: initial_speed_t
+   use joint_belt, only: joint_belt_t
    use joint_distance, only: joint_distance_t
    use joint_gear, only: joint_gear_t
    use joint_parallel, only: joint_parallel_t
@@ -14,6 +15,7 @@ module joint_registry
    use joint_rigid, only: joint_rigid_t
    use joint_set, only: joint_set_t
    use joint_translational, only: joint_translational_t
+   use spatial_belt, only: spatial_belt_t
    use spatial_constant_velocity, only: spatial_constant_velocity_t
    use spatial_cylindrical, only: spatial_cylindrical_t
    use spatial_distance, only: spatial_distance_t
@@ -44,7 +46,7 @@ contains
 
    !> Number of kinds.
    pure integer function n_joint_kinds()
-      n_joint_kinds = 35
+      n_joint_kinds = 37
    end function n_joint_kinds
 
    !> An empty set of kind number k, 1 to `n_joint_kinds`. Drivers follow the joints they drive: rows
@@ -89,6 +91,8 @@ contains
       case (33); allocate (spatial_perpendicular_t :: set)
       case (34); allocate (spatial_rack_t :: set)
       case (35); allocate (spatial_constant_velocity_t :: set)
+      case (36); allocate (joint_belt_t :: set)
+      case (37); allocate (spatial_belt_t :: set)
       end select
    end subroutine new_joint_set
 

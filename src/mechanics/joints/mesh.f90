@@ -5,7 +5,7 @@ module mesh
    use text, only: real_text
    implicit none (type, external)
    private
-   public :: axes_misfit, close_enough, distance_misfit, line_misfit, two_rings
+   public :: axes_misfit, close_enough, distance_misfit, line_misfit, pulley_overlap, two_rings
 
    real(wp), parameter :: close_enough = 1.0e-3_wp  !! difference that is none, of the largest radius [1]
    character(*), parameter :: two_rings = "has two negative radii: at most one gear of a pair is a ring gear"
@@ -25,6 +25,18 @@ contains
       words = "has radii whose sum needs an axis distance of "//real_text(abs(sum(radius)), 4)//" m, but the distance is "// &
               real_text(distance, 4)//" m: the gears keep their ratio and touch where that ratio divides the distance"
    end function distance_misfit
+
+   !> Pulleys of a belt are beside each other.
+   function pulley_overlap(radius, distance) result(words)
+      real(wp), intent(in) :: radius(2)               !! (2) of the pulleys, any sign [m]
+      real(wp), intent(in) :: distance                !! of their axes [m]
+      character(:), allocatable :: words              !! what follows the name in a warning; blank: they fit
+
+      words = ""
+      if (distance >= sum(abs(radius))*(1.0_wp - close_enough)) return
+      words = "has pulleys that overlap: the sum of their radii is "//real_text(sum(abs(radius)), 4)//" m, the distance of their &
+              &centres "//real_text(distance, 4)//" m; the belt keeps its ratio"
+   end function pulley_overlap
 
    !> Axes of bevel gears meet.
    function axes_misfit(radius, gap) result(words)

@@ -29,7 +29,7 @@ module spatial_gear
    use text, only: real_text
    implicit none (type, external)
    private
-   public :: gear_is_lost, spatial_gear_t, words_of_lost_gear
+   public :: between_gears, gear_is_lost, parallel, spatial_gear_t, words_of_lost_gear
 
    real(wp), parameter :: parallel = 1.0e-6_wp  !! sine of an angle of axes that is none [1]
    real(wp), parameter :: minimum = 0.25_wp  !! minimum part of what is between the gears at the start that they still mesh at [1]
@@ -48,6 +48,7 @@ module spatial_gear
       procedure :: find_angles => gear_find_angles
       procedure :: closing_fault => gear_closing_fault
       procedure :: closing_doubt => gear_closing_doubt
+      procedure :: reverse_second
    end type spatial_gear_t
 
 contains
@@ -86,6 +87,14 @@ contains
          self%radius(:, k) = [items(k)%number("radius_i"), items(k)%number("radius_j")]
       end do
    end subroutine gear_prepare
+
+   !> Give the second radius of an item the other sign.
+   pure subroutine reverse_second(self, k)
+      class(spatial_gear_t), intent(inout) :: self  !! the set
+      integer, intent(in) :: k                      !! item
+
+      self%radius(2, k) = -self%radius(2, k)
+   end subroutine reverse_second
 
    !> The gears mesh as the deck puts them.
    subroutine gear_set_start(self, motion)

@@ -155,7 +155,11 @@ contains
       if (all(tie%point > 0) .and. .not. any(info%free == [free_spherical, free_rotation])) then
          are_apart = norm2(start_position(scene, tie%point(1)) - start_position(scene, tie%point(2))) > near
       end if
-      if (is_force) then
+      if (is_force .and. find_place(item, "modulus") > 0) then
+         kind = mark_link
+      else if (is_force .and. .not. are_apart .and. find_place(item, "stiffness_x") > 0) then
+         kind = mark_pin
+      else if (is_force) then
          kind = merge(mark_spring, mark_damper, is_elastic(item))
       else if (find_place(item, "bearing_radius") > 0) then
          kind = merge(mark_pin, mark_bearing, is_ideal)
