@@ -137,7 +137,7 @@ contains
       type(period_map_t), intent(inout) :: map                !! fewer free components
       real(wp), intent(in) :: p                               !! value of the parameter [any]
       real(wp), allocatable, intent(inout) :: z(:)            !! (m) start [1]
-      integer, intent(out) :: n_cyclic                        !! how many were left out
+      integer, intent(out) :: n_cyclic                        !! how many were omitted
       character(:), allocatable, intent(out) :: reason        !! why the motion cannot be followed; blank: it can
 
       type(period_t) :: period
