@@ -212,3 +212,14 @@ def test_refusals(gudgeon):
     assert "no section [orbit]" in call(gudgeon, "orbit", none, "--out", scratch() / "out", expect=2).stderr
     assert "not a one-step method" in orbit_of(gudgeon, "shaken_ball", options=("--method", "adams"), expect=2).stderr
     assert "no periodic orbit" in orbit_of(gudgeon, "impact_pair", "amplitude=0.03 m", expect=5).stderr
+
+
+def test_linear_oscillator(gudgeon):
+    """The deck of the reference, a linear oscillator: multipliers exp(s T), which no contact has a part in."""
+    directory = scratch()
+    deck = "\n".join(line for line in (ROOT / "docs/reference/decks/orbit.deck").read_text().splitlines()
+                     if not line.startswith(ONLY))
+    call(gudgeon, "orbit", written(directory, deck + "\n"), "--out", directory / "out", "--quiet")
+    mu = [complex(*pair) for pair in json.loads((directory / "out/summary.json").read_text())["orbit"]["multipliers"]]
+    right = np.exp(complex(-1, math.sqrt(99)) * 2 * math.pi / 8)
+    assert_close([mu[0].real, mu[0].imag, mu[1].imag], [right.real, right.imag, -right.imag], absolute=1e-7, what="multipliers")

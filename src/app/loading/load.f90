@@ -56,6 +56,20 @@ module load
    private
    public :: check_swept_words, find_catalogue, load_case, load_deck, loaded_t
 
+   !> A section [sensitivity].
+   type :: sensitivity_request_t
+      logical :: is_present = .false.             !! the deck has it
+      type(item_t) :: keys                        !! its keys
+      type(sensitivity_plan_t) :: plan            !! what it asks for
+   end type sensitivity_request_t
+
+   !> A section [orbit].
+   type :: orbit_request_t
+      logical :: is_present = .false.             !! the deck has it
+      type(item_t) :: keys                        !! its keys
+      type(orbit_plan_t) :: plan                  !! what it asks for
+   end type orbit_request_t
+
    !> A deck that is ready to run.
    type, extends(job_t) :: loaded_t
       character(:), allocatable :: path           !! of the deck
@@ -64,12 +78,8 @@ module load
       type(catalogue_t), allocatable :: catalogue !! what they can report; of a case of a sweep none until it is requested
       type(figure_t), allocatable :: figures(:)   !! (n) its figures, as its words ask for them
       type(sweep_t) :: sweep                      !! its cases
-      logical :: has_sensitivity = .false.        !! it has a section [sensitivity]
-      type(item_t) :: sensitivity_keys            !! this section
-      type(sensitivity_plan_t) :: sensitivity     !! what it asks for
-      logical :: has_orbit = .false.              !! it has a section [orbit]
-      type(item_t) :: orbit_keys                  !! this section
-      type(orbit_plan_t) :: orbit                 !! what it asks for
+      type(sensitivity_request_t) :: sensitivity  !! derivatives by parameters, if the deck asks for any
+      type(orbit_request_t) :: orbit              !! periodic orbits, if it asks for any
       logical :: is_stream = .false.              !! the deck came through a pipe and cannot be read again
    end type loaded_t
 
@@ -97,10 +107,10 @@ contains
       if (mistakes%count() == 0 .and. .not. options%runs%is_member) then
          call read_sweep(loaded%deck, sweep_info(), loaded%sweep, mistakes)
          if (has_section(loaded%deck, "sensitivity")) then
-            call read_settings(loaded%deck, sensitivity_section(), loaded%sensitivity_keys, loaded%has_sensitivity, mistakes)
+            call read_settings(loaded%deck, sensitivity_section(), loaded%sensitivity%keys, loaded%sensitivity%is_present, mistakes)
          end if
          if (has_section(loaded%deck, "orbit")) then
-            call read_settings(loaded%deck, orbit_section(), loaded%orbit_keys, loaded%has_orbit, mistakes)
+            call read_settings(loaded%deck, orbit_section(), loaded%orbit%keys, loaded%orbit%is_present, mistakes)
          end if
       end if
       call mistakes%to_error(loaded%deck%sources, error)
@@ -170,13 +180,13 @@ contains
             call check_words(loaded%deck, loaded%scene, loaded%figures, loaded%sweep, loaded%plan%end, loaded%catalogue, mistakes)
          end if
          if (has_conditions(loaded%scene)) call check_conditions(loaded%scene, loaded%catalogue, mistakes)
-         if (loaded%has_sensitivity .and. loaded%scene%analysis == analysis_dynamic) then
-            call plan_sensitivity(loaded%deck, loaded%sensitivity_keys, loaded%system, loaded%catalogue, &
-                                  merge(huge(1.0_wp), loaded%plan%end, options%verb == "run"), loaded%sensitivity, &
+         if (loaded%sensitivity%is_present .and. loaded%scene%analysis == analysis_dynamic) then
+            call plan_sensitivity(loaded%deck, loaded%sensitivity%keys, loaded%system, loaded%catalogue, &
+                                  merge(huge(1.0_wp), loaded%plan%end, options%verb == "run"), loaded%sensitivity%plan, &
                                   mistakes)  ! a run may be shorter than what [sensitivity] asks for
          end if
-         if (loaded%has_orbit .and. loaded%scene%analysis == analysis_dynamic) then
-            call plan_orbit(loaded%deck, loaded%orbit_keys, loaded%system, loaded%orbit, mistakes)
+         if (loaded%orbit%is_present .and. loaded%scene%analysis == analysis_dynamic) then
+            call plan_orbit(loaded%deck, loaded%orbit%keys, loaded%system, loaded%orbit%plan, mistakes)
          end if
       else
          call check_words(loaded%deck, loaded%scene, loaded%figures, loaded%sweep, loaded%plan%end, catalogue, mistakes)

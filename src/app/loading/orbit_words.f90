@@ -63,13 +63,14 @@ contains
       type(diagnostics_t), intent(inout) :: mistakes     !! errors found
 
       character(:), allocatable :: names
-      integer :: i, k
+      integer :: i, k, of_item
 
       names = ""
       do k = 1, size(system%clearance_joints%sets)
          associate (set => system%clearance_joints%sets(k)%set)
             do i = 1, set%n_contact
-               associate (item => set%names(set%item_of(i))%s, number => set%before%contacts + i)
+               of_item = set%item_of(i)
+               associate (item => set%names(of_item)%s, number => set%before%contacts + i)
                   if (index(names//" ", " "//item//" ") == 0) names = names//" "//item
                   if (plan%joint /= item .and. plan%joint /= item//"."//set%label_of(i)) cycle
                   if (plan%first == 0) plan%first = number

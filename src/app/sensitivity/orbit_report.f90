@@ -61,7 +61,7 @@ contains
                                                      study%plan%joint)
       end associate
       call lines%line("state      "//counted(study%n_free, "free component", "free components")// &
-                      "; "//to_text(study%n_cyclic)//" cyclic, left out")
+                      "; "//to_text(study%n_cyclic)//" cyclic, omitted")
       call add_table(lines, table_of_multipliers(study))
       call add_table(lines, table_of_onsets(study, names))
       if (study%plan%parameter /= "") call add_branch(lines, study)

@@ -60,10 +60,10 @@ contains
       plan%title = loaded%scene%title
       call tell_origin(options, loaded, plan)
       call plan%complete()
-      if (options%change%tolerance > 0.0_wp) loaded%orbit%tolerance = options%change%tolerance
-      study%plan = loaded%orbit
+      if (options%change%tolerance > 0.0_wp) loaded%orbit%plan%tolerance = options%change%tolerance
+      study%plan = loaded%orbit%plan
       source%options = options
-      source%plan = loaded%orbit
+      source%plan = loaded%orbit%plan
       names = contact_names(loaded%system)
       call study_orbits(source, study, reason)
       if (reason /= "") call set_error(error, exit_integration, "no periodic orbit: "//reason)
@@ -79,7 +79,7 @@ contains
 
       if (loaded%scene%analysis /= analysis_dynamic) then
          call set_error(error, exit_usage, "orbits need [analysis.dynamic] as the first analysis section of the deck")
-      else if (.not. loaded%has_orbit) then
+      else if (.not. loaded%orbit%is_present) then
          call set_error(error, exit_usage, "the deck has no section [orbit]"//new_line("a")//"  = see 'gudgeon help orbit'")
       else
          call check_one_step(loaded%scene%settings%integration, "orbits need", error)
@@ -121,7 +121,7 @@ contains
 
       allocate (pictures(0))
       call replace_file(plan%directory//"/deck.echo", echo_scene(loaded%deck, loaded%scene)// &
-                        echo_settings(orbit_section(), loaded%orbit_keys), error)
+                        echo_settings(orbit_section(), loaded%orbit%keys), error)
       if (.not. allocated(error)) then
          call write_table_file("orbit.h5", "gudgeon orbit", plan, status_complete, &
                                [table_of_multipliers(study), table_of_onsets(study, names), table_of_branch(study), &

@@ -57,9 +57,9 @@ contains
       call tell_origin(options, loaded, plan)
       call plan%complete()
       source%options = options
-      source%plan = loaded%sensitivity
-      if (options%change%tolerance > 0.0_wp) loaded%sensitivity%tolerance = options%change%tolerance
-      call find_sensitivities(loaded%job_t, source, loaded%sensitivity, study, error)
+      source%plan = loaded%sensitivity%plan
+      if (options%change%tolerance > 0.0_wp) loaded%sensitivity%plan%tolerance = options%change%tolerance
+      call find_sensitivities(loaded%job_t, source, loaded%sensitivity%plan, study, error)
       if (.not. allocated(error)) call write_results(loaded, plan, study, error)
       if (.not. allocated(error)) call report_sensitivity(options, loaded, plan, study, warnings, error)
       call directory%close()
@@ -72,7 +72,7 @@ contains
 
       if (loaded%scene%analysis /= analysis_dynamic) then
          call set_error(error, exit_usage, "sensitivities need [analysis.dynamic] as the first analysis section of the deck")
-      else if (.not. loaded%has_sensitivity) then
+      else if (.not. loaded%sensitivity%is_present) then
          call set_error(error, exit_usage, "the deck has no section [sensitivity]"//new_line("a")// &
                         "  = see 'gudgeon help sensitivity'")
       else
@@ -90,7 +90,7 @@ contains
       type(result_table_t) :: table
 
       call replace_file(plan%directory//"/deck.echo", echo_scene(loaded%deck, loaded%scene)// &
-                        echo_settings(sensitivity_section(), loaded%sensitivity_keys), error)
+                        echo_settings(sensitivity_section(), loaded%sensitivity%keys), error)
       if (.not. allocated(error)) then
          call write_table_file("sensitivity.h5", "gudgeon sensitivity", plan, status_complete, &
                                [table_of_derivatives(study), table_of_results(study), table_of_parameters(study)], error)

@@ -1,7 +1,7 @@
 !> The bifurcation diagram of a branch of periodic orbits: stable parts solid, unstable ones dashed, bifurcations as marks.
 !>
 !> `orbit_branch.dat` has a block for each part of the branch with one stability, and one for each kind of bifurcation: parameter,
-!> impact speed, modulus of the greatest multiplier, phase. Without onsets the first free component takes the place of the speed.
+!> impact speed, maximum modulus of the multipliers, phase. Without onsets the first free component takes the place of the speed.
 module orbit_plots
    use display_units, only: choose_unit, display_unit_t
    use errors, only: error_t
@@ -17,6 +17,8 @@ module orbit_plots
    implicit none (type, external)
    private
    public :: write_orbit_plots
+
+   real(wp), parameter :: linear = 30.0_wp     !! maximum modulus on a linear axis [1]
 
    !> Parts of the branch with one stability.
    type :: part_t
@@ -128,7 +130,7 @@ contains
 
       type(buffer_t) :: lines
       type(display_unit_t) :: unit
-      integer :: panel
+      integer :: k, panel
 
       unit = choose_unit(study%plan%unit, maxval(abs(study%branch%orbits%p)))
       call preamble(lines, "orbit_branch", 1200, 1100)
@@ -140,8 +142,10 @@ contains
             call lines%line("set key below; set ylabel "//trim(merge("'impact speed [m/s]'      ", "'first component at start'", &
                                                                      size(study%orbit%onset) > 0)))
          else
-            call lines%line("unset key; set ylabel 'modulus of the greatest multiplier'; set arrow 1 from graph 0, first 1 to " &
+            call lines%line("unset key; set ylabel 'maximum modulus of the multipliers'; set arrow 1 from graph 0, first 1 to " &
                             //"graph 1, first 1 nohead dashtype 3 linecolor rgb '#808080'")
+            if (maxval([(maxval(abs(study%branch%orbits(k)%multipliers)), k=1, size(study%branch%orbits))]) > linear) &
+               call lines%line("set logscale y; set format y '%g'")
          end if
          call add_curves(lines, study, parts, panel + 1)
       end do

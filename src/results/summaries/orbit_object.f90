@@ -56,7 +56,11 @@ contains
          end do
          call object%put_objects("bifurcations", list)
          if (plan%parameter /= "") then
-            call object%put_list("branch_ends", [text_t(study%branch%low), text_t(study%branch%high)])
+            deallocate (list)
+            allocate (list(2))
+            list(1)%s = study%branch%low
+            list(2)%s = study%branch%high
+            call object%put_list("branch_ends", list)
          end if
       end associate
       call json%put_object("orbit", object%get())

@@ -64,21 +64,41 @@ contains
       associate (orbits => study%branch%orbits)
          call table%start("branch", "branch", n)
          call table%put("parameter", "list", "value of the parameter", orbits%p)
-         table%units = [(text_t(study%plan%unit), k=1, n)]
+         table%units = repeated(study%plan%unit, n)
          call table%put("period", "s", "of the orbit", orbits%period)
          call table%put("phase", "rad", "of the drivers at the first onset of the contact asked for; NaN: none", orbits%phase)
          call table%put("impact_speed", "m/s", "of this onset, or of the first one if no contact is asked for; NaN: none", &
                         [(first_speed(study, orbits(k)), k=1, n)])
          call table%put("onsets", "1", "number of onsets in a period", integers=[(size(orbits(k)%onset), k=1, n)])
          call table%put("stable", "1", "no multiplier has a modulus of more than 1", logicals=orbits%is_stable)
-         call table%put("modulus", "1", "of the greatest multiplier", [(maxval(abs(orbits(k)%multipliers)), k=1, n)])
+         call table%put("modulus", "1", "maximum of the multipliers", [(maxval(abs(orbits(k)%multipliers)), k=1, n)])
          if (m == 0) return
-         parts = [(text_t(to_text(k)), k=1, m)]
+         allocate (parts(m))
+         do k = 1, m
+            parts(k)%s = to_text(k)
+         end do
          call table%put("start", "1", "free components of the state at the start, SI", [z], shape=[m], parts=parts)
-         parts = [(text_t(to_text((k + 1)/2)//merge(".re", ".im", mod(k, 2) == 1)), k=1, 2*m)]
+         deallocate (parts)
+         allocate (parts(2*m))
+         do k = 1, 2*m
+            parts(k)%s = to_text((k + 1)/2)//merge(".re", ".im", mod(k, 2) == 1)
+         end do
          call table%put("multiplier", "1", "multipliers by descending modulus", [mu], shape=[2*m], parts=parts)
       end associate
    end function table_of_branch
+
+   !> One text for each row.
+   pure function repeated(text, n) result(texts)
+      character(*), intent(in) :: text            !! the text
+      integer, intent(in) :: n                    !! rows
+      type(text_t) :: texts(n)                    !! (n) all alike
+
+      integer :: k
+
+      do k = 1, n
+         texts(k)%s = text
+      end do
+   end function repeated
 
    !> Impact speed of the onset that has the phase.
    pure real(wp) function first_speed(study, orbit) result(speed)
@@ -115,7 +135,7 @@ contains
                         heading="type", formats=in_hdf5 + in_csv)
          call table%put("parameter", "list", "value of the parameter", [(some(k)%orbit%p, k=1, size(some))], &
                         heading=study%plan%parameter, digits=10, formats=in_hdf5 + in_csv)
-         table%units = [(text_t(study%plan%unit), k=1, size(some))]
+         table%units = repeated(study%plan%unit, size(some))
          call table%put("phase", "rad", "as of the branch", [(some(k)%orbit%phase, k=1, size(some))], heading="phase", &
                         digits=10, formats=in_hdf5 + in_csv)
       end associate

@@ -31,7 +31,7 @@ contains
       type(period_map_t), intent(inout) :: map       !! the map of a period
       type(orbit_plan_t), intent(in) :: plan         !! range, steps
       type(orbit_t), intent(in) :: orbit             !! with its derivative by the parameter
-      type(branch_t), intent(out) :: branch          !! from the least value to the greatest one, if it does not turn
+      type(branch_t), intent(out) :: branch          !! from the minimum to the maximum, if it does not turn
 
       type(branch_t) :: low, high
       integer :: k
@@ -56,7 +56,7 @@ contains
       type(period_map_t), intent(inout) :: map       !! the map of a period
       type(orbit_plan_t), intent(in) :: plan         !! range, steps
       type(orbit_t), intent(in) :: orbit             !! the first orbit, which is not taken over
-      real(wp), intent(in) :: sign                   !! of the first change of the parameter
+      real(wp), intent(in) :: sign                   !! of the first change of the parameter [1]
       type(branch_t), intent(out) :: branch          !! orbits behind it
 
       type(point_t) :: here, next

@@ -21,7 +21,8 @@ module find_orbit
    real(wp), parameter :: slow = 0.2_wp                 !! residual, of that before, after which the matrix is renewed [1]
    real(wp), parameter :: of_tolerance = 30.0_wp        !! residual of an orbit, of the tolerance of the motion [1]
    real(wp), parameter :: chord = 1.0e-3_wp             !! correction below which the matrix is used again, of the scales [1]
-   real(wp), parameter :: longest = 0.3_wp              !! correction, of the scales [1]
+   real(wp), parameter :: longest = 0.3_wp              !! correction that is always allowed, of the scales [1]
+   real(wp), parameter :: far = 10.0_wp                 !! longest correction, of the residual [1]
    real(wp), parameter :: cyclic = 1.0e-6_wp            !! difference of a column of M and of a unit vector [1]
 
 contains
@@ -58,7 +59,7 @@ contains
          right(:m) = orbit%z - trial%end
          right(m + 1) = 0.0_wp
          orbit%residual = maxval(abs(right))
-         if (orbit%residual <= of_tolerance*plan%tolerance) then
+         if (orbit%residual <= of_tolerance*plan%tolerance*(1.0_wp + maxval(abs(orbit%z)))) then
             if (.not. has_matrix) exit
             has_matrix = .false.  ! the matrix of the orbit itself is wanted
             cycle
@@ -75,7 +76,7 @@ contains
          end if
          has_matrix = maxval(abs(x)) < chord .and. orbit%residual < slow*previous
          previous = orbit%residual
-         x = x*min(1.0_wp, longest/max(maxval(abs(x)), tiny(1.0_wp)))
+         x = x*min(1.0_wp, max(longest, far*orbit%residual)/max(maxval(abs(x)), tiny(1.0_wp)))
          orbit%z = orbit%z + x(:m)
          orbit%p = orbit%p + x(m + 1)*p_scale
       end do
@@ -137,7 +138,7 @@ contains
       type(period_map_t), intent(inout) :: map                !! fewer free components
       real(wp), intent(in) :: p                               !! value of the parameter [any]
       real(wp), allocatable, intent(inout) :: z(:)            !! (m) start [1]
-      integer, intent(out) :: n_cyclic                        !! how many were left out
+      integer, intent(out) :: n_cyclic                        !! how many were omitted
       character(:), allocatable, intent(out) :: reason        !! why the motion cannot be followed; blank: it can
 
       type(period_t) :: period

@@ -27,8 +27,8 @@ module orbit_results
       character(:), allocatable :: parameter       !! of the branch; blank: there is none
       character(:), allocatable :: unit            !! of the parameter, SI
       real(wp) :: p = 0.0_wp                       !! its value in the deck [any]
-      real(wp) :: from = 0.0_wp                    !! least value of the branch [any]
-      real(wp) :: to = 0.0_wp                      !! greatest value [any]
+      real(wp) :: from = 0.0_wp                    !! minimum value on the branch [any]
+      real(wp) :: to = 0.0_wp                      !! maximum value [any]
       integer :: most = 0                          !! points of a branch, at most, in each direction
       real(wp) :: step = 0.0_wp                    !! longest step, of the range [1]
    end type orbit_plan_t
@@ -69,7 +69,7 @@ module orbit_results
       type(branch_t) :: branch                     !! through it
       integer :: n_free = 0                        !! free components of the state
       real(wp), allocatable :: scale(:)            !! (n_free) their scales [any]
-      integer :: n_cyclic = 0                      !! those that nothing depends on, which are left out
+      integer :: n_cyclic = 0                      !! those that nothing depends on, which are omitted
       integer :: n_run = 0                         !! periods that were integrated
    end type orbit_study_t
 

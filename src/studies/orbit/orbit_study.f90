@@ -20,6 +20,7 @@ contains
 
       type(period_map_t) :: map
       real(wp), allocatable :: direction(:)
+      real(wp) :: magnitude
       integer :: n
 
       map%deck => deck
@@ -36,6 +37,11 @@ contains
          direction(size(direction)) = 1.0_wp
          call correct_orbit(map, plan, direction, plan%to - plan%from, orbit, n, reason)
          if (reason /= "") return
+         magnitude = max(1.0_wp, maxval(abs(orbit%z)))  ! steps along the branch are measured by the orbit
+         map%free%scale = magnitude*map%free%scale
+         study%scale = map%free%scale
+         orbit%z = orbit%z/magnitude
+         if (allocated(orbit%by_p)) orbit%by_p = orbit%by_p/magnitude
          if (plan%parameter /= "") then
             call follow_branch(map, plan, orbit, study%branch)
          else
