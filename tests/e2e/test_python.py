@@ -256,3 +256,16 @@ def test_wheel_has_the_program(root, gudgeon, tmp_path):
     loaded = subprocess.run(["ldd", program], capture_output=True, text=True, check=True).stdout
     for name in (tmp_path / "there/libexec/gudgeon").glob("*"):
         assert f"{name.name} => {tmp_path / 'there'}" in loaded, "the program takes the libraries of the wheel"
+
+
+def test_fit(package):
+    """Unknowns of a deck from a file, an unknown in a row; a missing file is an error."""
+    pytest.importorskip("pandas")
+    frame = package.fit(ROOT / "inputs" / "fit_restitution.deck", ROOT / "inputs" / "fit_restitution.csv", out="fit", write="numbers")
+    assert list(frame.index) == ["e", "height", "camera.offset"]
+    assert (frame["low"] < [0.8, 0.3, 0.002]).all() and (frame["high"] > [0.8, 0.3, 0.002]).all()
+    assert frame.attrs["summary"]["fit_search"]["end"] == "converged"
+    deck = package.Deck.read(ROOT / "inputs" / "fit_restitution.deck")
+    assert package.fit(deck, ROOT / "inputs" / "fit_restitution.csv", out="again", write="numbers").equals(frame), "through a pipe"
+    with pytest.raises(package.GudgeonError, match="cannot read"):
+        package.fit(ROOT / "inputs" / "fit_restitution.deck", "nowhere.csv")

@@ -17,7 +17,7 @@ module find_fit
    public :: find_parameters
 
    integer, parameter :: most_rounds = 20             !! repetitions with other weights
-   real(wp), parameter :: settled = 1.0e-2_wp         !! change of a standard deviation that is the last, of it [1]
+   real(wp), parameter :: settled = 1.0e-3_wp         !! change of a standard deviation that is the last, of it [1]
    real(wp), parameter :: exact = 1.0e-12_wp          !! minimum standard deviation, of the spread of the data [1]
 
 contains
