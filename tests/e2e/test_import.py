@@ -394,6 +394,39 @@ def test_import_takes_time_in_proportion(gudgeon):
     assert spent[1] < 20 * max(spent[0], 0.05), spent
 
 
+def test_elastic_elements(gudgeon):
+    """BUSHING, FIELD and BEAM against their linear equations in the units of the dataset: mm, kg, s."""
+    run, said = imported(gudgeon, "elastic", tolerance="1e-11")
+    assert "the whole mechanism was converted" in said
+    t = run["time"][:]
+
+    def swing(mass, k, c, force, start):
+        """Motion of mass x'' = force - k x - c x', K and C matrices, from given x and x'."""
+        n = len(force)
+        def rates(_, y):
+            return np.r_[y[n:], np.linalg.solve(mass, force - k @ y[:n] - c @ y[n:])]
+        return solve_ivp(rates, (0, t[-1]), start, t_eval=t, rtol=1e-12, atol=1e-13).y[:n]
+
+    newton = 1e3  # kg mm/s^2
+    k, c, f = newton * np.array([0.8, 1.8, 3.2]), newton * np.array([0.004, 0, 0.01]), newton * np.array([1, -2, 0.5])
+    want = swing(2 * np.eye(3), np.diag(k), np.diag(c), f, np.zeros(6))
+    r = column(run, "bodies", "position", "PART_2") * 1e3
+    assert np.abs(r[:, [1, 2, 0]].T - want).max() < 1e-6 * np.abs(want).max()  # x, y, z of J are y, z, x of the world
+    want = swing(np.array([[1.5e4]]), newton * np.array([[6e3]]), newton * np.array([[20.0]]), newton * np.array([9e3]), np.zeros(2))[0]
+    assert want.max() > 2.0
+    assert np.abs(column(run, "forces", "rotation", "BUSHING_1")[:, 2] - want).max() < 1e-6
+    k = newton * np.array([[0.5, 0.2], [0.2, 0.4]])
+    want = swing(np.eye(2), k, 0.002 * k, k @ [3, -1], np.zeros(4))
+    r = column(run, "bodies", "position", "PART_3") * 1e3
+    assert np.abs(r[:, :2].T - [[1000], [0]] - want).max() < 1e-6 * np.abs(want).max()
+    length, bending = 400.0, 7e4 * 450
+    phi = 12 * bending * 1.1 / (2.6e4 * 80 * length**2)
+    k = newton * bending / (length**3 * (1 + phi)) * np.array([[12, -6 * length], [-6 * length, (4 + phi) * length**2]])
+    want = swing(np.diag([0.5, 800.0]), k, 1e-4 * k, np.zeros(2), np.array([0, 0, 20.0, 0]))[0]
+    r = column(run, "bodies", "position", "PART_4")[:, 2] * 1e3
+    assert np.abs(r - want).max() < 1e-4 * np.abs(want).max()
+
+
 def test_what_is_left_out_is_named_with_its_line(gudgeon):
     _, said = imported(gudgeon, "drives")
     text = (MODELS / "drives.adm").read_text().splitlines()
@@ -408,9 +441,9 @@ def test_refused_by_name(gudgeon):
     """Elastic bodies are no mechanism of rigid ones; markers and parts that are not there are mistakes with their line."""
     folder = scratch()
     model = (MODELS / "primitives.adm").read_text()
-    (folder / "a.adm").write_text(model.replace("JPRIM/8, PARALLEL_AXES, I = 61, J = 5", "BEAM/8, I = 61, J = 5, LENGTH = 1"))
+    (folder / "a.adm").write_text(model.replace("JPRIM/8, PARALLEL_AXES, I = 61, J = 5", "NFORCE/8, I = 61, J = 5"))
     done = call(gudgeon, "import", "a.adm", cwd=folder, expect=3)
-    assert "BEAM/8 is an elastic body" in done.stderr
+    assert "NFORCE/8 is an elastic body" in done.stderr
     assert "a.adm:34:" in done.stderr
     (folder / "b.adm").write_text(model.replace("I = 61, J = 5\nACC", "I = 61, J = 999\nACC").replace("ZG", "ZG"))
     done = call(gudgeon, "import", "b.adm", cwd=folder, expect=3)

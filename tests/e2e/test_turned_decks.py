@@ -17,7 +17,8 @@ DECKS = sorted(path for folder in ("inputs", "inputs/hard") for path in (ROOT / 
 # part of the motion, so that what is compared is not yet chance; digits that are left of the positions there [m]
 PARTS = {"pinball": (0.05, 1e-7), "double_pendulum": (0.02, 1e-7), "four_bar_spatial": (0.02, 1e-7), "crosshead": (0.02, 1e-6)}
 METHODS = {"double_pendulum": "verner"}  # ten impacts, each of which multiplies differences by a hundred; else that of the deck
-SIDES = {"axis_i": ("i", "bearing", "guide", "plane"), "width_axis": ("guide",), "axis_j": ("j", "journal", "slider", "ball")}
+SIDES = {"axis_i": ("i", "bearing", "guide", "plane"), "width_axis": ("guide",), "axis_j": ("j", "journal", "slider", "ball"),
+         "x_i": ("i",), "x_j": ("j",), "y_i": ("i",), "y_j": ("j",)}
 
 
 def cells_of(line):
