@@ -21,7 +21,9 @@ module joint_belt
    use span, only: span_of
    implicit none (type, external)
    private
-   public :: add_belt_columns, joint_belt_t, sign_of_belt
+   public :: add_belt_columns, joint_belt_t, of_pull, sign_of_belt
+
+   integer, parameter :: of_pull = of_own + 20   !! the pull, behind the channels of joints of space
 
    !> All belts of a planar scene: gears whose second radius is negative where the belt is open.
    type, extends(joint_gear_t) :: joint_belt_t
@@ -45,7 +47,7 @@ contains
       call add_word(info, "belt", "how it runs: crossed, the pulleys turn in opposite directions", default="open", &
                     choices="open crossed")
       call add_channel(info, "pull", "N", "none", 1, "difference of the tensions of both spans, positive where it turns the &
-                       &pulley of i counter-clockwise", of_own)
+                       &pulley of i counter-clockwise", of_pull)
    end subroutine add_belt_columns
 
    !> Sign of the second radius.
@@ -132,7 +134,7 @@ contains
       real(wp), intent(in), contiguous :: lambda(:)    !! (rows) multipliers [N]
       real(wp), intent(inout), contiguous :: value(:)  !! (components) the value [N]
 
-      if (code == of_own) value(1) = lambda(self%first_row + k)
+      if (code == of_pull) value(1) = lambda(self%first_row + k)
    end subroutine belt_report_own
 
 end module joint_belt

@@ -9,8 +9,7 @@
 module spatial_belt
    use coordinates, only: coordinates_t
    use item, only: item_t
-   use joint_belt, only: add_belt_columns, sign_of_belt
-   use joint_set, only: of_own
+   use joint_belt, only: add_belt_columns, of_pull, sign_of_belt
    use kind_info, only: kind_info_t
    use kinds, only: wp
    use mesh, only: close_enough, pulley_overlap
@@ -108,7 +107,11 @@ contains
       real(wp), intent(in), contiguous :: lambda(:)    !! (rows) multipliers [N]
       real(wp), intent(inout), contiguous :: value(:)  !! (components) the value [N]
 
-      if (code == of_own) value(1) = lambda(self%first_row + k)
+      if (code == of_pull) then
+         value(1) = lambda(self%first_row + k)
+      else
+         call self%spatial_gear_t%report_own(code, k, motion, coordinates, rows, lambda, value)
+      end if
    end subroutine belt_report_own
 
 end module spatial_belt
