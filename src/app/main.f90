@@ -4,6 +4,7 @@ program gudgeon
    use blas_threads, only: use_one_blas_thread
    use console, only: write_said
    use errors, only: error_t, exit_different, exit_ok, exit_stopped
+   use kinds, only: wp
    use options, only: options_t, read_options
    use posix, only: write_error
    use processes, only: begin_process, end_process
@@ -25,7 +26,7 @@ program gudgeon
    call begin_process()
    call use_one_blas_thread(error)
    ! Forces that fade along a chain below the least normal number are zero: some processors take a hundred times as long there.
-   if (ieee_support_underflow_control()) call ieee_set_underflow_mode(gradual=.false.)
+   if (ieee_support_underflow_control(1.0_wp)) call ieee_set_underflow_mode(gradual=.false.)
    if (.not. allocated(error)) call read_options(options, error)
    if (.not. allocated(error)) then
       select case (options%verb)
