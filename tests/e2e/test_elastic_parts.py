@@ -153,7 +153,7 @@ channels = *
 
 @pytest.mark.parametrize("damping", ["0 s", "20 ms"])
 def test_energy_of_a_bushing_at_large_rotations(gudgeon, damping):
-    """A coupled, preloaded bushing swings far about several axes: the ledger closes, with and without damping."""
+    """A coupled, preloaded bushing turns far about several axes: the ledger closes, with and without damping."""
     result = run(gudgeon, BUSHING.replace("SPIN", "5 -6 4").replace("DAMPING", damping.replace(" ", "")))
     far = np.linalg.norm(result.item("forces/rotation", "rubber"), axis=1).max()
     assert far > 1.0, far
