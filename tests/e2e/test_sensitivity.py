@@ -174,7 +174,7 @@ def test_instants(gudgeon):
 
 @pytest.mark.parametrize("words, message", [
     ("parameters = hight\nresults = floor.onset(1)", "did you mean 'height'?"),
-    ("parameters = word\nresults = floor.onset(1)", "parameter 'word' is not a number"),
+    ("parameters = word\nresults = floor.onset(1)", "parameter 'word' is a word"),
     ("parameters = height\nresults = floor.onsets(1)", "'floor.onsets(1)' is not a result"),
     ("parameters = height\nresults = flor.onset(1)", "'flor' is not a joint with clearance"),
     ("parameters = height\nresults = floor.onset(0)", "is not the number of an onset"),

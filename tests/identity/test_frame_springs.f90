@@ -341,7 +341,7 @@ contains
 
    !> A way through half a turn is noticed; one to there and back is not lost, and stores nothing at its end.
    subroutine test_half_a_turn(error)
-      use spatial_frame_spring, only: spatial_frame_spring_t
+      use spatial_frame_spring, only: frame_spring_t
       type(error_t), allocatable, intent(out) :: error  !! what failed
 
       class(force_set_t), allocatable :: set
@@ -356,7 +356,7 @@ contains
       end do
       call check_close(error, set%elastic_energy(motion), 0.0_wp, 1.0e-28_wp, "energy after the way back")
       select type (set)
-      class is (spatial_frame_spring_t)
+      class is (frame_spring_t)
          call check_true(error, .not. set%is_lost(1), "not lost below half a turn")
          do k = 0, 40
             motion%rot(:, :, 2) = rotation_about(axis, k*0.1_wp)

@@ -1,15 +1,17 @@
-!> The summaries of a study: how the one for scripts starts, and how both are written and shown.
+!> The summaries of a study: how the one for scripts starts and the one for people ends, and how both are written and shown.
 module study_summary
    use console, only: say
    use errors, only: error_t
    use json_text, only: json_object_t
    use options, only: options_t
    use output_plan, only: output_plan_t
+   use text, only: text_t
+   use text_buffer, only: buffer_t
    use text_file, only: replace_file
    use version, only: program_version
    implicit none (type, external)
    private
-   public :: show_summaries, start_summary
+   public :: add_output, show_summaries, start_summary
 
 contains
 
@@ -29,6 +31,26 @@ contains
       call json%put_text("status", status)
       call json%put_text("message", message)
    end subroutine start_summary
+
+   !> End the summary for people: where the results are, and the warnings.
+   subroutine add_output(lines, directory, files, pictures, warnings)
+      type(buffer_t), intent(inout) :: lines        !! grown
+      character(*), intent(in) :: directory         !! of the results
+      character(*), intent(in) :: files             !! written there; blank: none is named
+      type(text_t), intent(in) :: pictures(:)       !! (n) pictures made
+      type(text_t), intent(in) :: warnings(:)       !! (m) what was noticed
+
+      integer :: k
+
+      call lines%line("output     "//directory//"/")
+      if (files /= "") call lines%line("           "//files)
+      do k = 1, size(pictures)
+         call lines%line("           "//pictures(k)%s)
+      end do
+      do k = 1, size(warnings)
+         call lines%line("warning: "//warnings(k)%s)
+      end do
+   end subroutine add_output
 
    !> Write both summaries, and show the one that is asked for.
    subroutine show_summaries(options, directory, text, object, error)

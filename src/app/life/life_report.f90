@@ -10,7 +10,7 @@ module life_report
    use options, only: options_t
    use output_plan, only: output_plan_t
    use recorder, only: status_complete, status_failed
-   use study_summary, only: show_summaries, start_summary
+   use study_summary, only: add_output, show_summaries, start_summary
    use text, only: counted, real_text, text_t, to_text
    use text_buffer, only: buffer_t
    use text_of_table, only: add_table
@@ -53,7 +53,6 @@ contains
       character(:), allocatable :: text                      !! whole lines
 
       type(buffer_t) :: lines
-      integer :: k
 
       call lines%line(plan%title)
       associate (node => life%nodes(life%last))
@@ -72,14 +71,7 @@ contains
       call add_table(lines, table_of_surfaces_at_end(life))
       call add_table(lines, table_of_budget(life))
       call lines%line("")
-      call lines%line("output     "//plan%directory//"/")
-      call lines%line("           life.h5, life.csv (all jumps)")
-      do k = 1, size(pictures)
-         call lines%line("           "//pictures(k)%s)
-      end do
-      do k = 1, size(warnings)
-         call lines%line("warning: "//warnings(k)%s)
-      end do
+      call add_output(lines, plan%directory, "life.h5, life.csv (all jumps)", pictures, warnings)
       text = lines%get()
    end function text_of
 

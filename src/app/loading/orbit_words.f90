@@ -1,16 +1,16 @@
 !> The words of the section [orbit], held against what a deck has.
 module orbit_words
+   use contact_words, only: find_contacts
+   use deck_parameter, only: number_parameter
    use deck_types, only: deck_t
    use diagnostics, only: diagnostics_t
    use dimension_text, only: unit_text
-   use expression_compile, only: symbol_number
    use item, only: item_t, place_of
    use kind_info, only: same_dimension
    use kinds, only: wp
    use mechanism, only: mechanism_t
    use orbit_results, only: orbit_plan_t
-   use spelling, only: nearest_word
-   use text, only: join, real_text, text_t
+   use text, only: real_text
    use time_plan, only: seconds
    implicit none (type, external)
    private
@@ -51,41 +51,24 @@ contains
             end if
          end if
       end associate
-      if (plan%joint /= "") call find_contacts(section, system, plan, mistakes)
+      if (plan%joint /= "") call take_contacts(section, system, plan, mistakes)
       if (plan%parameter /= "") call find_parameter(deck, section, plan, mistakes)
    end subroutine plan_orbit
 
    !> The contacts that have the phase.
-   subroutine find_contacts(section, system, plan, mistakes)
+   subroutine take_contacts(section, system, plan, mistakes)
       type(item_t), intent(in) :: section                !! the section
       type(mechanism_t), intent(in) :: system            !! the mechanism
       type(orbit_plan_t), intent(inout) :: plan          !! contacts are set
       type(diagnostics_t), intent(inout) :: mistakes     !! errors found
 
-      character(:), allocatable :: names
-      integer :: i, k, of_item
+      character(:), allocatable :: help, message
 
-      names = ""
-      do k = 1, size(system%clearance_joints%sets)
-         associate (set => system%clearance_joints%sets(k)%set)
-            do i = 1, set%n_contact
-               of_item = set%item_of(i)
-               associate (item => set%names(of_item)%s, number => set%before%contacts + i)
-                  if (index(names//" ", " "//item//" ") == 0) names = names//" "//item
-                  if (plan%joint /= item .and. plan%joint /= item//"."//set%label_of(i)) cycle
-                  if (plan%first == 0) plan%first = number
-                  plan%last = number
-               end associate
-            end do
-         end associate
-      end do
-      if (plan%first == 0) then
-         associate (value => section%values(place_of(section, "contact")))
-            call mistakes%add(value%location, "'"//plan%joint//"' is not a joint with clearance", "not a contact of this deck", &
-                              "joints with clearance:"//names)
-         end associate
-      end if
-   end subroutine find_contacts
+      call find_contacts(system, plan%joint, plan%first, plan%last, message, help)
+      associate (value => section%values(place_of(section, "contact")))
+         if (message /= "") call mistakes%add(value%location, message, "not a contact of this deck", help)
+      end associate
+   end subroutine take_contacts
 
    !> The parameter and its range.
    subroutine find_parameter(deck, section, plan, mistakes)
@@ -94,27 +77,14 @@ contains
       type(orbit_plan_t), intent(inout) :: plan          !! parameter and range are set
       type(diagnostics_t), intent(inout) :: mistakes     !! errors found
 
-      type(text_t), allocatable :: names(:)
-      character(:), allocatable :: hint
       integer :: n
 
-      associate (name => plan%parameter, value => section%values(place_of(section, "parameter")))
-         n = deck%symbols%find(name)
-         if (n > deck%symbols%n_parameter) n = 0
-         if (n == 0) then
-            names = deck%symbols%names_of(functions=.false.)
-            hint = nearest_word(name, names)
-            if (len(hint) > 0) hint = "did you mean '"//hint//"'? "
-            call mistakes%add(value%location, "'"//name//"' is not a parameter of the deck", "not a parameter", &
-                              hint//"parameters: "//join(names, " "))
-            return
-         else if (deck%symbols%list(n)%kind /= symbol_number) then
-            call mistakes%add(value%location, "parameter '"//name//"' is not a number", "no branch over a word")
-            return
-         end if
-         plan%p = deck%symbols%list(n)%number
-         plan%unit = unit_text(deck%symbols%list(n)%dimension)
+      associate (value => section%values(place_of(section, "parameter")))
+         n = number_parameter(deck, plan%parameter, value%location, mistakes)
       end associate
+      if (n == 0) return
+      plan%p = deck%symbols%list(n)%number
+      plan%unit = unit_text(deck%symbols%list(n)%dimension)
       call take_bound("from", plan%from)
       call take_bound("to", plan%to)
       if (mistakes%count() > 0) return

@@ -3,10 +3,11 @@ module sensitivity_words
    use catalogue, only: catalogue_t
    use channel_names, only: scalar_t
    use channels, only: list_scalars, match_word, selection_t
+   use contact_words, only: find_contacts
+   use deck_parameter, only: number_parameter
    use deck_types, only: deck_t
    use diagnostics, only: diagnostics_t
    use dimension_text, only: unit_text
-   use expression_compile, only: symbol_number
    use groups_of_catalogue, only: group_energy
    use item, only: item_t, location_of, place_of
    use kind_info, only: dim_time, same_dimension
@@ -15,8 +16,7 @@ module sensitivity_words
    use numbers, only: number_length
    use sensitivity_results, only: asked_t, is_of_contact, n_result_kind, result_names, result_units, result_value, &
       sensitivity_plan_t
-   use spelling, only: nearest_word
-   use text, only: join, text_t, to_text
+   use text, only: to_text
    use units, only: parse_unit, read_quantity, unit_t
    implicit none (type, external)
    private
@@ -65,34 +65,18 @@ contains
       type(sensitivity_plan_t), intent(inout) :: plan        !! parameters are set
       type(diagnostics_t), intent(inout) :: mistakes         !! errors found
 
-      type(text_t), allocatable :: names(:)
-      character(:), allocatable :: hint
       integer :: k, n
 
       associate (value => section%values(place_of(section, "parameters")))
-         n = size(value%words)
          plan%parameters = value%words
-         allocate (plan%units(n), plan%values(n))
-         do k = 1, n
-            associate (name => value%words(k)%s)
-               plan%units(k)%s = ""
-               plan%values(k) = 0.0_wp
-               n = deck%symbols%find(name)
-               if (n > deck%symbols%n_parameter) n = 0
-               if (n == 0) then
-                  names = deck%symbols%names_of(functions=.false.)
-                  hint = nearest_word(name, names)
-                  if (len(hint) > 0) hint = "did you mean '"//hint//"'? "
-                  call mistakes%add(location_of(value, k), "'"//name//"' is not a parameter of the deck", "not a parameter", &
-                                    hint//"parameters: "//join(names, " "))
-               else if (deck%symbols%list(n)%kind /= symbol_number) then
-                  call mistakes%add(location_of(value, k), "parameter '"//name//"' is not a number", &
-                                    "there is no derivative by a word")
-               else
-                  plan%values(k) = deck%symbols%list(n)%number
-                  plan%units(k)%s = unit_text(deck%symbols%list(n)%dimension)
-               end if
-            end associate
+         allocate (plan%units(size(value%words)), plan%values(size(value%words)))
+         do k = 1, size(value%words)
+            plan%units(k)%s = ""
+            plan%values(k) = 0.0_wp
+            n = number_parameter(deck, value%words(k)%s, location_of(value, k), mistakes)
+            if (n == 0) cycle
+            plan%values(k) = deck%symbols%list(n)%number
+            plan%units(k)%s = unit_text(deck%symbols%list(n)%dimension)
          end do
       end associate
    end subroutine plan_parameters
@@ -142,28 +126,10 @@ contains
       type(asked_t), allocatable, intent(inout) :: some(:)        !! (n) one for each onset
       character(:), allocatable, intent(inout) :: message, hint   !! as in `read_result`
 
-      character(:), allocatable :: names
-      integer :: dots, first, i, k, last, of_item, status(2)
+      integer :: dots, first, k, last, status(2)
 
-      names = ""
-      do k = 1, size(system%clearance_joints%sets)
-         associate (set => system%clearance_joints%sets(k)%set)
-            do i = 1, set%n_contact
-               of_item = set%item_of(i)
-               associate (item => set%names(of_item)%s, number => set%before%contacts + i)
-                  if (index(names//" ", " "//item//" ") == 0) names = names//" "//item
-                  if (joint /= item .and. joint /= item//"."//set%label_of(i)) cycle
-                  if (asked%first == 0) asked%first = number
-                  asked%last = number
-               end associate
-            end do
-         end associate
-      end do
-      if (asked%first == 0) then
-         message = "'"//joint//"' is not a joint with clearance"
-         hint = "joints with clearance:"//names
-         return
-      end if
+      call find_contacts(system, joint, asked%first, asked%last, message, hint)
+      if (message /= "") return
       dots = index(range, "..")
       if (dots == 0) then
          read (range, *, iostat=status(1)) first

@@ -1,12 +1,11 @@
 !> Scenes of a deck along a branch, as `--set` gives them, each with the period that its section [orbit] has then.
 module deck_orbits
-   use changed_parameter, only: change_parameter
+   use changed_deck, only: change_parameter, changed_deck_t
    use diagnostics, only: diagnostics_t
    use errors, only: error_t
    use item, only: item_t, place_of
    use jobs, only: first_line, job_t
    use kinds, only: wp
-   use load, only: load_case, load_deck, loaded_t
    use options, only: options_t
    use orbit_info, only: orbit_section
    use orbit_results, only: orbit_plan_t
@@ -18,12 +17,11 @@ module deck_orbits
    private
    public :: deck_orbits_t
 
-   !> A deck. Options and plan are set before the first scene is asked for.
+   !> A deck. Its options and the plan are set before the first scene is asked for.
    type, extends(orbit_source_t) :: deck_orbits_t
-      type(options_t) :: options             !! the command line
+      type(changed_deck_t) :: deck           !! the deck with the last value
       type(orbit_plan_t) :: plan             !! for name and unit of the parameter
-      type(loaded_t) :: loaded               !! the deck with the last value
-      logical :: is_loaded = .false.         !! it was loaded without errors
+      logical :: is_known = .false.          !! the deck took this value
       real(wp) :: p = 0.0_wp                 !! this value [any]
       real(wp) :: period = 0.0_wp            !! and its period [s]
    contains
@@ -48,33 +46,28 @@ contains
 
       reason = ""
       period = self%period
-      if (.not. self%is_loaded .or. abs(p - self%p) > 0.0_wp) then
-         options = self%options
-         options%runs%is_member = .true.
-         options%runs%has_known_words = .true.
+      if (.not. self%is_known .or. abs(p - self%p) > 0.0_wp) then
+         options = self%deck%options
          if (self%plan%parameter /= "") call change_parameter(options, self%plan%parameter, p, self%plan%unit)
-         if (self%is_loaded) then
-            call load_case(options, self%loaded, error)
-         else
-            call load_deck(options, self%loaded, error)
+         call self%deck%load(options, error)
+         if (.not. allocated(error)) then
+            associate (loaded => self%deck%loaded)
+               call read_settings(loaded%deck, orbit_section(), keys, has_section, mistakes)
+               if (mistakes%count() == 0) then
+                  period = seconds(keys%values(place_of(keys, "period")), "period", -1.0_wp, loaded%system, mistakes)
+               end if
+               call mistakes%to_error(loaded%deck%sources, error)
+            end associate
          end if
-         self%is_loaded = .not. allocated(error)
-         if (self%is_loaded) then
-            call read_settings(self%loaded%deck, orbit_section(), keys, has_section, mistakes)
-            if (mistakes%count() == 0) then
-               period = seconds(keys%values(place_of(keys, "period")), "period", -1.0_wp, self%loaded%system, mistakes)
-            end if
-            call mistakes%to_error(self%loaded%deck%sources, error)
-         end if
+         self%is_known = .not. allocated(error)
          if (allocated(error)) then
             reason = "the deck does not take "//exact_text(p)//" "//self%plan%unit//": "//first_line(error%message)
-            self%is_loaded = .false.
             return
          end if
          self%p = p
          self%period = period
       end if
-      job = self%loaded%job_t
+      job = self%deck%loaded%job_t
    end subroutine deck_scene_at
 
 end module deck_orbits

@@ -1,10 +1,9 @@
 !> Scenes of a deck with other values of its parameters, as `--set` gives them.
 module deck_parameters
-   use changed_parameter, only: change_parameter
+   use changed_deck, only: change_parameter, changed_deck_t
    use errors, only: error_t
    use jobs, only: first_line, job_t
    use kinds, only: wp
-   use load, only: load_case, load_deck, loaded_t
    use options, only: options_t
    use parameter_source, only: parameter_source_t
    use sensitivity_results, only: sensitivity_plan_t
@@ -13,12 +12,10 @@ module deck_parameters
    private
    public :: deck_parameters_t
 
-   !> A deck. Options and plan are set before the first scene is asked for.
+   !> A deck. Its options and the plan are set before the first scene is asked for.
    type, extends(parameter_source_t) :: deck_parameters_t
-      type(options_t) :: options             !! the command line
+      type(changed_deck_t) :: deck           !! the deck with the last values
       type(sensitivity_plan_t) :: plan       !! for names and units of the parameters
-      type(loaded_t) :: loaded               !! the deck with the last values
-      logical :: is_loaded = .false.         !! it was loaded without errors
    contains
       procedure :: make => make_scene
    end type deck_parameters_t
@@ -36,21 +33,14 @@ contains
       type(error_t), allocatable :: error
       type(options_t) :: options
 
-      options = self%options
-      options%runs%is_member = .true.
-      options%runs%has_known_words = .true.
+      options = self%deck%options
       call change_parameter(options, self%plan%parameters(parameter)%s, value, self%plan%units(parameter)%s)
-      if (self%is_loaded) then
-         call load_case(options, self%loaded, error)
-      else
-         call load_deck(options, self%loaded, error)
-      end if
-      self%is_loaded = .not. allocated(error)
+      call self%deck%load(options, error)
       reason = ""
       if (allocated(error)) then
          reason = "the deck does not take "//exact_text(value)//" "//self%plan%units(parameter)%s//": "//first_line(error%message)
       else
-         job = self%loaded%job_t
+         job = self%deck%loaded%job_t
       end if
    end subroutine make_scene
 

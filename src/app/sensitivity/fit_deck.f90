@@ -1,24 +1,22 @@
 !> Scenes of a deck for a fit: parameters of a set of data and values of the unknowns, as `--set` gives them.
 module fit_deck
+   use changed_deck, only: changed_deck_t
    use dimension_text, only: unit_text
    use errors, only: error_t
    use fit_plan, only: fit_plan_t
    use fit_source, only: fit_source_t
    use jobs, only: first_line, job_t
    use kinds, only: wp
-   use load, only: load_case, load_deck, loaded_t
    use options, only: options_t
    use text, only: append_text, exact_text
    implicit none (type, external)
    private
    public :: fit_deck_t
 
-   !> A deck. Options and plan are set before the first scene is asked for.
+   !> A deck. Its options, with one operand, and the plan are set before the first scene is asked for.
    type, extends(fit_source_t) :: fit_deck_t
-      type(options_t) :: options             !! the command line with one operand
+      type(changed_deck_t) :: deck           !! the deck with the last values
       type(fit_plan_t) :: plan               !! names and units of the unknowns, changes of the sets
-      type(loaded_t) :: loaded               !! the deck with the last values
-      logical :: is_loaded = .false.         !! it was loaded without errors
    contains
       procedure :: make => make_scene
    end type fit_deck_t
@@ -37,9 +35,7 @@ contains
       type(options_t) :: options
       integer :: k
 
-      options = self%options
-      options%runs%is_member = .true.
-      options%runs%has_known_words = .true.
+      options = self%deck%options
       do k = 1, size(self%plan%sets(self%set)%changes)
          call append_text(options%change%overrides, self%plan%sets(self%set)%changes(k)%s)
       end do
@@ -49,17 +45,12 @@ contains
                              exact_text(merge(value, self%values(k), k == parameter))//" "//unit_text(unknown%dimension))
          end associate
       end do
-      if (self%is_loaded) then
-         call load_case(options, self%loaded, error)
-      else
-         call load_deck(options, self%loaded, error)
-      end if
-      self%is_loaded = .not. allocated(error)
+      call self%deck%load(options, error)
       reason = ""
       if (allocated(error)) then
          reason = "the deck does not take the values: "//first_line(error%message)
       else
-         job = self%loaded%job_t
+         job = self%deck%loaded%job_t
       end if
    end subroutine make_scene
 

@@ -12,7 +12,7 @@ module fit_report
    use options, only: options_t
    use output_plan, only: output_plan_t
    use recorder, only: status_complete
-   use study_summary, only: show_summaries, start_summary
+   use study_summary, only: add_output, show_summaries, start_summary
    use text, only: append_text, counted, real_text, text_t, to_text
    use text_buffer, only: buffer_t
    use text_of_table, only: add_table
@@ -87,7 +87,6 @@ contains
       character(:), allocatable :: text                      !! whole lines
 
       type(buffer_t) :: lines
-      integer :: k
 
       call lines%line(plan%title)
       call lines%line("complete: "//counted(size(fit%places), "unknown", "unknowns")//" from "//to_text(fit%n_data)//" data of "// &
@@ -98,14 +97,7 @@ contains
       if (size(fit%places) > 1) call add_table(lines, table_of_correlations(fit))
       call add_table(lines, table_of_sensors(fit))
       call lines%line("")
-      call lines%line("output     "//plan%directory//"/")
-      if (has_files) call lines%line("           fit.h5, fit.csv")
-      do k = 1, size(pictures)
-         call lines%line("           "//pictures(k)%s)
-      end do
-      do k = 1, size(warnings)
-         call lines%line("warning: "//warnings(k)%s)
-      end do
+      call add_output(lines, plan%directory, trim(merge("fit.h5, fit.csv", "               ", has_files)), pictures, warnings)
       text = lines%get()
    end function text_of
 

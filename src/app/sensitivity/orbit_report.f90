@@ -10,7 +10,7 @@ module orbit_report
    use orbit_tables, only: table_of_bifurcations, table_of_branch, table_of_multipliers, table_of_onsets
    use output_plan, only: output_plan_t
    use recorder, only: status_complete
-   use study_summary, only: show_summaries, start_summary
+   use study_summary, only: add_output, show_summaries, start_summary
    use text, only: counted, real_text, text_t, to_text
    use text_buffer, only: buffer_t
    use text_of_table, only: add_table
@@ -50,7 +50,6 @@ contains
       character(:), allocatable :: text                      !! whole lines
 
       type(buffer_t) :: lines
-      integer :: k
 
       call lines%line(plan%title)
       associate (orbit => study%orbit)
@@ -66,14 +65,8 @@ contains
       call add_table(lines, table_of_onsets(study, names))
       if (study%plan%parameter /= "") call add_branch(lines, study)
       call lines%line("")
-      call lines%line("output     "//plan%directory//"/")
-      call lines%line("           orbit.h5"//trim(merge(", branch.csv", "            ", study%plan%parameter /= "")))
-      do k = 1, size(pictures)
-         call lines%line("           "//pictures(k)%s)
-      end do
-      do k = 1, size(warnings)
-         call lines%line("warning: "//warnings(k)%s)
-      end do
+      call add_output(lines, plan%directory, "orbit.h5"//trim(merge(", branch.csv", "            ", study%plan%parameter /= "")), &
+                      pictures, warnings)
       text = lines%get()
    end function text_of
 

@@ -12,7 +12,7 @@ module sensitivity_report
    use sensitivity_object, only: put_sensitivity
    use sensitivity_results, only: sensitivity_t
    use sensitivity_tables, only: table_of_derivatives, table_of_motion, table_of_parameters, table_of_results
-   use study_summary, only: show_summaries, start_summary
+   use study_summary, only: add_output, show_summaries, start_summary
    use text, only: counted, real_text, text_t, to_text
    use text_buffer, only: buffer_t
    use text_of_table, only: add_table
@@ -47,7 +47,6 @@ contains
 
       type(buffer_t) :: lines
       type(result_table_t) :: table
-      integer :: k
 
       call lines%line(plan%title)
       call lines%line("complete: "//counted(size(study%plan%results), "result", "results")//" by "// &
@@ -63,11 +62,7 @@ contains
       table = table_of_derivatives(study)
       call add_table(lines, table)
       call add_refusals(lines, study)
-      call lines%line("output     "//plan%directory//"/")
-      call lines%line("           sensitivity.h5, sensitivity.csv")
-      do k = 1, size(warnings)
-         call lines%line("warning: "//warnings(k)%s)
-      end do
+      call add_output(lines, plan%directory, "sensitivity.h5, sensitivity.csv", [text_t ::], warnings)
       text = lines%get()
    end function text_of
 

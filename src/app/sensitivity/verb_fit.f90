@@ -3,7 +3,6 @@ module verb_fit
    use channel_names, only: scalar_name, scalar_t
    use csv_table, only: csv_text
    use diagnostics, only: diagnostics_t
-   use echo, only: echo_items, echo_settings
    use errors, only: error_t, exit_usage, set_error
    use file_store, only: keep_files
    use find_fit, only: find_parameters
@@ -20,24 +19,17 @@ module verb_fit
    use fit_words, only: plan_fit
    use gnuplot_runs, only: draw_figures, make_folder
    use, intrinsic :: ieee_arithmetic, only: ieee_is_finite
-   use item, only: item_t
-   use kind_info, only: kind_info_t
    use kinds, only: wp
    use load, only: load_deck, loaded_t
-   use one_step_check, only: check_one_step
    use options, only: options_t
    use output_directory, only: output_directory_t
    use output_plan, only: output_plan_t
    use read_fit, only: has_fit
    use recorder, only: status_complete
    use run_limits, only: limits_of
-   use run_place, only: directory_of
-   use run_plan, only: tell_origin
-   use scene, only: analysis_dynamic
    use scene_echo, only: echo_scene
-   use settings, only: read_settings
+   use study_request, only: check_derivable, echo_of_rows, echo_of_section, open_study
    use table_file, only: write_table_file
-   use tables, only: read_items
    use text, only: text_t
    use text_file, only: replace_file
    use text_table, only: file_heading
@@ -69,19 +61,14 @@ contains
       alone = options
       alone%operands = options%operands(:1)
       call load_deck(alone, loaded, error)
-      if (.not. allocated(error)) call check_request(loaded, error)
+      if (.not. allocated(error)) call check_derivable(loaded, has_fit(loaded%deck), "table [fit]", "a fit needs", error)
       if (allocated(error)) return
       allocate (warnings(0))
       call limits_of(loaded%scene, loaded%catalogue, loaded%limits, warnings)
       call set_up(options, loaded, model, fit, warnings, error)
-      if (.not. allocated(error)) call directory%open(directory_of(options, loaded), error)
+      if (.not. allocated(error)) call open_study(options, loaded, directory, plan, warnings, error)
       if (allocated(error)) return
-      warnings = [directory%warnings, warnings]
-      plan%directory = directory%path
-      plan%title = loaded%scene%title
-      call tell_origin(options, loaded, plan)
-      call plan%complete()
-      source%options = alone
+      source%deck%options = alone
       source%plan = model%plan
       model%source => source
       call find_parameters(model, model%plan%sensors%has(1), fit, error)
@@ -92,20 +79,6 @@ contains
       if (.not. allocated(error)) call report_fit(options, loaded, plan, fit, pictures, warnings, error)
       call directory%close()
    end subroutine fit_deck_to_data
-
-   !> A fit needs its tables, a motion, and a method whose steps have a map.
-   subroutine check_request(loaded, error)
-      type(loaded_t), intent(in) :: loaded                 !! the deck
-      type(error_t), allocatable, intent(out) :: error     !! what is missing
-
-      if (loaded%scene%analysis /= analysis_dynamic) then
-         call set_error(error, exit_usage, "a fit needs [analysis.dynamic] as the first analysis section of the deck")
-      else if (.not. has_fit(loaded%deck)) then
-         call set_error(error, exit_usage, "the deck has no table [fit]"//new_line("a")//"  = see 'gudgeon help fit'")
-      else
-         call check_one_step(loaded%scene%settings%integration, "a fit needs", error)
-      end if
-   end subroutine check_request
 
    !> Unknowns, sensors and data of the model.
    subroutine set_up(options, loaded, model, fit, warnings, error)
@@ -196,26 +169,10 @@ contains
       type(loaded_t), intent(inout) :: loaded      !! the deck; defaults are noted
       character(:), allocatable :: text            !! tables of a deck
 
-      type(diagnostics_t) :: ignored
-      type(item_t), allocatable :: items(:)
-      type(item_t) :: study
-      logical :: is_present
-      integer :: k
-
-      text = ""
-      do k = 1, 3
-         block
-            type(kind_info_t) :: info
-
-            if (k == 1) info = fit_table_info()
-            if (k == 2) info = fit_sensor_info()
-            if (k == 3) info = fit_set_info()
-            call read_items(loaded%deck, info, items, ignored)
-            if (size(items) > 0) text = text//echo_items(info, items)
-         end block
-      end do
-      call read_settings(loaded%deck, fit_study_info(), study, is_present, ignored)
-      text = text//echo_settings(fit_study_info(), study)
+      text = echo_of_rows(loaded, fit_table_info())
+      text = text//echo_of_rows(loaded, fit_sensor_info())
+      text = text//echo_of_rows(loaded, fit_set_info())
+      text = text//echo_of_section(loaded, fit_study_info())
    end function echo_of_tables
 
 end module verb_fit

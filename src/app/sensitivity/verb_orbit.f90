@@ -3,13 +3,12 @@ module verb_orbit
    use csv_table, only: csv_text
    use deck_orbits, only: deck_orbits_t
    use echo, only: echo_settings
-   use errors, only: error_t, exit_integration, exit_usage, set_error
+   use errors, only: error_t, exit_integration, set_error
    use file_store, only: keep_files
    use gnuplot_runs, only: draw_figures, make_folder
    use kinds, only: wp
    use load, only: load_deck, loaded_t
    use mechanism, only: mechanism_t
-   use one_step_check, only: check_one_step
    use options, only: options_t
    use orbit_info, only: orbit_section
    use orbit_plots, only: write_orbit_plots
@@ -19,16 +18,14 @@ module verb_orbit
    use orbit_tables, only: table_of_bifurcations, table_of_branch, table_of_multipliers, table_of_onsets
    use output_directory, only: output_directory_t
    use output_plan, only: output_plan_t
-   use text_table, only: file_heading
    use recorder, only: status_complete
    use run_limits, only: limits_of
-   use run_place, only: directory_of
-   use run_plan, only: tell_origin
-   use scene, only: analysis_dynamic
    use scene_echo, only: echo_scene
+   use study_request, only: check_derivable, open_study
    use table_file, only: write_table_file
    use text, only: text_t
    use text_file, only: replace_file
+   use text_table, only: file_heading
    implicit none (type, external)
    private
    public :: orbit_deck
@@ -50,19 +47,15 @@ contains
 
       call keep_files()
       call load_deck(options, loaded, error)
-      if (.not. allocated(error)) call check_request(loaded, error)
+      if (.not. allocated(error)) call check_derivable(loaded, loaded%orbit%is_present, "section [orbit]", "orbits need", error)
       if (allocated(error)) return
-      call directory%open(directory_of(options, loaded), error)
-      if (allocated(error)) return
-      warnings = directory%warnings
+      allocate (warnings(0))
       call limits_of(loaded%scene, loaded%catalogue, loaded%limits, warnings)
-      plan%directory = directory%path
-      plan%title = loaded%scene%title
-      call tell_origin(options, loaded, plan)
-      call plan%complete()
+      call open_study(options, loaded, directory, plan, warnings, error)
+      if (allocated(error)) return
       if (options%change%tolerance > 0.0_wp) loaded%orbit%plan%tolerance = options%change%tolerance
       study%plan = loaded%orbit%plan
-      source%options = options
+      source%deck%options = options
       source%plan = loaded%orbit%plan
       names = contact_names(loaded%system)
       call study_orbits(source, study, reason)
@@ -71,20 +64,6 @@ contains
       if (.not. allocated(error)) call report_orbit(options, loaded, plan, study, names, pictures, warnings, error)
       call directory%close()
    end subroutine orbit_deck
-
-   !> An orbit needs its section, a motion, and a method whose steps have a map.
-   subroutine check_request(loaded, error)
-      type(loaded_t), intent(in) :: loaded                 !! the deck
-      type(error_t), allocatable, intent(out) :: error     !! what is missing
-
-      if (loaded%scene%analysis /= analysis_dynamic) then
-         call set_error(error, exit_usage, "orbits need [analysis.dynamic] as the first analysis section of the deck")
-      else if (.not. loaded%orbit%is_present) then
-         call set_error(error, exit_usage, "the deck has no section [orbit]"//new_line("a")//"  = see 'gudgeon help orbit'")
-      else
-         call check_one_step(loaded%scene%settings%integration, "orbits need", error)
-      end if
-   end subroutine check_request
 
    !> Names of the contacts: of the joint, with a dot and a label where a joint has several.
    function contact_names(system) result(names)

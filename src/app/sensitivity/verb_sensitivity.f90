@@ -3,26 +3,23 @@ module verb_sensitivity
    use csv_table, only: csv_text
    use deck_parameters, only: deck_parameters_t
    use echo, only: echo_settings
-   use errors, only: error_t, exit_usage, set_error
+   use errors, only: error_t
    use file_store, only: keep_files
    use find_sensitivity, only: find_sensitivities
    use kinds, only: wp
    use load, only: load_deck, loaded_t
-   use one_step_check, only: check_one_step
    use options, only: options_t
    use output_directory, only: output_directory_t
    use output_plan, only: output_plan_t
    use recorder, only: status_complete
    use result_table, only: result_table_t
    use run_limits, only: limits_of
-   use run_place, only: directory_of
-   use run_plan, only: tell_origin
-   use scene, only: analysis_dynamic
    use scene_echo, only: echo_scene
    use sensitivity_info, only: sensitivity_section
    use sensitivity_report, only: report_sensitivity
    use sensitivity_results, only: sensitivity_t
    use sensitivity_tables, only: table_of_derivatives, table_of_parameters, table_of_results
+   use study_request, only: check_derivable, open_study
    use table_file, only: write_table_file
    use text, only: text_t
    use text_file, only: replace_file
@@ -46,17 +43,15 @@ contains
 
       call keep_files()
       call load_deck(options, loaded, error)
-      if (.not. allocated(error)) call check_request(loaded, error)
+      if (.not. allocated(error)) then
+         call check_derivable(loaded, loaded%sensitivity%is_present, "section [sensitivity]", "sensitivities need", error)
+      end if
       if (allocated(error)) return
-      call directory%open(directory_of(options, loaded), error)
-      if (allocated(error)) return
-      warnings = directory%warnings
+      allocate (warnings(0))
       call limits_of(loaded%scene, loaded%catalogue, loaded%limits, warnings)
-      plan%directory = directory%path
-      plan%title = loaded%scene%title
-      call tell_origin(options, loaded, plan)
-      call plan%complete()
-      source%options = options
+      call open_study(options, loaded, directory, plan, warnings, error)
+      if (allocated(error)) return
+      source%deck%options = options
       source%plan = loaded%sensitivity%plan
       if (options%change%tolerance > 0.0_wp) loaded%sensitivity%plan%tolerance = options%change%tolerance
       call find_sensitivities(loaded%job_t, source, loaded%sensitivity%plan, study, error)
@@ -64,21 +59,6 @@ contains
       if (.not. allocated(error)) call report_sensitivity(options, loaded, plan, study, warnings, error)
       call directory%close()
    end subroutine derive_deck
-
-   !> Derivatives need their section, a motion, and a method whose steps have a map.
-   subroutine check_request(loaded, error)
-      type(loaded_t), intent(in) :: loaded                 !! the deck
-      type(error_t), allocatable, intent(out) :: error     !! what is missing
-
-      if (loaded%scene%analysis /= analysis_dynamic) then
-         call set_error(error, exit_usage, "sensitivities need [analysis.dynamic] as the first analysis section of the deck")
-      else if (.not. loaded%sensitivity%is_present) then
-         call set_error(error, exit_usage, "the deck has no section [sensitivity]"//new_line("a")// &
-                        "  = see 'gudgeon help sensitivity'")
-      else
-         call check_one_step(loaded%scene%settings%integration, "sensitivities need", error)
-      end if
-   end subroutine check_request
 
    !> The files.
    subroutine write_results(loaded, plan, study, error)

@@ -19,6 +19,7 @@ module sweep_report
    use sweep_plots, only: sweep_table
    use sweep_tables, only: shown_cases
    use sweep_work, only: failure_text, sweep_work_t
+   use study_summary, only: add_output
    use text, only: append_text, counted, real_text, text_t, to_text
    use text_buffer, only: buffer_t
    use text_file, only: replace_file
@@ -101,6 +102,7 @@ contains
       type(text_t), intent(in) :: warnings(:)              !! (m) what was not made
       type(error_t), allocatable, intent(out) :: error     !! a file cannot be written, or part of the runs failed
 
+      character(*), parameter :: files = "sweep.h5, sweep.csv (runs), cases.csv (means and standard deviations)"
       type(buffer_t) :: lines
       type(json_object_t) :: json
       character(:), allocatable :: state
@@ -130,14 +132,7 @@ contains
                          work%results%runs(k)%message)
       end do
       if (work%shard == 0 .and. loaded%sweep%n_cases() > 1) call add_table(lines, shown_cases(work%results, drawn_numbers(loaded)))
-      call lines%line("output     "//work%plan%directory//"/")
-      if (work%shard == 0) call lines%line("           sweep.h5, sweep.csv (runs), cases.csv (means and standard deviations)")
-      do k = 1, size(pictures)
-         call lines%line("           "//pictures(k)%s)
-      end do
-      do k = 1, size(warnings)
-         call lines%line("warning: "//warnings(k)%s)
-      end do
+      call add_output(lines, work%plan%directory, files(:merge(len(files), 0, work%shard == 0)), pictures, warnings)
       call fill_json()
       call write_summaries(lines%get(), json%get()//new_line("a"))
       if (state == status_complete .or. allocated(error)) return

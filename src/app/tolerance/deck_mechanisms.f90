@@ -1,11 +1,11 @@
 !> Mechanisms of a deck whose parameters deviate from their nominal values: only what the parameters stand in is read again.
 module deck_mechanisms
    use build_system, only: new_system
+   use changed_deck, only: changed_deck_t
    use columns, only: column_of
    use dimension_text, only: unit_text
    use errors, only: error_t
    use kinds, only: wp
-   use load, only: load_case, load_deck, loaded_t
    use mechanism_source, only: mechanism_source_t
    use options, only: options_t
    use progress, only: progress_t
@@ -20,12 +20,10 @@ module deck_mechanisms
 
    !> The deck and what is read of its mechanisms.
    type, extends(mechanism_source_t) :: deck_mechanisms_t
-      type(options_t), private :: options                        !! its command line, without toleranced parameters
-      type(loaded_t), private :: loaded                          !! the deck as it was loaded last
+      type(changed_deck_t), private :: deck                      !! the deck, its command line without toleranced parameters
       type(tolerated_t), allocatable, private :: parameters(:)   !! (parameters) with their tolerances
       type(text_t), allocatable, private :: pins(:)              !! (pins) names of joints with clearance
       integer, allocatable, private :: requested(:, :)           !! (3, requests) channels that are read
-      logical, private :: is_loaded = .false.                    !! the deck was loaded
       type(progress_t) :: display                                !! how far the study is
    contains
       procedure :: begin => deck_begin
@@ -43,17 +41,15 @@ contains
 
       integer :: k
 
-      self%options = options
-      self%options%verb = "run"
-      self%options%is_quiet = .true.
-      self%options%is_json = .false.
-      self%options%runs%is_member = .true.
-      self%options%runs%has_known_words = .true.
-      deallocate (self%options%change%overrides)
-      allocate (self%options%change%overrides(0))
+      self%deck%options = options
+      self%deck%options%verb = "run"
+      self%deck%options%is_quiet = .true.
+      self%deck%options%is_json = .false.
+      deallocate (self%deck%options%change%overrides)
+      allocate (self%deck%options%change%overrides(0))
       do k = 1, size(options%change%overrides)
          if (.not. sets_one(options%change%overrides(k)%s)) then
-            call append_text(self%options%change%overrides, options%change%overrides(k)%s)
+            call append_text(self%deck%options%change%overrides, options%change%overrides(k)%s)
          end if
       end do
       self%parameters = study%plan%parameters
@@ -93,25 +89,20 @@ contains
       integer :: k
 
       clearances = 0.0_wp
-      options = self%options
+      options = self%deck%options
       do k = 1, size(self%parameters)
          associate (parameter => self%parameters(k))
             call append_text(options%change%overrides, parameter%name//"="//exact_text(parameter%nominal + deviations(k))// &
                              unit_of(parameter))
          end associate
       end do
-      if (self%is_loaded) then
-         call load_case(options, self%loaded, error)
-      else
-         call load_deck(options, self%loaded, error)
-      end if
-      self%is_loaded = .not. allocated(error)
+      call self%deck%load(options, error)
       if (allocated(error)) return
-      call new_system(self%loaded%scene, self%loaded%levels, varied%system)
-      varied%system%requests%formulas = self%loaded%system%requests%formulas
+      call new_system(self%deck%loaded%scene, self%deck%loaded%levels, varied%system)
+      varied%system%requests%formulas = self%deck%loaded%system%requests%formulas
       call varied%bind(self%requested)
       do k = 1, size(self%pins)
-         clearances(k) = clearance_of(self%loaded%scene, self%pins(k)%s)
+         clearances(k) = clearance_of(self%deck%loaded%scene, self%pins(k)%s)
       end do
    end subroutine deck_build
 

@@ -7,7 +7,7 @@ module tolerance_report
    use options, only: options_t
    use output_plan, only: output_plan_t
    use recorder, only: status_complete
-   use study_summary, only: show_summaries, start_summary
+   use study_summary, only: add_output, show_summaries, start_summary
    use text, only: append_text, counted, real_text, text_t, to_text
    use text_buffer, only: buffer_t
    use text_of_table, only: add_table
@@ -71,7 +71,6 @@ contains
       character(:), allocatable :: text                      !! whole lines
 
       type(buffer_t) :: lines
-      integer :: k
 
       call lines%line(plan%title)
       call lines%line("complete: "//counted(size(study%plan%parameters), "toleranced parameter", "toleranced parameters")//", "// &
@@ -91,14 +90,7 @@ contains
       call add_table(lines, table_of_requests(study))
       call add_table(lines, table_of_contributors(study))
       call lines%line("")
-      call lines%line("output     "//plan%directory//"/")
-      call lines%line("           tolerance.h5, tolerance.csv, tolerance_derivatives.csv")
-      do k = 1, size(pictures)
-         call lines%line("           "//pictures(k)%s)
-      end do
-      do k = 1, size(warnings)
-         call lines%line("warning: "//warnings(k)%s)
-      end do
+      call add_output(lines, plan%directory, "tolerance.h5, tolerance.csv, tolerance_derivatives.csv", pictures, warnings)
       text = lines%get()
    end function text_of
 

@@ -2,13 +2,9 @@
 module verb_tolerance
    use csv_table, only: csv_text
    use deck_mechanisms, only: deck_mechanisms_t
-   use echo, only: echo_items, echo_settings
    use errors, only: error_t
    use file_store, only: keep_files
    use gnuplot_runs, only: draw_figures, make_folder
-   use item, only: item_t
-   use diagnostics, only: diagnostics_t
-   use kind_info, only: kind_info_t
    use kinds, only: wp
    use load, only: load_deck, loaded_t
    use nominal_motion, only: find_motion
@@ -16,13 +12,10 @@ module verb_tolerance
    use output_directory, only: output_directory_t
    use output_plan, only: output_plan_t
    use recorder, only: status_complete, summary_t
-   use run_place, only: directory_of
-   use run_plan, only: tell_origin
    use scene, only: analysis_kinematic, analysis_names
    use scene_echo, only: echo_scene
-   use settings, only: read_settings
+   use study_request, only: echo_of_rows, echo_of_section, open_study
    use table_file, only: write_table_file
-   use tables, only: read_items
    use text, only: text_t
    use text_file, only: replace_file
    use text_table, only: file_heading
@@ -62,13 +55,8 @@ contains
       allocate (warnings(0))
       call set_up_study(loaded, study, warnings, error)
       if (allocated(error)) return
-      call directory%open(directory_of(options, loaded), error)
+      call open_study(options, loaded, directory, plan, warnings, error)
       if (allocated(error)) return
-      warnings = [directory%warnings, warnings]
-      plan%directory = directory%path
-      plan%title = loaded%scene%title
-      call tell_origin(options, loaded, plan)
-      call plan%complete()
       call find_motion(loaded%job_t, loaded%system, study%derivatives%instants, summary, error)
       if (.not. allocated(error)) then
          call source%begin(kinematic, study)
@@ -134,26 +122,10 @@ contains
       type(loaded_t), intent(inout) :: loaded      !! the deck; defaults are noted
       character(:), allocatable :: text            !! tables of a deck
 
-      type(diagnostics_t) :: ignored
-      type(item_t), allocatable :: items(:)
-      type(item_t) :: study
-      logical :: is_present
-      integer :: k
-
-      text = ""
-      do k = 1, 3
-         block
-            type(kind_info_t) :: info
-
-            if (k == 1) info = tolerance_table_info()
-            if (k == 2) info = tolerance_joint_info()
-            if (k == 3) info = tolerance_limit_info()
-            call read_items(loaded%deck, info, items, ignored)
-            if (size(items) > 0) text = text//echo_items(info, items)
-         end block
-      end do
-      call read_settings(loaded%deck, tolerance_study_info(), study, is_present, ignored)
-      text = text//echo_settings(tolerance_study_info(), study)
+      text = echo_of_rows(loaded, tolerance_table_info())
+      text = text//echo_of_rows(loaded, tolerance_joint_info())
+      text = text//echo_of_rows(loaded, tolerance_limit_info())
+      text = text//echo_of_section(loaded, tolerance_study_info())
    end function echo_of_tables
 
 end module verb_tolerance

@@ -1,18 +1,17 @@
 !> From the tables of [fit] to what a fit is asked. Channels are names here: who knows the scene looks them up.
 module read_fit
+   use deck_parameter, only: check_dimension, number_parameter
    use deck_types, only: deck_t
    use diagnostics, only: diagnostics_t
    use dimension_text, only: dimension_name
-   use expression_compile, only: dimension_agrees, symbol_number
    use fit_info, only: fit_sensor_info, fit_set_info, fit_study_info, fit_table_info
    use fit_plan, only: data_set_t, fit_plan_t, sensor_t, unknown_t
-   use item, only: item_t, place_of, value_t
-   use kind_info, only: dim_t, dim_time, same_dimension
+   use item, only: item_t, place_of
+   use kind_info, only: dim_time, same_dimension
    use kinds, only: wp
    use settings, only: has_section, read_settings
-   use spelling, only: nearest_word
    use tables, only: read_items
-   use text, only: join, split_blank, text_t
+   use text, only: split_blank
    implicit none (type, external)
    private
    public :: has_fit, read_fit_plan
@@ -62,24 +61,11 @@ contains
       type(unknown_t), intent(out) :: unknown         !! what it says
       type(diagnostics_t), intent(inout) :: mistakes  !! errors found
 
-      character(:), allocatable :: help
-      type(text_t), allocatable :: names(:)
       integer :: k
 
       unknown%name = item%name
-      k = deck%symbols%find(item%name)
-      if (k > deck%symbols%n_parameter) k = 0  ! a function
-      if (k == 0) then
-         names = deck%symbols%names_of(functions=.false.)
-         help = nearest_word(item%name, names)
-         if (len(help) > 0) help = "did you mean '"//help//"'? "
-         call mistakes%add(item%location, "'"//item%name//"' is not a parameter of the deck", "not a parameter", &
-                           help//"parameters: "//join(names, " "))
-         return
-      else if (deck%symbols%list(k)%kind /= symbol_number) then
-         call mistakes%add(item%location, "parameter '"//item%name//"' is a word", "a number is expected")
-         return
-      end if
+      k = number_parameter(deck, item%name, item%location, mistakes)
+      if (k == 0) return
       associate (symbol => deck%symbols%list(k), lower => item%values(place_of(item, "lower")), &
                  upper => item%values(place_of(item, "upper")), start => item%values(place_of(item, "start")))
          unknown%dimension = symbol%dimension
@@ -103,18 +89,6 @@ contains
          end if
       end associate
    end subroutine read_unknown
-
-   !> A number must have the dimension of the parameter.
-   subroutine check_dimension(value, dimension, is_soft, mistakes)
-      type(value_t), intent(in) :: value              !! the number
-      type(dim_t), intent(in) :: dimension            !! of the parameter
-      logical, intent(in) :: is_soft                  !! radians may be taken or left
-      type(diagnostics_t), intent(inout) :: mistakes  !! errors found
-
-      if (.not. value%given .or. dimension_agrees(dimension, is_soft, value%dimensions(1))) return
-      call mistakes%add(value%location, "wrong dimension of "//trim(value%column), "this is "// &
-                        dimension_name(value%dimensions(1))//", "//dimension_name(dimension)//" is expected")
-   end subroutine check_dimension
 
    !> A row of [fit.sensor].
    subroutine read_sensor(item, sensor, mistakes)

@@ -1,18 +1,17 @@
 !> From the tables of [tolerance] to what a study of tolerances is asked. Channels and joints are names here: who knows the scene
 !> looks them up.
 module read_tolerance
+   use deck_parameter, only: check_dimension, number_parameter
    use deck_types, only: deck_t
    use diagnostics, only: diagnostics_t
    use dimension_text, only: dimension_name
-   use expression_compile, only: dimension_agrees, symbol_number
    use iso_fits, only: read_fit
-   use item, only: item_t, place_of, value_t
-   use kind_info, only: dim_length, dim_t, kind_info_t, same_dimension
+   use item, only: item_t, place_of
+   use kind_info, only: dim_length, kind_info_t, same_dimension
    use kinds, only: wp
    use settings, only: has_section, read_settings
-   use spelling, only: nearest_word
    use tables, only: read_items
-   use text, only: join, split_blank, text_t
+   use text, only: split_blank, text_t
    use tolerance_info, only: tolerance_joint_info, tolerance_limit_info, tolerance_study_info, tolerance_table_info
    use tolerance_plan, only: limit_t, tolerance_plan_t
    use tolerated, only: new_fit, new_tolerance, shape_lognormal, shape_normal, shape_truncated, tolerated_t
@@ -69,26 +68,11 @@ contains
       type(tolerated_t), intent(inout) :: parameter   !! what it says
       type(diagnostics_t), intent(inout) :: mistakes  !! errors found
 
-      character(:), allocatable :: help
-      type(text_t), allocatable :: names(:)
       integer :: k
 
       parameter%name = item%name
-      k = deck%symbols%find(item%name)
-      if (k > deck%symbols%n_parameter) k = 0  ! a function
-      if (k > 0) then
-         if (deck%symbols%list(k)%kind /= symbol_number) then
-            call mistakes%add(item%location, "parameter '"//item%name//"' is a word", "a number is expected")
-            return
-         end if
-      else
-         names = deck%symbols%names_of(functions=.false.)
-         help = nearest_word(item%name, names)
-         if (len(help) > 0) help = "did you mean '"//help//"'? "
-         call mistakes%add(item%location, "'"//item%name//"' is not a parameter of the deck", "not a parameter", &
-                           help//"parameters: "//join(names, " "))
-         return
-      end if
+      k = number_parameter(deck, item%name, item%location, mistakes)
+      if (k == 0) return
       associate (symbol => deck%symbols%list(k))
          parameter%nominal = symbol%number
          parameter%dimension = symbol%dimension
@@ -137,18 +121,6 @@ contains
          call check_dimension(move, parameter%dimension, is_soft, mistakes)
       end associate
    end subroutine take_limits
-
-   !> A number must have the dimension of the parameter.
-   subroutine check_dimension(value, dimension, is_soft, mistakes)
-      type(value_t), intent(in) :: value              !! the number
-      type(dim_t), intent(in) :: dimension            !! of the parameter
-      logical, intent(in) :: is_soft                  !! radians may be taken or left
-      type(diagnostics_t), intent(inout) :: mistakes  !! errors found
-
-      if (.not. value%given .or. dimension_agrees(dimension, is_soft, value%dimensions(1))) return
-      call mistakes%add(value%location, "wrong dimension of "//trim(value%column), "this is "// &
-                        dimension_name(value%dimensions(1))//", "//dimension_name(dimension)//" is expected")
-   end subroutine check_dimension
 
    !> Limits by a fit.
    subroutine take_fit(item, parameter, mistakes)

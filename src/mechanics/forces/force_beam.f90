@@ -17,7 +17,7 @@ module force_beam
       in_plane, kind_info_t
    use kinds, only: wp
    use motion, only: motion_t, point_position
-   use planar_frame_spring, only: add_frame_spring_channels, planar_frame_spring_t
+   use planar_frame_spring, only: add_frame_spring_channels, frame_spring_t
    implicit none (type, external)
    private
    public :: dim_second_moment, force_beam_t, shear_flexibility
@@ -25,7 +25,7 @@ module force_beam
    type(dim_t), parameter :: dim_second_moment = dim_t(m=4)   !! second moment of an area
 
    !> All beams of a planar scene.
-   type, extends(planar_frame_spring_t) :: force_beam_t
+   type, extends(frame_spring_t) :: force_beam_t
       real(wp), allocatable :: rigidity(:, :)    !! (3, n) E A, E I and 12 E I a/(G A) [N, N.m^2, m^2]
       real(wp), allocatable :: damping_time(:)   !! (n) C over K [s]
       logical, allocatable :: is_open(:, :)      !! (3, n) length, angles of i and j follow from the start
@@ -102,20 +102,14 @@ contains
       type(points_t), intent(in) :: points        !! all points
 
       real(wp) :: bending
-      integer :: end, k, point(2)
+      integer :: k
 
-      call self%make_storage(size(items))
+      call self%make_storage(items, points)
       self%share = 0.5_wp
       allocate (self%rigidity(3, self%n), self%damping_time(self%n), source=0.0_wp)
       allocate (self%is_open(3, self%n))
       do k = 1, self%n
          associate (item => items(k))
-            self%names(k)%s = items(k)%name
-            point = [item%reference("i"), item%reference("j")]
-            do end = 1, 2
-               self%body(end, k) = points%body(point(end))
-               self%s(:, end, k) = points%s(:, point(end))
-            end do
             self%is_open(:, k) = .not. [item%is_given("length"), item%is_given("angle_i"), item%is_given("angle_j")]
             self%free(1, k) = item%number("length")
             self%offset(:, k) = [item%number("angle_i"), item%number("angle_j")]

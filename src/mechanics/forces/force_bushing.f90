@@ -15,7 +15,7 @@ module force_bushing
    use kind_info, only: add_number, add_reference, dim_angle, dim_angular_damping, dim_angular_stiffness, dim_damping, &
       dim_force, dim_moment, dim_stiffness, dim_t, dim_time, in_plane, kind_info_t
    use kinds, only: wp
-   use planar_frame_spring, only: add_frame_spring_channels, planar_frame_spring_t
+   use planar_frame_spring, only: add_frame_spring_channels, frame_spring_t
    implicit none (type, external)
    private
    public :: force_bushing_t
@@ -23,7 +23,7 @@ module force_bushing
    type(dim_t), parameter :: dim_coupling = dim_t(kg=1, m=1, s=-2, rad=-1)  !! force over angle
 
    !> All bushings of a planar scene.
-   type, extends(planar_frame_spring_t) :: force_bushing_t
+   type, extends(frame_spring_t) :: force_bushing_t
    contains
       procedure, nopass :: info => bushing_info
       procedure, nopass :: mistake => bushing_mistake
@@ -91,17 +91,11 @@ contains
       type(item_t), intent(in) :: items(:)           !! (n) rows of the table
       type(points_t), intent(in) :: points           !! all points
 
-      integer :: end, k, point(2)
+      integer :: k
 
-      call self%make_storage(size(items))
+      call self%make_storage(items, points)
       do k = 1, self%n
          associate (item => items(k))
-            self%names(k)%s = items(k)%name
-            point = [item%reference("i"), item%reference("j")]
-            do end = 1, 2
-               self%body(end, k) = points%body(point(end))
-               self%s(:, end, k) = points%s(:, point(end))
-            end do
             self%offset(:, k) = [item%number("angle_i"), item%number("angle_i") - item%number("free_angle")]
             self%stiffness(:, :, k) = stiffness_of(item)
             self%damping(:, :, k) = item%number("damping_time")*self%stiffness(:, :, k)

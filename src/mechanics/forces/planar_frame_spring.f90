@@ -16,13 +16,15 @@
 !> Signs: x is that of j relative to i; f pulls the points together where u and K are positive. Source: from the definition.
 !> Limits: none.
 module planar_frame_spring
+   use bodies, only: points_t
    use force_set, only: force_set_t
+   use item, only: item_t
    use kind_info, only: add_channel, kind_info_t
    use kinds, only: wp
    use motion, only: apply_force, loads_t, motion_t, point_position, point_velocity
    implicit none (type, external)
    private
-   public :: add_frame_spring_channels, planar_frame_spring_t
+   public :: add_frame_spring_channels, frame_spring_t
 
    ! channels
    integer, parameter :: of_force = 1         !! force
@@ -34,7 +36,7 @@ module planar_frame_spring
    integer, parameter :: of_power = 7         !! power given to the mechanism
 
    !> Elastic elements of a kind; the kind sets all components.
-   type, abstract, extends(force_set_t) :: planar_frame_spring_t
+   type, abstract, extends(force_set_t) :: frame_spring_t
       integer, allocatable :: body(:, :)            !! (2, n) bodies i and j, 0: ground
       real(wp), allocatable :: s(:, :, :)           !! (3, 2, n) points of i and of j, frames of the bodies [m]
       real(wp), allocatable :: offset(:, :)         !! (2, n) angles of the frames of i and j in their bodies [rad]
@@ -51,7 +53,7 @@ module planar_frame_spring
       procedure :: load_on => frame_spring_load_on
       procedure :: report => frame_spring_report
       procedure :: bodies_of => frame_spring_bodies
-   end type planar_frame_spring_t
+   end type frame_spring_t
 
    !> Deflection of an item, and its loads.
    type :: deflection_t
@@ -64,6 +66,8 @@ module planar_frame_spring
    end type deflection_t
 
 contains
+
+   include "frame_spring.inc"
 
    !> Channels of every element.
    subroutine add_frame_spring_channels(info, place)
@@ -82,21 +86,26 @@ contains
       call add_channel(info, "power", "W", "none", 1, "total power of stiffness and damping on the bodies", of_power)
    end subroutine add_frame_spring_channels
 
-   !> Storage for n items without stiffness.
-   subroutine make_storage(self, n)
-      class(planar_frame_spring_t), intent(inout) :: self  !! the set
-      integer, intent(in) :: n                             !! number of items
+   !> Storage for the rows of a table, without stiffness; names, bodies and points are set.
+   subroutine make_storage(self, items, points)
+      class(frame_spring_t), intent(inout) :: self  !! the set
+      type(item_t), intent(in) :: items(:)          !! (n) rows of the table
+      type(points_t), intent(in) :: points          !! all points
 
+      integer :: n
+
+      n = size(items)
       self%n = n
       allocate (self%names(n))
       allocate (self%body(2, n), source=0)
       allocate (self%s(3, 2, n), self%offset(2, n), self%free(2, n), self%stiffness(3, 3, n), self%damping(3, 3, n), &
                 self%preload(3, n), source=0.0_wp)
+      call take_rows(self, items, points)
    end subroutine make_storage
 
    !> Deflection and loads of an item.
    pure subroutine find_deflection(self, k, motion, it)
-      class(planar_frame_spring_t), intent(in) :: self  !! the set
+      class(frame_spring_t), intent(in) :: self  !! the set
       integer, intent(in) :: k                          !! item
       type(motion_t), intent(in) :: motion              !! positions and velocities
       type(deflection_t), intent(out) :: it             !! the deflection
@@ -125,7 +134,7 @@ contains
 
    !> Add the loads of all items; none of their power is but stored or lost.
    subroutine frame_spring_evaluate(self, t, motion, loads, power)
-      class(planar_frame_spring_t), intent(in) :: self  !! the set
+      class(frame_spring_t), intent(in) :: self  !! the set
       real(wp), intent(in) :: t                         !! time, not used [s]
       type(motion_t), intent(in) :: motion              !! positions and velocities
       type(loads_t), intent(inout) :: loads             !! loads on the bodies
@@ -145,39 +154,9 @@ contains
       end do
    end subroutine frame_spring_evaluate
 
-   !> Energy stored by stiffness and preload.
-   pure real(wp) function frame_spring_elastic_energy(self, motion) result(energy)
-      class(planar_frame_spring_t), intent(in) :: self  !! the set
-      type(motion_t), intent(in) :: motion              !! positions
-
-      type(deflection_t) :: it
-      integer :: k
-
-      energy = 0.0_wp
-      do k = 1, self%n
-         call find_deflection(self, k, motion, it)
-         energy = energy + 0.5_wp*dot_product(it%x, matmul(self%stiffness(:, :, k), it%x)) + dot_product(self%preload(:, k), it%x)
-      end do
-   end function frame_spring_elastic_energy
-
-   !> Power lost in the dampers.
-   pure real(wp) function frame_spring_lost_power(self, motion) result(power)
-      class(planar_frame_spring_t), intent(in) :: self  !! the set
-      type(motion_t), intent(in) :: motion              !! positions and velocities
-
-      type(deflection_t) :: it
-      integer :: k
-
-      power = 0.0_wp
-      do k = 1, self%n
-         call find_deflection(self, k, motion, it)
-         power = power + dot_product(it%rate, matmul(self%damping(:, :, k), it%rate))
-      end do
-   end function frame_spring_lost_power
-
    !> Load of an item on the body of i or j, about its point.
    subroutine frame_spring_load_on(self, k, side, t, motion, force, moment, place)
-      class(planar_frame_spring_t), intent(in) :: self  !! the set
+      class(frame_spring_t), intent(in) :: self  !! the set
       integer, intent(in) :: k                          !! item
       integer, intent(in) :: side                       !! 1: on the body of i, 2: on that of j
       real(wp), intent(in) :: t                         !! time, not used [s]
@@ -197,7 +176,7 @@ contains
 
    !> Values of a channel for all items.
    subroutine frame_spring_report(self, code, t, motion, values)
-      class(planar_frame_spring_t), intent(in) :: self  !! the set
+      class(frame_spring_t), intent(in) :: self  !! the set
       integer, intent(in) :: code                       !! the channel
       real(wp), intent(in) :: t                         !! time, not used [s]
       type(motion_t), intent(in) :: motion              !! positions and velocities
@@ -219,14 +198,5 @@ contains
          end select
       end do
    end subroutine frame_spring_report
-
-   !> The bodies that an item acts on.
-   pure function frame_spring_bodies(self, i) result(bodies)
-      class(planar_frame_spring_t), intent(in) :: self  !! the set
-      integer, intent(in) :: i                          !! number of the item
-      integer :: bodies(2)                              !! both, 0: ground
-
-      bodies = self%body(:, i)
-   end function frame_spring_bodies
 
 end module planar_frame_spring

@@ -22,7 +22,7 @@ module spatial_beam
       in_space, kind_info_t
    use kinds, only: wp
    use motion, only: motion_t, point_position
-   use spatial_frame_spring, only: add_frame_spring_channels, spatial_frame_spring_t
+   use spatial_frame_spring, only: add_frame_spring_channels, frame_spring_t
    implicit none (type, external)
    private
    public :: spatial_beam_t
@@ -36,7 +36,7 @@ module spatial_beam
    end type section_t
 
    !> All beams of a spatial scene.
-   type, extends(spatial_frame_spring_t) :: spatial_beam_t
+   type, extends(frame_spring_t) :: spatial_beam_t
       real(wp), allocatable :: direction(:, :, :, :)   !! (3, 2, 2, n) axis and y of i and of j as in the deck; zero: omitted [1]
       type(section_t), allocatable :: section(:)       !! (n) rigidities, damping
    contains
@@ -95,20 +95,14 @@ contains
       type(item_t), intent(in) :: items(:)          !! (n) rows of the table
       type(points_t), intent(in) :: points          !! all points
 
-      integer :: end, k, point(2)
+      integer :: k
 
-      call self%make_storage(size(items))
+      call self%make_storage(items, points)
       self%share = 0.5_wp
       allocate (self%direction(3, 2, 2, self%n), source=0.0_wp)
       allocate (self%section(self%n))
       do k = 1, self%n
          associate (item => items(k), of => self%section(k)%rigidity)
-            self%names(k)%s = items(k)%name
-            point = [item%reference("i"), item%reference("j")]
-            do end = 1, 2
-               self%body(end, k) = points%body(point(end))
-               self%s(:, end, k) = points%s(:, point(end))
-            end do
             self%section(k)%is_open = .not. item%is_given("length")
             self%free(1, k) = item%number("length")
             self%direction(:, :, 1, k) = reshape([item%direction("axis_i"), item%direction("y_i")], [3, 2])

@@ -17,7 +17,7 @@ module spatial_bushing
       dim_damping, dim_force, dim_moment, dim_stiffness, dim_t, dim_time, in_space, kind_info_t, same_dimension
    use kinds, only: wp
    use motion, only: motion_t
-   use spatial_frame_spring, only: add_frame_spring_channels, spatial_frame_spring_t
+   use spatial_frame_spring, only: add_frame_spring_channels, frame_spring_t
    use text, only: to_text
    implicit none (type, external)
    private
@@ -28,7 +28,7 @@ module spatial_bushing
    character(*), parameter :: couplings = "coupling angular_coupling cross_coupling"  !! columns of the full matrix
 
    !> All bushings of a spatial scene.
-   type, extends(spatial_frame_spring_t) :: spatial_bushing_t
+   type, extends(frame_spring_t) :: spatial_bushing_t
       real(wp), allocatable :: direction(:, :, :, :)   !! (3, 2, 2, n) axis and x of i and of j as in the deck; zero: omitted [1]
       logical, allocatable :: from_start(:)            !! (n) not turned where the deck puts the bodies
    contains
@@ -170,19 +170,13 @@ contains
       type(item_t), intent(in) :: items(:)             !! (n) rows of the table
       type(points_t), intent(in) :: points             !! all points
 
-      integer :: c, end, k, point(2)
+      integer :: c, k
 
-      call self%make_storage(size(items))
+      call self%make_storage(items, points)
       allocate (self%direction(3, 2, 2, self%n), source=0.0_wp)
       allocate (self%from_start(self%n))
       do k = 1, self%n
          associate (item => items(k))
-            self%names(k)%s = items(k)%name
-            point = [item%reference("i"), item%reference("j")]
-            do end = 1, 2
-               self%body(end, k) = points%body(point(end))
-               self%s(:, end, k) = points%s(:, point(end))
-            end do
             self%direction(:, :, 1, k) = reshape([item%direction("axis_i"), item%direction("x_i")], [3, 2])
             self%direction(:, :, 2, k) = reshape([item%direction("axis_j"), item%direction("x_j")], [3, 2])
             self%from_start(k) = item%word("zero") == from_start

@@ -20,7 +20,9 @@
 !> turn, where its direction has no value: `is_lost`.
 module spatial_frame_spring
    use archive, only: archive_t
+   use bodies, only: points_t
    use force_set, only: force_set_t
+   use item, only: item_t
    use kind_info, only: add_channel, kind_info_t
    use kinds, only: pi, wp
    use motion, only: cross, loads_t, motion_t, point_position, point_velocity
@@ -28,7 +30,7 @@ module spatial_frame_spring
    use rotations, only: euler_parameters_of, rotation_about, rotation_vector_of
    implicit none (type, external)
    private
-   public :: add_frame_spring_channels, spatial_frame_spring_t, words_of_half_turn
+   public :: add_frame_spring_channels, frame_spring_t, words_of_half_turn
 
    ! channels
    integer, parameter :: of_force = 1         !! force
@@ -40,7 +42,7 @@ module spatial_frame_spring
    integer, parameter :: of_power = 7         !! power given to the mechanism
 
    !> Elastic elements of a kind; the kind sets all components.
-   type, abstract, extends(force_set_t) :: spatial_frame_spring_t
+   type, abstract, extends(force_set_t) :: frame_spring_t
       integer, allocatable :: body(:, :)            !! (2, n) bodies i and j, 0: ground
       real(wp), allocatable :: s(:, :, :)           !! (3, 2, n) points of i and of j, frames of the bodies [m]
       real(wp), allocatable :: frame(:, :, :, :)    !! (3, 3, 2, n) axes x, y, z of i and of j as columns, frames of the bodies [1]
@@ -62,7 +64,7 @@ module spatial_frame_spring
       procedure :: bodies_of => frame_spring_bodies
       procedure :: save => frame_spring_save
       procedure :: load => frame_spring_load
-   end type spatial_frame_spring_t
+   end type frame_spring_t
 
    !> Deflection of an item.
    type :: deflection_t
@@ -74,6 +76,8 @@ module spatial_frame_spring
    end type deflection_t
 
 contains
+
+   include "frame_spring.inc"
 
    !> Channels of every element.
    subroutine add_frame_spring_channels(info, place)
@@ -92,22 +96,27 @@ contains
       call add_channel(info, "power", "W", "none", 1, "total power of stiffness and damping on the bodies", of_power)
    end subroutine add_frame_spring_channels
 
-   !> Storage for n items without stiffness.
-   subroutine make_storage(self, n)
-      class(spatial_frame_spring_t), intent(inout) :: self  !! the set
-      integer, intent(in) :: n                              !! number of items
+   !> Storage for the rows of a table, without stiffness; names, bodies and points are set.
+   subroutine make_storage(self, items, points)
+      class(frame_spring_t), intent(inout) :: self  !! the set
+      type(item_t), intent(in) :: items(:)          !! (n) rows of the table
+      type(points_t), intent(in) :: points          !! all points
 
+      integer :: n
+
+      n = size(items)
       self%n = n
       allocate (self%names(n), self%is_lost(n))
       allocate (self%body(2, n), source=0)
       allocate (self%s(3, 2, n), self%frame(3, 3, 2, n), self%free(3, n), self%stiffness(6, 6, n), self%damping(6, 6, n), &
                 self%preload(6, n), self%turned(3, n), source=0.0_wp)
       self%is_lost = .false.
+      call take_rows(self, items, points)
    end subroutine make_storage
 
    !> Rotation vector of an item: of j against i, along the axes of i.
    pure function rotation_of(self, k, motion) result(psi)
-      class(spatial_frame_spring_t), intent(in) :: self  !! the set
+      class(frame_spring_t), intent(in) :: self  !! the set
       integer, intent(in) :: k                           !! item
       type(motion_t), intent(in) :: motion               !! positions
       real(wp) :: psi(3)                                 !! (3) at most half a turn [rad]
@@ -121,7 +130,7 @@ contains
 
    !> Deflection of an item and its rate.
    pure subroutine find_deflection(self, k, motion, it)
-      class(spatial_frame_spring_t), intent(in) :: self  !! the set
+      class(frame_spring_t), intent(in) :: self  !! the set
       integer, intent(in) :: k                           !! item
       type(motion_t), intent(in) :: motion               !! positions and velocities
       type(deflection_t), intent(out) :: it              !! the deflection
@@ -149,7 +158,7 @@ contains
 
    !> Deflection and loads of an item.
    pure subroutine find_loads(self, k, motion, it, q, force, couple_i, couple_j)
-      class(spatial_frame_spring_t), intent(in) :: self  !! the set
+      class(frame_spring_t), intent(in) :: self  !! the set
       integer, intent(in) :: k                           !! item
       type(motion_t), intent(in) :: motion               !! positions and velocities
       type(deflection_t), intent(out) :: it              !! the deflection
@@ -172,7 +181,7 @@ contains
 
    !> Add the loads of all items; none of their power is but stored or lost.
    subroutine frame_spring_evaluate(self, t, motion, loads, power)
-      class(spatial_frame_spring_t), intent(in) :: self  !! the set
+      class(frame_spring_t), intent(in) :: self  !! the set
       real(wp), intent(in) :: t                          !! time, not used [s]
       type(motion_t), intent(in) :: motion               !! positions and velocities
       type(loads_t), intent(inout) :: loads              !! loads on the bodies
@@ -194,39 +203,9 @@ contains
       end do
    end subroutine frame_spring_evaluate
 
-   !> Energy stored by stiffness and preload.
-   pure real(wp) function frame_spring_elastic_energy(self, motion) result(energy)
-      class(spatial_frame_spring_t), intent(in) :: self  !! the set
-      type(motion_t), intent(in) :: motion               !! positions
-
-      type(deflection_t) :: it
-      integer :: k
-
-      energy = 0.0_wp
-      do k = 1, self%n
-         call find_deflection(self, k, motion, it)
-         energy = energy + 0.5_wp*dot_product(it%x, matmul(self%stiffness(:, :, k), it%x)) + dot_product(self%preload(:, k), it%x)
-      end do
-   end function frame_spring_elastic_energy
-
-   !> Power lost in the dampers.
-   pure real(wp) function frame_spring_lost_power(self, motion) result(power)
-      class(spatial_frame_spring_t), intent(in) :: self  !! the set
-      type(motion_t), intent(in) :: motion               !! positions and velocities
-
-      type(deflection_t) :: it
-      integer :: k
-
-      power = 0.0_wp
-      do k = 1, self%n
-         call find_deflection(self, k, motion, it)
-         power = power + dot_product(it%rate, matmul(self%damping(:, :, k), it%rate))
-      end do
-   end function frame_spring_lost_power
-
    !> Load of an item on the body of i or j, about its point.
    subroutine frame_spring_load_on(self, k, side, t, motion, force, moment, place)
-      class(spatial_frame_spring_t), intent(in) :: self  !! the set
+      class(frame_spring_t), intent(in) :: self  !! the set
       integer, intent(in) :: k                           !! item
       integer, intent(in) :: side                        !! 1: on the body of i, 2: on that of j
       real(wp), intent(in) :: t                          !! time, not used [s]
@@ -246,7 +225,7 @@ contains
 
    !> Values of a channel for all items.
    subroutine frame_spring_report(self, code, t, motion, values)
-      class(spatial_frame_spring_t), intent(in) :: self  !! the set
+      class(frame_spring_t), intent(in) :: self  !! the set
       integer, intent(in) :: code                        !! the channel
       real(wp), intent(in) :: t                          !! time, not used [s]
       type(motion_t), intent(in) :: motion               !! positions and velocities
@@ -270,18 +249,9 @@ contains
       end do
    end subroutine frame_spring_report
 
-   !> The bodies that an item acts on.
-   pure function frame_spring_bodies(self, i) result(bodies)
-      class(spatial_frame_spring_t), intent(in) :: self  !! the set
-      integer, intent(in) :: i                           !! number of the item
-      integer :: bodies(2)                               !! both, 0: ground
-
-      bodies = self%body(:, i)
-   end function frame_spring_bodies
-
    !> A step has ended: a rotation vector that has turned about went through half a turn.
    subroutine frame_spring_follow(self, motion)
-      class(spatial_frame_spring_t), intent(inout) :: self  !! the set
+      class(frame_spring_t), intent(inout) :: self  !! the set
       type(motion_t), intent(in) :: motion                  !! positions
 
       real(wp) :: psi(3)
@@ -305,7 +275,7 @@ contains
 
    !> Write what the set remembers.
    subroutine frame_spring_save(self, archive)
-      class(spatial_frame_spring_t), intent(in) :: self  !! the set
+      class(frame_spring_t), intent(in) :: self  !! the set
       type(archive_t), intent(inout) :: archive          !! the checkpoint
 
       integer :: k
@@ -317,7 +287,7 @@ contains
 
    !> Read what the set remembers.
    subroutine frame_spring_load(self, archive)
-      class(spatial_frame_spring_t), intent(inout) :: self  !! the set
+      class(frame_spring_t), intent(inout) :: self  !! the set
       type(archive_t), intent(inout) :: archive             !! the checkpoint
 
       integer :: c, k

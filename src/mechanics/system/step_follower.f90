@@ -5,7 +5,7 @@ module step_follower
    use kinds, only: wp
    use mechanism, only: mechanism_t
    use motion, only: motion_t
-   use spatial_frame_spring, only: spatial_frame_spring_t, words_of_half_turn
+   use spatial_frame_spring, only: frame_spring_t, words_of_half_turn
    use spatial_gear, only: gear_is_lost, spatial_gear_t, words_of_lost_gear
    use spatial_joint, only: is_turned_over, spatial_joint_t, words_of_turned_over
    use spatial_rack, only: rack_is_lost, spatial_rack_t, words_of_lost_rack
@@ -59,7 +59,7 @@ contains
          class is (spatial_torsion_spring_t)
             i = findloc(set%cosine > 0.0_wp, .false., dim=1)
             if (i > 0) words = "force element '"//set%names(i)%s//"' "//words_of_lost_angle(set, i)
-         class is (spatial_frame_spring_t)
+         class is (frame_spring_t)
             i = findloc(set%is_lost, .true., dim=1)
             if (i > 0) words = "force element '"//set%names(i)%s//"' "//words_of_half_turn()
          end select
