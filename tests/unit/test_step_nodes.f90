@@ -1,6 +1,5 @@
 !> The polynomial of Hermite through states within a step: what it must give exactly, and what is kept of it.
 module test_step_nodes
-   use archive, only: archive_t
    use check, only: check_close, check_equal, check_true, suite_t
    use errors, only: error_t
    use interpolation, only: step_t
@@ -21,7 +20,7 @@ contains
       call suite%test("step_nodes_lagrange", test_lagrange)
       call suite%test("step_nodes_places", test_places)
       call suite%test("step_nodes_kept", test_kept)
-      call suite%test("step_nodes_memory", test_memory)
+      call suite%test("step_nodes_row", test_row)
    end subroutine run_test_step_nodes
 
    !> A power of time, and its derivative: t^k and k t^(k-1).
@@ -135,13 +134,13 @@ contains
       call check_close(error, nodes%place_for(0.1_wp), 0.5_wp, 1.0e-15_wp, "middle of the step")
       if (.not. allocated(error)) call check_close(error, nodes%place_for(0.3_wp), 0.3_wp, 0.0_wp, "few rows")
       call add(nodes, step, 2, 0.5_wp)
-      call nodes%note_row(0.6_wp)
+      call nodes%keep_row(0.6_wp, [0.0_wp])
       if (.not. allocated(error)) call check_close(error, nodes%place_for(0.7_wp), 0.75_wp, 1.0e-15_wp, "middle of a gap")
       if (.not. allocated(error)) call check_close(error, nodes%place_for(0.8_wp), 0.8_wp, 0.0_wp, "few rows in the gap")
       do i = 1, 4
          call add(nodes, step, 2, 0.5_wp + 0.1_wp*i)
       end do
-      call nodes%note_row(0.0_wp)
+      call nodes%keep_row(0.0_wp, [0.0_wp])
       if (.not. allocated(error)) call check_close(error, nodes%place_for(0.01_wp), 0.01_wp, 0.0_wp, "no storage left")
    end subroutine test_places
 
@@ -169,28 +168,28 @@ contains
       call check_equal(error, merge(1, 0, nodes%are_of_use), 1, "of use in another step")
    end subroutine test_kept
 
-   !> A checkpoint between two rows of a step changes nothing.
-   subroutine test_memory(error)
+   !> The state of the last row is given again to whoever asks for it, in the same step and at the same place only.
+   subroutine test_row(error)
       type(error_t), allocatable, intent(out) :: error  !! what failed
 
-      real(wp) :: f(1), f_again(1), y(1), y_again(1)
-      type(archive_t) :: archive
-      type(step_nodes_t) :: again, nodes
+      real(wp) :: y(1)
+      type(step_nodes_t) :: nodes
       type(step_t) :: step
+      logical :: has_row
 
       call nodes%open(1)
-      call again%open(1)
       call make_step(9, step)
       call nodes%begin(step, with_rates=.true.)
-      call add(nodes, step, 9, 0.3_wp)
-      call add(nodes, step, 9, 0.8_wp)
-      call nodes%save(archive)
-      call again%load(archive)
-      call check_true(error, archive%is_at_end(), "as many numbers loaded as saved")
-      call again%begin(step, with_rates=.true.)
-      call nodes%interpolate(step, 0.6_wp, y, f)
-      call again%interpolate(step, 0.6_wp, y_again, f_again)
-      call check_close(error, [y_again(1), f_again(1)], [y(1), f(1)], 0.0_wp, "state and derivative")
-   end subroutine test_memory
+      call nodes%keep_row(0.3_wp, [7.0_wp])
+      y = 1.0_wp
+      call nodes%has_row(nearest(0.3_wp, 1.0_wp), y, has_row)
+      call check_true(error, .not. has_row .and. abs(y(1) - 1.0_wp) <= 0.0_wp, "another place")
+      call nodes%has_row(0.3_wp, y, has_row)
+      if (.not. allocated(error)) call check_true(error, has_row .and. abs(y(1) - 7.0_wp) <= 0.0_wp, "the row")
+      step%t0 = 1.75_wp
+      call nodes%begin(step, with_rates=.true.)
+      call nodes%has_row(0.3_wp, y, has_row)
+      if (.not. allocated(error)) call check_true(error, .not. has_row, "another step")
+   end subroutine test_row
 
 end module test_step_nodes

@@ -92,15 +92,16 @@ module sampling
          type(error_t), allocatable, intent(out) :: error    !! the equations cannot be solved there
       end subroutine take_poincare
 
-      !> Films of all times up to that which all have reached.
-      module subroutine take_fields(self, whole, residual, recorder, error)
+      !> Films of an instant that all have reached.
+      module subroutine take_field(self, whole, t, residual, recorder, error)
          implicit none (type, external)
          class(sampler_t), intent(inout) :: self             !! what is reported
          type(whole_motion_t), intent(inout) :: whole        !! the motion
+         real(wp), intent(in) :: t                           !! the instant [s]
          real(wp), intent(in) :: residual                    !! of the ledger at the last step [J]
          class(recorder_t), intent(inout) :: recorder        !! keeps the results
          type(error_t), allocatable, intent(out) :: error    !! the equations cannot be solved there
-      end subroutine take_fields
+      end subroutine take_field
    end interface
 
    interface
@@ -221,26 +222,27 @@ contains
       class(recorder_t), intent(inout) :: recorder        !! keeps the results
       type(error_t), allocatable, intent(out) :: error    !! a file could not be written, or the equations not be solved
 
-      real(wp) :: reached, t, t_peak
+      real(wp) :: reached, t, t_field, t_peak
 
       reached = min(whole%t, self%until)
       if (self%n_poincare < size(plan%poincare_samples)) then
          if (plan%poincare_samples(self%n_poincare + 1) <= reached) call take_poincare(self, whole, plan, residual, recorder, error)
          if (allocated(error)) return
       end if
-      if (self%films%next() <= reached) call take_fields(self, whole, residual, recorder, error)
-      if (allocated(error)) return
       t = next_instant(self, whole%system, plan)
       t_peak = whole%next_peak()
-      if (min(t, t_peak) > reached) return
+      t_field = self%films%next()
+      if (min(t, t_peak, t_field) > reached) return
       if (t > reached .and. .not. wants_row(recorder, plan, row_peak, reached)) then  ! peaks that nobody reads
          call whole%drop_peaks(reached)
-         if (self%t_row >= whole%t) call whole%note_row()
-         return
+         t_peak = whole%next_peak()
       end if
       call self%aside%leave()
-      do while (min(t, t_peak) <= reached)
-         if (t_peak < t) then
+      do while (min(t, t_peak, t_field) <= reached)
+         if (t_field <= min(t, t_peak)) then
+            call take_field(self, whole, t_field, residual, recorder, error)
+            t_field = self%films%next()
+         else if (t_peak < t) then
             call put_row(self, whole, plan, t_peak, row_peak, residual, recorder, error, at_peak=.true.)
             call whole%drop_peaks(t_peak)
             t_peak = whole%next_peak()
@@ -305,8 +307,10 @@ contains
       end if
       call whole%note_row()
       if (allocated(error) .or. .not. allocated(recorder%wants_fields)) return
-      if (self%films%next() <= min(whole%t, self%until)) call take_fields(self, whole, residual, recorder, error)
-      if (allocated(error)) return
+      do while (self%films%next() <= min(whole%t, self%until))
+         call take_field(self, whole, self%films%next(), residual, recorder, error)
+         if (allocated(error)) return
+      end do
       call report(self, whole, min(whole%t, self%until), .false., 0.0_wp, residual, error)
       if (.not. allocated(error)) call self%films%tell_rest(whole%system, min(whole%t, self%until), recorder)
    end subroutine finish_samples

@@ -127,19 +127,10 @@ contains
       call self%aside%come_back()
    end procedure take_poincare
 
-   !> Films of all times up to that which all have reached.
-   module procedure take_fields
-      real(wp) :: t
-
-      call self%aside%leave()
-      do
-         t = self%films%next()
-         if (t > min(whole%t, self%until)) exit
-         call report(self, whole, t, .false., 0.0_wp, residual, error)
-         if (allocated(error)) return
-         call self%films%tell_at(whole%system, t, recorder)
-      end do
-      call self%aside%come_back()
-   end procedure take_fields
+   !> Films of an instant, as a row of that instant has them.
+   module procedure take_field
+      call report(self, whole, t, .false., 0.0_wp, residual, error)
+      if (.not. allocated(error)) call self%films%tell_at(whole%system, t, recorder)
+   end procedure take_field
 
 end submodule sampling_between

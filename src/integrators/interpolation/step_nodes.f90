@@ -10,7 +10,6 @@
 module step_nodes
    use interpolation, only: step_t
    use kinds, only: wp
-   use archive, only: archive_t
    implicit none (type, external)
    private
    public :: step_nodes_t
@@ -27,6 +26,7 @@ module step_nodes
       real(wp), private :: t0 = 0.0_wp     !! start of the step [s]
       real(wp), private :: h = 0.0_wp      !! its length, 0 before the first step [s]
       real(wp), private :: s_row = 0.0_wp  !! place of the last row [1]
+      real(wp), allocatable, private :: y_row(:)  !! (all) its state: a row has one, whoever asks for it [any]
       integer, private :: n = 0            !! states within it
       real(wp), private :: s(most) = 0.0_wp  !! (n) their places in the step [1]
       real(wp), allocatable, private :: y(:, :)  !! (all, most) the states [any]
@@ -37,10 +37,9 @@ module step_nodes
       procedure :: add => nodes_add
       procedure :: is_full => nodes_is_full
       procedure :: place_for => nodes_place_for
-      procedure :: note_row => nodes_note_row
+      procedure :: keep_row => nodes_keep_row
+      procedure :: has_row => nodes_has_row
       procedure :: interpolate => nodes_interpolate
-      procedure :: save => nodes_save
-      procedure :: load => nodes_load
    end type step_nodes_t
 
 contains
@@ -50,7 +49,7 @@ contains
       class(step_nodes_t), intent(inout) :: self  !! the states
       integer, intent(in) :: n                    !! entries of a state
 
-      allocate (self%y(n, most), self%f(n, most), source=0.0_wp)
+      allocate (self%y(n, most), self%f(n, most), self%y_row(n), source=0.0_wp)
    end subroutine nodes_open
 
    !> Discard the nodes of another step.
@@ -104,12 +103,25 @@ contains
    end function nodes_place_for
 
    !> A row was given at a place.
-   pure subroutine nodes_note_row(self, s)
+   pure subroutine nodes_keep_row(self, s, y)
       class(step_nodes_t), intent(inout) :: self  !! the states
       real(wp), intent(in) :: s                   !! the place, 0 to 1 [1]
+      real(wp), intent(in) :: y(:)                !! (all) its state [any]
 
       self%s_row = s
-   end subroutine nodes_note_row
+      self%y_row(:) = y
+   end subroutine nodes_keep_row
+
+   !> Whether the last row was at just this place of the step; then its state.
+   pure subroutine nodes_has_row(self, s, y, has_row)
+      class(step_nodes_t), intent(in) :: self     !! the states
+      real(wp), intent(in) :: s                   !! the place, above 0, to 1 [1]
+      real(wp), intent(inout) :: y(:)             !! (all) the state, if it was [any]
+      logical, intent(out) :: has_row             !! whether it was
+
+      has_row = abs(s - self%s_row) <= 0.0_wp
+      if (has_row) y(:) = self%y_row
+   end subroutine nodes_has_row
 
    !> State and derivative at a place of the step.
    pure subroutine nodes_interpolate(self, step, s, y, f)
@@ -173,41 +185,5 @@ contains
       b = 1.0_wp - 2.0_wp*a*d
       found = [b*l*l, h*a*l*l, (2.0_wp*b*l*l_rate - 2.0_wp*d*l*l)/h, l*l + 2.0_wp*a*l*l_rate]
    end function factors
-
-   !> Write them.
-   subroutine nodes_save(self, archive)
-      class(step_nodes_t), intent(in) :: self    !! the states, opened
-      type(archive_t), intent(inout) :: archive  !! the checkpoint
-
-      integer :: k
-
-      call archive%put(self%are_of_use)
-      call archive%put([self%t0, self%h, self%s_row])
-      call archive%put(self%n)
-      call archive%put(self%s)
-      do k = 1, most
-         call archive%put(self%y(:, k))
-         call archive%put(self%f(:, k))
-      end do
-   end subroutine nodes_save
-
-   !> Read them.
-   subroutine nodes_load(self, archive)
-      class(step_nodes_t), intent(inout) :: self  !! the states, opened
-      type(archive_t), intent(inout) :: archive   !! the checkpoint
-
-      integer :: k
-
-      call archive%get(self%are_of_use)
-      call archive%get(self%t0)
-      call archive%get(self%h)
-      call archive%get(self%s_row)
-      call archive%get(self%n)
-      call archive%get(self%s)
-      do k = 1, most
-         call archive%get(self%y(:, k))
-         call archive%get(self%f(:, k))
-      end do
-   end subroutine nodes_load
 
 end module step_nodes

@@ -7,7 +7,7 @@ contains
 
    !> Version of the form of what is saved.
    module procedure auto_memory_version
-      version = 1
+      version = 2
    end procedure auto_memory_version
 
    !> Write what the integrator remembers; how much of the implicit part, the choices of the run decide.
@@ -24,7 +24,7 @@ contains
          call self%stiff%save_own(part)
       end if
       call archive%put(part%n)
-      call archive%begin("implicit part of method = auto", 3, is_fixed=.false.)
+      call archive%begin("implicit part of method = auto", 4, is_fixed=.false.)
       if (part%n > 0) call archive%put(part%row(:part%n))
    end procedure auto_save
 

@@ -5,10 +5,10 @@
 !>
 !> $$ E = E_5^2 / \sqrt{E_5^2 + E_3^2/100} $$
 !>
-!> of order 8 in the step. Output between steps is of order 7, by three more stages; until it is asked for, and for the search of
-!> events, the step is the quintic of `interpolation`. Steps and events: see `one_step`. For tight tolerances: below about 1e-6 it
-!> takes fewer evaluations than methods of order 6. Where a force of contact starts or ends time may go as a square (`step_course`):
-!> derivatives are those by the parameter of the step then.
+!> of order 8 in the step. Output between steps has three more stages (`dop853_output`); until it is asked for, and for the search
+!> of events, the step is the quintic of `interpolation`. Steps and events: see `one_step`. For tight tolerances: below about 1e-6
+!> it takes fewer evaluations than methods of order 6. Where a force of contact starts or ends time may go as a square
+!> (`step_course`): derivatives are those by the parameter of the step then.
 !>
 !> Source: E. Hairer, S. P. Norsett and G. Wanner, Solving Ordinary Differential Equations I, 2nd ed. (1993), section II.5 and II.6,
 !> with the coefficients of their code DOP853. Limits: not for stiff equations.

@@ -8,7 +8,7 @@ module dop853_stages
    use ode_system, only: ode_system_t
    use quadrature_error, only: by_one_step, max_error
    use stability_limit, only: rate_between
-   use step_course, only: along, course_even, pace_at, parameter_of
+   use step_course, only: course_even, pace_at
    use diverged_stages, only: evaluate_aside, judge_stage
    implicit none (type, external)
    private
@@ -47,48 +47,20 @@ module dop853_stages
    real(wp), parameter :: e3(12) = [-0.18980075407240762_wp, 0.0_wp, 0.0_wp, 0.0_wp, 0.0_wp, 4.450312892752409_wp, &
       1.8915178993145003_wp, -5.801203960010585_wp, -0.4226823213237919_wp, -0.1521609496625161_wp, 0.20136540080403034_wp, &
       0.02265179219836082_wp]  !! less those of order 3 [1]
-   real(wp), parameter :: c_inner(3) = [1.0_wp/10.0_wp, 1.0_wp/5.0_wp, &
-      7.0_wp/9.0_wp]  !! places of the stages for interpolation [1]
-   real(wp), parameter :: a14(13) = [0.056167502283047954_wp, 0.0_wp, 0.0_wp, 0.0_wp, 0.0_wp, 0.0_wp, 0.25350021021662483_wp, &
-      -0.2462390374708025_wp, -0.12419142326381637_wp, 0.15329179827876568_wp, 0.00820105229563469_wp, &
-      0.007567897660545699_wp, -0.008298_wp]  !! stage 14 [1]
-   real(wp), parameter :: a15(14) = [0.03183464816350214_wp, 0.0_wp, 0.0_wp, 0.0_wp, 0.0_wp, 0.028300909672366776_wp, &
-      0.053541988307438566_wp, -0.05492374857139099_wp, 0.0_wp, 0.0_wp, -0.00010834732869724932_wp, 0.0003825710908356584_wp, &
-      -0.00034046500868740456_wp, 0.1413124436746325_wp]  !! stage 15 [1]
-   real(wp), parameter :: a16(15) = [-0.42889630158379194_wp, 0.0_wp, 0.0_wp, 0.0_wp, 0.0_wp, -4.697621415361164_wp, &
-      7.683421196062599_wp, 4.06898981839711_wp, 0.3567271874552811_wp, 0.0_wp, 0.0_wp, 0.0_wp, -0.0013990241651590145_wp, &
-      2.9475147891527724_wp, -9.15095847217987_wp]  !! stage 16 [1]
-   real(wp), parameter :: d4(16) = [-8.428938276109013_wp, 0.0_wp, 0.0_wp, 0.0_wp, 0.0_wp, 0.5667149535193777_wp, &
-      -3.0689499459498917_wp, 2.38466765651207_wp, 2.117034582445028_wp, -0.871391583777973_wp, 2.2404374302607883_wp, &
-      0.6315787787694688_wp, -0.08899033645133331_wp, 18.148505520854727_wp, -9.194632392478356_wp, &
-      -4.436036387594894_wp]  !! of the interpolant's term 4 [1]
-   real(wp), parameter :: d5(16) = [10.427508642579134_wp, 0.0_wp, 0.0_wp, 0.0_wp, 0.0_wp, 242.28349177525817_wp, &
-      165.20045171727028_wp, -374.5467547226902_wp, -22.113666853125306_wp, 7.733432668472264_wp, -30.674084731089398_wp, &
-      -9.332130526430229_wp, 15.697238121770845_wp, -31.139403219565178_wp, -9.35292435884448_wp, &
-      35.81684148639408_wp]  !! of the interpolant's term 5 [1]
-   real(wp), parameter :: d6(16) = [19.985053242002433_wp, 0.0_wp, 0.0_wp, 0.0_wp, 0.0_wp, -387.0373087493518_wp, &
-      -189.17813819516758_wp, 527.8081592054236_wp, -11.57390253995963_wp, 6.8812326946963_wp, -1.0006050966910838_wp, &
-      0.7777137798053443_wp, -2.778205752353508_wp, -60.19669523126412_wp, 84.32040550667716_wp, &
-      11.99229113618279_wp]  !! of the interpolant's term 6 [1]
-   real(wp), parameter :: d7(16) = [-25.69393346270375_wp, 0.0_wp, 0.0_wp, 0.0_wp, 0.0_wp, -154.18974869023643_wp, &
-      -231.5293791760455_wp, 357.6391179106141_wp, 93.40532418362432_wp, -37.45832313645163_wp, 104.0996495089623_wp, &
-      29.8402934266605_wp, -43.53345659001114_wp, 96.32455395918828_wp, -39.17726167561544_wp, &
-      -149.72683625798564_wp]  !! of the interpolant's term 7 [1]
-
    real(wp), parameter :: places(2:12, 0:2) = reshape([c, c*c, c*(2.0_wp - c)], [11, 3])  !! of the stages, by the course [1]
    real(wp), parameter :: paces(2:12, 0:2) = reshape([spread(1.0_wp, 1, 11), 2.0_wp*c, 2.0_wp*(1.0_wp - c)], &
                                                      [11, 3])  !! of time there [1]
 
    integer, parameter :: n_new_stage = 11  !! evaluations of a trial step; the first stage is known
    integer, parameter :: n_early = 5       !! stages after the first up to this one are of use to later stages only
-   integer, parameter :: n_term = 7        !! terms of the interpolant of order 7
+   integer, parameter :: n_term = 8        !! terms of the interpolant
    real(wp), parameter :: dop853_bound = 6.1_wp  !! stable up to -6.1 along the negative real axis [1]
 
    !> Stages of a step.
    type :: dop853_stages_t
       real(wp), allocatable, private :: k(:, :)    !! (n, 16) derivatives of the stages; the last four are for interpolation [any]
       real(wp), allocatable, private :: y(:)       !! (n) state of a stage [any]
-      real(wp), allocatable, private :: term(:, :) !! (n, 7) terms of the interpolant of the last step [any]
+      real(wp), allocatable, private :: term(:, :) !! (n, 8) terms of the interpolant of the last step [any]
       real(wp), private :: h = 0.0_wp              !! length of the step whose stages `k` holds [s]
    contains
       procedure :: open => stages_open
@@ -100,6 +72,28 @@ module dop853_stages
       procedure :: fit_output => stages_fit_output
       procedure :: within => stages_within
    end type dop853_stages_t
+
+   interface
+      !> The interpolant of a step that these stages made: three more stages.
+      module subroutine stages_fit_output(self, system, step, n_evaluation, status)
+         implicit none (type, external)
+         class(dop853_stages_t), intent(inout) :: self !! the stages
+         class(ode_system_t), intent(inout) :: system  !! the system
+         type(step_t), intent(in) :: step              !! the step
+         integer(i8), intent(inout) :: n_evaluation    !! evaluations so far
+         integer, intent(out) :: status                !! of the evaluations
+      end subroutine stages_fit_output
+
+      !> State at a place of the step that the interpolant was fitted to.
+      pure module subroutine stages_within(self, system, step, s, y)
+         implicit none (type, external)
+         class(dop853_stages_t), intent(in) :: self !! the stages
+         class(ode_system_t), intent(in) :: system  !! the system
+         type(step_t), intent(in) :: step           !! the step
+         real(wp), intent(in) :: s                  !! place in the step, 0 to 1 [1]
+         real(wp), intent(inout) :: y(system%n)     !! (n) state [any]
+      end subroutine stages_within
+   end interface
 
 contains
 
@@ -294,99 +288,5 @@ contains
 
       stages_are_of = .not. (self%h < step%h .or. self%h > step%h)
    end function stages_are_of
-
-   !> The interpolant of order 7 of a step that these stages made.
-   subroutine stages_fit_output(self, system, step, n_evaluation, status)
-      class(dop853_stages_t), intent(inout) :: self !! the stages
-      class(ode_system_t), intent(inout) :: system  !! the system
-      type(step_t), intent(in) :: step              !! the step
-      integer(i8), intent(inout) :: n_evaluation    !! evaluations so far
-      integer, intent(out) :: status                !! of the evaluations
-
-      real(wp) :: change
-      integer :: course, i, n, n_wanted
-
-      n = system%n - system%n_quadrature
-      n_wanted = merge(system%n, n, system%traits%with_quadratures)
-      course = step%course
-      self%k(:, 13) = pace_at(course, 1.0_wp)*step%f1
-      call stage(14, a14, status)
-      if (status == 0) call stage(15, a15, status)
-      if (status == 0) call stage(16, a16, status)
-      if (status /= 0) return
-      associate (k => self%k, term => self%term)
-         do i = 1, n_wanted
-            change = step%y1(i) - step%y0(i)
-            term(i, 1) = change
-            term(i, 2) = step%h*k(i, 1) - change
-            term(i, 3) = change - step%h*k(i, 13) - term(i, 2)
-            term(i, 4) = step%h*(d4(1)*k(i, 1) + dot_product(d4(6:), k(i, 6:)))
-            term(i, 5) = step%h*(d5(1)*k(i, 1) + dot_product(d5(6:), k(i, 6:)))
-            term(i, 6) = step%h*(d6(1)*k(i, 1) + dot_product(d6(6:), k(i, 6:)))
-            term(i, 7) = step%h*(d7(1)*k(i, 1) + dot_product(d7(6:), k(i, 6:)))
-         end do
-      end associate
-
-   contains
-
-      !> One stage for the interpolant.
-      subroutine stage(i, a, status)
-         integer, intent(in) :: i        !! the stage
-         real(wp), intent(in) :: a(:)    !! (i - 1) its coefficients [1]
-         integer, intent(out) :: status  !! of the evaluation
-
-         integer :: e, j
-
-         do concurrent(e=1:n)
-            self%y(e) = a(1)*self%k(e, 1)
-         end do
-         do j = 6, i - 1
-            do concurrent(e=1:n)
-               self%y(e) = self%y(e) + a(j)*self%k(e, j)
-            end do
-         end do
-         do concurrent(e=1:n)
-            self%y(e) = step%y0(e) + step%h*self%y(e)
-         end do
-         call system%evaluate(step%t0 + along(course, c_inner(i - 13))*step%h, self%y, self%k(:, i), status)
-         self%k(:, i) = pace_at(course, c_inner(i - 13))*self%k(:, i)
-         n_evaluation = n_evaluation + 1
-      end subroutine stage
-
-   end subroutine stages_fit_output
-
-   !> State at a place of the step that the interpolant was fitted to.
-   pure subroutine stages_within(self, system, step, s, y)
-      class(dop853_stages_t), intent(in) :: self !! the stages
-      class(ode_system_t), intent(in) :: system  !! the system
-      type(step_t), intent(in) :: step           !! the step
-      real(wp), intent(in) :: s                  !! place in the step, 0 to 1 [1]
-      real(wp), intent(inout) :: y(system%n)     !! (n) state [any]
-
-      integer :: n
-
-      n = system%n
-      if (.not. system%traits%with_quadratures) n = n - system%n_quadrature
-      call sum_terms(n, system%n, parameter_of(step%course, s), step%y0, self%term, y)
-   end subroutine stages_within
-
-   !> The interpolant of order 7.
-   pure subroutine sum_terms(n, n_all, u, y0, term, y)
-      integer, intent(in) :: n                     !! entries that are requested
-      integer, intent(in) :: n_all                 !! entries of the state
-      real(wp), intent(in) :: u                    !! parameter of the place in the step, 0 to 1 [1]
-      real(wp), intent(in) :: y0(n_all)            !! (n_all) state at its start [any]
-      real(wp), intent(in) :: term(n_all, n_term)  !! (n_all, 7) terms [any]
-      real(wp), intent(inout) :: y(n_all)          !! (n_all) state, n entries are set [any]
-
-      real(wp) :: w
-      integer :: i
-
-      w = 1.0_wp - u
-      do i = 1, n
-         y(i) = y0(i) + u*(term(i, 1) + w*(term(i, 2) + u*(term(i, 3) + w*(term(i, 4) + u*(term(i, 5) + w*(term(i, 6) &
-                                                                                                   + u*term(i, 7)))))))
-      end do
-   end subroutine sum_terms
 
 end module dop853_stages

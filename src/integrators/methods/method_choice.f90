@@ -7,8 +7,8 @@
 !> part of all evaluations, each time twice as long.
 !>
 !> The implicit method is tried where stability keeps the explicit steps short (`stability_limit`), and in any case after
-!> `first_regular` evaluations, twice as many, four times as many, and so on. The explicit method is tried now and then, and
-!> sooner after events.
+!> `first_regular` evaluations of the explicit one, twice as many, four times as many, and so on. The explicit method is tried now
+!> and then, and sooner after events.
 !>
 !> Source: L. Petzold, Automatic selection of methods for solving stiff and nonstiff systems of ordinary differential equations,
 !> SIAM J. Sci. Stat. Comput. 4 (1983) 136-148, in its idea. Limits: counts decide, never the clock, so that every run chooses
@@ -22,7 +22,7 @@ module method_choice
    public :: method_choice_t, most_changes
 
    integer, parameter :: most_changes = 8        !! changes that are reported with their time
-   real(wp), parameter :: advantage(2) = [4.0_wp, 1.0_wp]  !! (to implicit, to explicit) evaluations of the present method over
+   real(wp), parameter :: advantage(2) = [2.0_wp, 1.0_wp]  !! (to implicit, to explicit) evaluations of the present method over
                                                            !! those of the other one, from which on it is left [1]
    integer(i8), parameter :: first_regular = 6000_i8       !! evaluations after which the implicit method is tried in any case
    integer(i8), parameter :: first_wait = 20_i8  !! evaluations until the next trial, of those of the last one
@@ -41,6 +41,7 @@ module method_choice
       integer(i8), private :: n_trial = 0       !! evaluations when the last trial was over
       integer(i8), private :: n_wait = 0        !! evaluations from there to the next one
       integer(i8), private :: n_regular = first_regular  !! evaluations after which the implicit method is tried in any case
+      integer(i8), private :: interval = first_regular   !! evaluations between two such trials
       integer(i8), private :: patience = first_wait  !! how long the next trial waits, of the evaluations of this one
       ! what is reported
       integer(i8) :: n_tried = 0                !! evaluations of all trials
@@ -120,7 +121,8 @@ contains
 
       self%is_comparing = .false.
       self%n_wait = self%patience*self%trial%n_evaluation
-      self%n_regular = max(self%n_regular, 2*self%n_trial)
+      if (.not. self%is_implicit) self%interval = 2*self%interval
+      self%n_regular = self%n_trial + self%interval
       self%patience = min(2*self%patience, longest_wait(merge(2, 1, self%is_implicit)))
    end subroutine lose
 
@@ -135,7 +137,8 @@ contains
       self%n_trial = n_evaluation
       self%n_wait = first_wait*min(self%trial%n_evaluation, usual_trial)
       self%patience = first_wait
-      self%n_regular = max(self%n_regular, 2*n_evaluation)
+      self%interval = first_regular
+      self%n_regular = n_evaluation + self%interval
       self%n_change = self%n_change + 1
       if (self%n_change > most_changes) return
       self%t_change(self%n_change) = t
@@ -159,6 +162,8 @@ contains
 
       call change(self, t, n_evaluation)
       self%n_wait = first_wait*max(self%trial%n_evaluation, first_regular)
+      self%interval = self%n_wait
+      self%n_regular = n_evaluation + self%interval
    end subroutine give_up
 
    !> Write it.
@@ -166,15 +171,15 @@ contains
       class(method_choice_t), intent(in) :: self  !! the choice
       type(archive_t), intent(inout) :: archive   !! the checkpoint
 
-      integer(i8) :: counts(9)
+      integer(i8) :: counts(10)
       integer :: k
 
       call archive%put(self%is_implicit)
       call archive%put(self%is_at_event)
       call archive%put(self%is_comparing)
       call archive%put([self%trial%t_begin, self%trial%t_end, self%trial%h, self%time, self%product_now])
-      counts = [self%trial%n_evaluation, self%n_begin, self%n_trial, self%n_wait, self%n_regular, self%patience, self%n_tried, &
-                self%n_change, self%n_step]
+      counts = [self%trial%n_evaluation, self%n_begin, self%n_trial, self%n_wait, self%n_regular, self%interval, self%patience, &
+                self%n_tried, self%n_change, self%n_step]
       do k = 1, size(counts)
          call archive%put(counts(k))
       end do
@@ -200,6 +205,7 @@ contains
       call archive%get(self%n_trial)
       call archive%get(self%n_wait)
       call archive%get(self%n_regular)
+      call archive%get(self%interval)
       call archive%get(self%patience)
       call archive%get(self%n_tried)
       call archive%get(self%n_change)

@@ -91,6 +91,7 @@ module radau
       procedure :: prepare_output => radau_prepare_output
       procedure :: within => radau_within
       procedure :: reach => radau_reach
+      procedure, nopass :: memory_version => radau_memory_version
       procedure :: save => radau_save
       procedure :: load => radau_load
       ! for a method that has this one as a part, and the step in hand itself
@@ -192,6 +193,11 @@ module radau
    end interface
 
    interface
+      !> Version of the form of what is saved.
+      pure integer module function radau_memory_version() result(version)
+         implicit none (type, external)
+      end function radau_memory_version
+
       !> Write what the integrator remembers.
       module subroutine radau_save(self, archive)
          implicit none (type, external)

@@ -1,8 +1,13 @@
-!> What Radau IIA remembers in a checkpoint.
+!> What Radau IIA remembers in a checkpoint: nothing of states within the last step, which is over.
 submodule(radau) radau_memory
    implicit none (type, external)
 
 contains
+
+   !> Version of the form of what is saved.
+   module procedure radau_memory_version
+      version = 2
+   end procedure radau_memory_version
 
    !> Write what the integrator remembers.
    module procedure radau_save
@@ -20,7 +25,6 @@ contains
       do k = 1, 3
          call archive%put(self%now%z(:, k))
       end do
-      call self%nodes%save(archive)
       call self%matrix%save(archive)
    end procedure radau_save_own
 
@@ -44,7 +48,6 @@ contains
       do k = 1, 3
          call archive%get(self%now%z(:, k))
       end do
-      call self%nodes%load(archive)
       call self%matrix%load(archive)
       self%stage%h = 0.0_wp
    end procedure radau_load_own

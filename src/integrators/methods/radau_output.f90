@@ -10,6 +10,8 @@ submodule(radau) radau_output
    implicit none (type, external)
 
    real(wp), parameter :: hopeless = 100.0_wp  !! error over the one allowed, above which a full set of nodes is of no use [1]
+   integer, parameter :: most_residuals = 3    !! of a row by the polynomial
+   real(wp), parameter :: falls = 0.5_wp       !! ratio of an error to the one before, at most, where corrections help [1]
 
 contains
 
@@ -51,6 +53,8 @@ contains
 
       s = (t - self%step%t0)/self%step%h
       call self%nodes%begin(self%step, with_rates=.not. self%is_stiff)
+      call self%nodes%has_row(s, y, is_given)
+      if (is_given) return
       do
          error = huge(1.0_wp)
          if (self%nodes%are_of_use) call interpolate_nodes(self, system, t, y, error)
@@ -67,10 +71,11 @@ contains
          is_given = status == advance_step
          exit
       end do
-      call self%nodes%note_row(s)
+      if (is_given) call self%nodes%keep_row(s, y)
    end subroutine reach_by_nodes
 
-   !> State at a time within the last step by the polynomial through the nodes. Its error is estimated by the residual f - y'.
+   !> State at a time within the last step by the polynomial through the nodes. The residual f - y' there, filtered, estimates its
+   !> error. Of what decays fast this is the error itself: it is added as long as that makes the residual smaller.
    subroutine interpolate_nodes(self, system, t, y, error)
       class(radau_t), intent(inout) :: self         !! the integrator
       class(ode_system_t), intent(inout) :: system  !! the system
@@ -78,22 +83,31 @@ contains
       real(wp), intent(inout) :: y(:)               !! (n) state [any]
       real(wp), intent(out) :: error                !! over the error that a row may have [1]
 
-      integer :: i, status
+      real(wp) :: before
+      integer :: i, k, status
 
       error = huge(1.0_wp)
       associate (f => self%scratch, f_here => self%y)
          call self%nodes%interpolate(self%step, (t - self%step%t0)/self%step%h, y, f)
-         status = 0
-         if (system%holds) call system%hold(t, y, status)
-         self%count%n_evaluations = self%count%n_evaluations + 1
-         if (status == 0) call system%evaluate(t, y, f_here, status)
-         if (status /= 0) return
-         do i = 1, self%n
-            self%side(i) = f_here(i) - f(i)
+         do k = 1, most_residuals
+            before = error
+            status = 0
+            if (system%holds) call system%hold(t, y, status)
+            self%count%n_evaluations = self%count%n_evaluations + 1
+            if (status == 0) call system%evaluate(t, y, f_here, status)
+            if (status == 0) then
+               do i = 1, self%n
+                  self%side(i) = f_here(i) - f(i)
+               end do
+               call filter_residual(self, system, error, status)
+            end if
+            if (status /= 0) error = huge(1.0_wp)
+            if (error <= 1.0_wp .or. error > falls*before .or. status /= 0) return
+            do i = 1, self%n
+               y(i) = y(i) + self%change(i)
+            end do
          end do
       end associate
-      call filter_residual(self, system, error, status)
-      if (status /= 0) error = huge(1.0_wp)
    end subroutine interpolate_nodes
 
    !> State within the last step by a shorter step; it becomes a node. Restores what the next step depends on.
