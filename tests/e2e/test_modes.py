@@ -1,0 +1,313 @@
+"""Modes of linearised mechanisms against closed forms; matrices against motions; Campbell diagrams; what is refused."""
+
+import json
+import math
+
+import h5py
+import numpy as np
+import pytest
+import test_whirl as whirl
+from scipy.linalg import eigh, expm
+from support import ROOT, Run, assert_close, call, scratch, written
+
+G = 9.81
+
+
+def modes_of(program, text, *sets, expect=0, options=()):
+    """Summary of `gudgeon modes`, and its directory."""
+    out = scratch() / "out"
+    words = [word for name in sets for word in ("--set", name)]
+    path = text if str(text).endswith(".deck") else written(scratch(), text)
+    done = call(program, "modes", path, "--out", out, "--quiet", *words, *options, expect=expect)
+    return done if expect else (json.loads((out / "summary.json").read_text()), out)
+
+
+def eigenvalues(summary):
+    """All eigenvalues: of a pair one is listed."""
+    values = [complex(*mode["eigenvalue"]) for mode in summary["modes"]]
+    return np.array(values + [value.conjugate() for value in values if value.imag > 0])
+
+
+def assert_same_eigenvalues(found, right, relative, what):
+    """Each eigenvalue has its partner; errors relative to its modulus."""
+    assert len(found) == len(right), f"{what}: {len(found)} eigenvalues, {len(right)} expected"
+    left = list(right)
+    for value in sorted(found, key=abs):
+        k = int(np.argmin([abs(value - other) for other in left]))
+        assert abs(value - left[k]) <= relative * abs(left[k]), f"{what}: {value} beside {left[k]}"
+        left.pop(k)
+
+
+def second_order(m, c, k):
+    """Eigenvalues of M x'' + C x' + K x = 0."""
+    n = len(m)
+    return np.linalg.eigvals(np.block([[np.zeros((n, n)), np.eye(n)], [-np.linalg.solve(m, k), -np.linalg.solve(m, c)]]))
+
+
+ARMS = {"m": (1.3, 0.7), "j": (0.02, 0.03), "l": 0.8, "s": (0.35, 0.45)}
+
+
+def double_pendulum():
+    """Squares of the frequencies: arms with their mass centres at s from their pins."""
+    (m1, m2), (j1, j2), length, (s1, s2) = ARMS["m"], ARMS["j"], ARMS["l"], ARMS["s"]
+    mass = [[j1 + m1 * s1**2 + m2 * length**2, m2 * length * s2], [m2 * length * s2, j2 + m2 * s2**2]]
+    return eigh(np.diag([(m1 * s1 + m2 * length) * G, m2 * s2 * G]), mass, eigvals_only=True)
+
+
+PLANE = """deck = 1
+[scene]
+title = "Double pendulum"
+gravity = 0 -9.81 m/s^2
+[bodies]
+name   mass[kg]   inertia[kg.m^2]   x[m]   y[m]
+a      1.3        0.02              0      -0.35
+b      0.7        0.03              0      -1.25
+[points]
+name   body     xi[m]   eta[m]
+o      ground   0       0
+a1     a        0       0.35
+a2     a        0       -0.45
+b1     b        0       0.45
+[joint.revolute]
+name   i    j
+p      o    a1
+q      a2   b1
+[analysis.dynamic]
+end = 1 s
+"""
+
+def test_double_pendulum(gudgeon):
+    """In the plane: frequencies of the closed form, no damping, and the shares of the kinetic energy."""
+    summary, out = modes_of(gudgeon, PLANE)
+    square = double_pendulum()
+    assert_close([mode["frequency"] for mode in summary["modes"]], np.sqrt(square) / (2 * math.pi), relative=1e-10, what="frequencies")
+    assert max(abs(mode["damping_ratio"]) for mode in summary["modes"]) < 1e-10
+    mass, s = ARMS["m"], ARMS["s"]
+    (x, y), = [eigh(np.diag([(mass[0] * s[0] + mass[1] * ARMS["l"]) * G, mass[1] * s[1] * G]),
+                    [[ARMS["j"][0] + mass[0] * s[0]**2 + mass[1] * ARMS["l"]**2, mass[1] * ARMS["l"] * s[1]],
+                     [mass[1] * ARMS["l"] * s[1], ARMS["j"][1] + mass[1] * s[1]**2]])[1][:, 0]]
+    energy = {"a.x": mass[0] * (s[0] * x)**2, "a.angle": ARMS["j"][0] * x**2, "b.x": mass[1] * (ARMS["l"] * x + s[1] * y)**2,
+              "b.angle": ARMS["j"][1] * y**2}
+    for name, value in energy.items():
+        assert_close(summary["modes"][0]["participation"][name], value / sum(energy.values()), absolute=1e-9, what=name)
+    with h5py.File(out / "modes.h5", "r") as file:
+        assert file["states/a"].shape == (4, 4)
+        assert_same_eigenvalues(np.linalg.eigvals(file["states/a"][()]), eigenvalues(summary), 1e-8, "A of modes.h5")
+
+
+@pytest.mark.parametrize("axis", [(0, 0, 1), (0.3, 0.5, -0.7)])
+def test_double_pendulum_in_space(gudgeon, axis):
+    """In space, its pins along any axis: gravity counts by the part that is across them."""
+    n = np.array(axis) / np.linalg.norm(axis)
+    up = np.array([0, 1, 0]) - n[1] * n
+    part = np.linalg.norm(up)
+    up /= part
+
+    def words(vector):
+        return " ".join(map(repr, map(float, vector)))
+
+    rows = [f'{name} {m} 0.3 0.3 {j} {words(-s * up)} "{words(np.cross(up, n))}" "{words(up)}"'
+            for name, m, j, s in (("a", 1.3, 0.02, 0.35), ("b", 0.7, 0.03, 1.25))]
+    text = (PLANE.replace("0 -9.81", "0 -9.81 0").replace("[bodies]", "space = spatial\n[bodies]")
+            .replace("inertia[kg.m^2]   x[m]   y[m]", "ixx[kg.m^2] iyy[kg.m^2] izz[kg.m^2] x[m] y[m] z[m] xi_axis eta_axis")
+            .replace("a      1.3        0.02              0      -0.35", rows[0])
+            .replace("b      0.7        0.03              0      -1.25", rows[1])
+            .replace("name   i    j\n", "name   i    j   axis_i\n").replace("o    a1", f'o    a1  "{words(n)}"').replace("a2   b1", 'a2   b1   "0 0 1"'))
+    summary, _ = modes_of(gudgeon, text)
+    expected = np.sqrt(double_pendulum() * part) / (2 * math.pi)
+    assert_close([mode["frequency"] for mode in summary["modes"]], expected, relative=1e-9, what="frequencies")
+    assert summary["linear_model"]["states"] == 4
+
+
+def test_redundant_rows_change_nothing(gudgeon):
+    """A joint that stands twice: as many eigenvalues, the same ones."""
+    text = PLANE.replace("q      a2   b1\n", "q      a2   b1\nr      a2   b1\n")
+    assert_same_eigenvalues(eigenvalues(modes_of(gudgeon, text)[0]), eigenvalues(modes_of(gudgeon, PLANE)[0]), 1e-9, "eigenvalues")
+
+
+@pytest.mark.parametrize("n", [1, 20])
+def test_chain(gudgeon, n):
+    """N masses between N + 1 springs, damped in proportion: omega_j = 2 sqrt(k/m) sin(j pi/(2 (N + 1))), zeta_j = omega_j c/(2 k)."""
+    k, m, c = 800.0, 0.25, 0.4
+    names = ["wall"] + [f"p{i}" for i in range(1, n + 1)] + ["end"]
+    text = "\n".join(
+        ["deck = 1", "[scene]", 'title = "Chain"', "[bodies]", "name mass[kg] inertia[kg.m^2] x[m]"]
+        + [f"b{i} {m} 1 {0.1 * i}" for i in range(1, n + 1)]
+        + ["[points]", "name body xi[m]", "wall ground 0", f"end ground {0.1 * (n + 1)}"] + [f"p{i} b{i} 0" for i in range(1, n + 1)]
+        + ["[joint.translational]", "name i j axis"] + [f"g{i} wall p{i} x" for i in range(1, n + 1)]
+        + ["[force.spring]", "name i j free_length[m] stiffness[N/m] damping[N.s/m]"]
+        + [f"s{i} {names[i]} {names[i + 1]} 0.1 {k} {c}" for i in range(n + 1)] + ["[analysis.static]", ""])
+    omega = 2 * math.sqrt(k / m) * np.sin(np.arange(1, n + 1) * math.pi / (2 * (n + 1)))
+    summary, _ = modes_of(gudgeon, text)
+    assert_close([mode["frequency"] for mode in summary["modes"]], omega / (2 * math.pi), relative=1e-9, what="frequencies")
+    assert_close([mode["damping_ratio"] for mode in summary["modes"]], omega * c / (2 * k), relative=1e-8, what="damping ratios")
+
+
+ROTOR = """deck = 1
+[scene]
+title = "Overhung rotor"
+space = spatial
+[parameters]
+speed = 300 rad/s
+[bodies]
+name      mass[kg]   ixx[kg.m^2]   iyy[kg.m^2]   izz[kg.m^2]   z[m]
+carrier   0.5        0.002         0.002         0.001         0.1
+disc      6          0.03          0.03          0.055         0.3
+[points]
+name    body      zeta[m]
+frame   ground    0
+seat    carrier   -0.1
+nose    carrier   0.2
+hub     disc      0
+[joint.revolute]
+name   i      j
+spin   nose   hub
+[driver.speed]
+name    joint   speed
+motor   spin    {speed}
+[force.bushing]
+name   i       j      stiffness_x[N/m]   stiffness_y[N/m]   stiffness_z[N/m]   {angular} damping_x[N.s/m]
+bush   frame   seat   4e5                4e5                9e5                2e4  2e4  3e3  0
+[analysis.dynamic]
+end = 10 ms
+[modes]
+at = steady
+""".replace("{angular}", "angular_stiffness_x[N.m/rad] angular_stiffness_y[N.m/rad] angular_stiffness_z[N.m/rad]")
+
+
+def whirl_of_rotor(speed):
+    """Eigenvalues of the rotor on its bushing: lateral motions as x + i y, axial motion, and torsion against the spinning disc."""
+    k, bend, twist, axial = 4e5, 2e4, 3e3, 9e5
+    m, place = np.array([0.5, 6.0]), np.array([0.1, 0.3])
+    total, first, second = m.sum(), m @ place, m @ place**2 + 0.002 + 0.03
+    mass = np.array([[total, first], [first, second]])  # of the seat's displacement and the slope of the axis
+    values = np.linalg.eigvals(np.block([[np.zeros((2, 2)), np.eye(2)],
+                                         [-np.linalg.solve(mass, np.diag([k, bend])), np.linalg.solve(mass, np.diag([0, 1j * 0.055 * speed]))]]))
+    lateral = np.concatenate([values, values.conjugate()])
+    torsion = math.sqrt(twist / (0.001 + 0.055))  # the drive holds the disc's angle to the carrier's
+    stretch = math.sqrt(axial / total)
+    return np.concatenate([lateral, [1j * torsion, -1j * torsion, 1j * stretch, -1j * stretch]])
+
+
+@pytest.mark.parametrize("speed", [0.0, 300.0, 2000.0])
+def test_whirl_of_an_overhung_rotor(gudgeon, speed):
+    """Forward and backward whirl of a rotor with gyroscopic moments."""
+    summary, _ = modes_of(gudgeon, ROTOR, f"speed={speed!r} rad/s")
+    assert_same_eigenvalues(eigenvalues(summary), whirl_of_rotor(speed), 1e-8, "whirl")
+    assert summary["linear_model"]["unsteady"] < 1e-9
+    assert not summary["warnings"]
+
+
+def test_instant_of_a_steady_motion(gudgeon):
+    """At an instant of the motion that is steady the eigenvalues are the same."""
+    text = (ROTOR.replace("at = steady", "at = time\ntime = 7 ms").replace("z[m]\ncarrier", "z[m]   wz[rad/s]\ncarrier")
+            .replace("0.001         0.1\n", "0.001         0.1    0\n").replace("0.055         0.3\n", "0.055         0.3    {speed}\n"))
+    assert_same_eigenvalues(eigenvalues(modes_of(gudgeon, text)[0]), whirl_of_rotor(300.0), 1e-7, "whirl")
+
+
+TABLE = """deck = 1
+[scene]
+title = "Mass on a turntable"
+[parameters]
+speed = 20 rad/s
+[bodies]
+name    mass[kg]   inertia[kg.m^2]   x[m]
+table   1          0.1               0
+mass    2          0.01              0.3
+[points]
+name     body     xi[m]
+axis     ground   0
+centre   table    0
+rim      table    0.3
+seat     mass     0
+[joint.revolute]
+name   i      j
+pin    axis   centre
+[driver.speed]
+name    joint   speed
+motor   pin     {speed}
+[force.bushing]
+name   i     j      stiffness_x[N/m]   stiffness_y[N/m]   angular_stiffness[N.m/rad]
+bush   rim   seat   3000               5000               40
+[analysis.dynamic]
+end = 10 ms
+[modes]
+at = steady
+axes = table
+"""
+
+
+@pytest.mark.parametrize("speed", [0.0, 20.0, 45.0])
+def test_mass_on_a_turntable(gudgeon, speed):
+    """In axes that turn: Coriolis and centrifugal terms on unequal springs; above the speed sqrt(k_x/m) unstable."""
+    summary, _ = modes_of(gudgeon, TABLE, f"speed={speed!r} rad/s")
+    m, j = 2.0, 0.01
+    stretch = 0.3 * m * speed**2 / (3000 - m * speed**2)  # the seat moves out by so much
+    mass, coriolis = np.diag([m, m, j]), np.array([[0, -2 * m * speed, 0], [2 * m * speed, 0, 0], [0, 0, 0]])
+    stiffness = np.diag([3000 - m * speed**2, 5000 - m * speed**2, 40])
+    right = second_order(mass, coriolis, stiffness)
+    assert_same_eigenvalues(eigenvalues(summary), right, 1e-8 if stretch < 1 else 1e-7, "eigenvalues")
+    assert (max(right.real) > 1e-6) == (max(eigenvalues(summary).real) > 1e-6)
+
+
+GOVERNOR = """deck = 1
+[scene]
+title = "Pendulum on a shaft that turns"
+space = spatial
+gravity = 0 0 -9.81 m/s^2
+[parameters]
+speed = 7 rad/s
+[bodies]
+name    mass[kg]   ixx[kg.m^2]   iyy[kg.m^2]   izz[kg.m^2]   x[m]   z[m]
+shaft   1          0.01          0.01          0.01          0      0
+ball    2          0.02          0.02          0.02          0.3    -0.4
+[points]
+name   body     xi[m]   zeta[m]
+foot   ground   0       0
+axle   shaft    0       0
+eye    ball     -0.3    0.4
+[joint.revolute]
+name   i      j      axis_i
+spin   foot   axle   "0 0 1"
+pin    axle   eye    "0 1 0"
+[driver.speed]
+name    joint   speed
+motor   spin    {speed}
+[analysis.dynamic]
+end = 10 ms
+[modes]
+at = steady
+axes = shaft
+outputs = ball.position
+"""
+
+
+@pytest.mark.parametrize("speed", [5.0, 7.0])
+def test_pendulum_on_a_shaft(gudgeon, speed):
+    """The steady motion has cos = g/(l w^2), small motions about it the frequency w sin sqrt(m l^2/(m l^2 + J))."""
+    summary, _ = modes_of(gudgeon, GOVERNOR, f"speed={speed!r} rad/s")
+    sine = math.sqrt(1 - (G / (0.5 * speed**2))**2)
+    assert_close(summary["modes"][0]["frequency"], speed * sine * math.sqrt(0.5 / 0.52) / (2 * math.pi), relative=1e-8, what="frequency")
+    assert len(summary["modes"]) == 1
+
+
+FLEXIBLE = (
+    whirl.DECK.replace("journal   10         2.5e-3            0       0\n",
+                       "journal   3          2.5e-3            0       0\ndisc      7          2.5e-3            0       0\n")
+    .replace("centre    journal   0        0\n", "centre    journal   0        0\nseat      disc      0        0\n")
+    .replace("coupling   shaft   journal\n", "coupling   shaft   journal\nsecond     journal   disc\n")
+    .replace("[lubricant]", "[force.bushing]\nname   i        j      stiffness_x[N/m]   stiffness_y[N/m]   damping_x[N.s/m]   damping_y[N.s/m]\n"
+             "bend   housing  seat   0 0 30 30\n[force.point]\nname point fx fy\n[lubricant]" if False else "[lubricant]")
+)
+BEND = """[force.spring]
+name    i        j      stiffness[N/m]   free_length[mm]
+"""
+
+
+def jeffcott(speed, k, b, bend, masses, damping):
+    """Eigenvalues of a disc on a flexible shaft whose journal runs in a film."""
+    stiff, zero = bend * np.eye(2), np.zeros((2, 2))
+    mass = np.diag([masses[0], masses[0], masses[1], masses[1]])
+    stiffness = np.block([[k + stiff, -stiff], [-stiff, stiff]])
+    damp = np.block([[b, zero], [zero, damping * np.eye(2)]])
+    return second_order(mass, damp, stiffness)
