@@ -291,23 +291,247 @@ def test_pendulum_on_a_shaft(gudgeon, speed):
     assert len(summary["modes"]) == 1
 
 
-FLEXIBLE = (
+def test_rotor_in_films(gudgeon):
+    """A rigid rotor in a short bearing: eigenvalues of its eight coefficients in closed form."""
+    eps = whirl.eccentricity(whirl.SPEED)
+    summary, _ = modes_of(gudgeon, whirl.DECK)
+    assert_same_eigenvalues(eigenvalues(summary), whirl.eigenvalues(*whirl.coefficients(eps, whirl.SPEED)), 1e-8, "rigid rotor")
+
+
+BEND, DRAG = 2.5e6, 40.0  # of the shaft between journal and disc
+
+JEFFCOTT = (
     whirl.DECK.replace("journal   10         2.5e-3            0       0\n",
-                       "journal   3          2.5e-3            0       0\ndisc      7          2.5e-3            0       0\n")
-    .replace("centre    journal   0        0\n", "centre    journal   0        0\nseat      disc      0        0\n")
-    .replace("coupling   shaft   journal\n", "coupling   shaft   journal\nsecond     journal   disc\n")
-    .replace("[lubricant]", "[force.bushing]\nname   i        j      stiffness_x[N/m]   stiffness_y[N/m]   damping_x[N.s/m]   damping_y[N.s/m]\n"
-             "bend   housing  seat   0 0 30 30\n[force.point]\nname point fx fy\n[lubricant]" if False else "[lubricant]")
+                       "journal   3          2.5e-3            0       0\ndisc      7          2.5e-3            0       {-7*9.81/2.5e3*1mm}\n")
+    .replace("centre    journal   0        0\n", "centre    journal   0        0\nhub       disc      0        0\n")
+    .replace("coupling   shaft   journal\n", "coupling   shaft   journal\nbend       journal   disc\n")
+    .replace("[lubricant]", f"[force.bushing]\nname   i        j     stiffness_x[N/m]   stiffness_y[N/m]   damping_x[N.s/m]   damping_y[N.s/m]\n"
+             f"spring  centre   hub   {BEND}   {BEND}   {DRAG}   {DRAG}\n[lubricant]")
 )
-BEND = """[force.spring]
-name    i        j      stiffness[N/m]   free_length[mm]
+
+
+def jeffcott(speed):
+    """Eigenvalues of a disc of 7 kg on a flexible shaft whose journal of 3 kg runs in a film; the damping of the shaft turns with it."""
+    k, b = whirl.coefficients(whirl.eccentricity(speed), speed)
+    mass = np.diag([3.0, 3.0, 7.0, 7.0])
+    tie = np.kron([[1, -1], [-1, 1]], np.eye(2))
+    first = np.diag([1.0, 0.0])
+    circulation = DRAG * speed * np.kron([[1, -1], [-1, 1]], [[0, 1], [-1, 0]])
+    return second_order(mass, np.kron(first, b) + DRAG * tie, np.kron(first, k) + BEND * tie + circulation)
+
+
+@pytest.mark.parametrize("speed", [300.0, 500.0, 900.0])
+def test_jeffcott_rotor_in_films(gudgeon, speed):
+    """All eight eigenvalues, of the closed form of the short bearing under both weights."""
+    summary, _ = modes_of(gudgeon, JEFFCOTT, f"speed={speed!r} rad/s")
+    assert_same_eigenvalues(eigenvalues(summary), jeffcott(speed), 1e-8, "Jeffcott rotor")
+
+
+CAMPBELL = """
+[modes]
+parameter = speed
+from = 200 rad/s
+to = 1600 rad/s
+points = 15
 """
 
 
-def jeffcott(speed, k, b, bend, masses, damping):
-    """Eigenvalues of a disc on a flexible shaft whose journal runs in a film."""
-    stiff, zero = bend * np.eye(2), np.zeros((2, 2))
-    mass = np.diag([masses[0], masses[0], masses[1], masses[1]])
-    stiffness = np.block([[k + stiff, -stiff], [-stiff, stiff]])
-    damp = np.block([[b, zero], [zero, damping * np.eye(2)]])
-    return second_order(mass, damp, stiffness)
+def test_campbell_diagram(gudgeon):
+    """Frequencies at each speed, and the onset of whirl: the closed form, and that of the static analysis."""
+    summary, out = modes_of(gudgeon, whirl.DECK + CAMPBELL)
+    speed, frequency = whirl.threshold()
+    onset, = summary["stability"]
+    assert_close(onset["parameter"], speed, relative=1e-8, what="onset")
+    assert_close(2 * math.pi * onset["frequency"], frequency, relative=1e-7, what="frequency of the onset")
+    assert onset["beyond"] == "unstable"
+    small = whirl.static(gudgeon)["small_motions"]
+    assert_close(onset["parameter"], small["onset"] * whirl.SPEED, relative=1e-7, what="onset of the static analysis")
+    rows = np.genfromtxt(out / "campbell.csv", delimiter=",", names=True)
+    names = rows.dtype.names
+    for p in np.unique(rows[names[0]]):
+        some = rows[rows[names[0]] == p]
+        found = np.array([complex(re, im) for re, im in zip(some[names[4]], some[names[5]])])
+        found = np.concatenate([found, found[found.imag > 0].conjugate()])
+        right = whirl.eigenvalues(*whirl.coefficients(whirl.eccentricity(p), p))
+        assert_same_eigenvalues(found, right, 1e-7, f"at {p}")
+    assert (out / "figures" / "campbell.png").stat().st_size > 10000
+    assert len(np.unique(rows[names[1]])) <= 4, "branches"
+
+
+def test_cantilever(gudgeon):
+    """A row of beams between lumped masses: the same finite elements, assembled here."""
+    n, length, mass, bend = 8, 0.6, 1140 * 0.6 * 0.03 * 0.006, 3e9 * 0.03 * 0.006**3 / 12
+    area, shear = 3e9 * 0.03 * 0.006, 3e9 / 2.8 * 0.03 * 0.006 / 1.2
+    e = length / n
+    phi = 12 * bend / (shear * e**2)
+    block = bend / (e**3 * (1 + phi)) * np.array([[12, 6 * e, -12, 6 * e], [6 * e, (4 + phi) * e**2, -6 * e, (2 - phi) * e**2],
+                                                  [-12, -6 * e, 12, -6 * e], [6 * e, (2 - phi) * e**2, -6 * e, (4 + phi) * e**2]])
+    stiffness = np.zeros((2 * n + 2, 2 * n + 2))
+    for k in range(n):
+        stiffness[2 * k:2 * k + 4, 2 * k:2 * k + 4] += block
+    lumps = np.array([v for k in range(n - 1) for v in (mass / 8, mass / 8 * 0.075**2 / 12)] + [mass / 16, mass / 16 * 0.075**2 / 48])
+    lateral = eigh(stiffness[2:, 2:], np.diag(lumps), eigvals_only=True)
+    chain = area / e * (np.diag([2.0] * (n - 1) + [1.0]) - np.eye(n, k=1) - np.eye(n, k=-1))
+    axial = eigh(chain, np.diag(lumps[::2]), eigvals_only=True)
+    deck = (ROOT / "inputs" / "cantilever_beams.deck").read_text().replace("0.1ms", "0s").replace("0 -9.81", "0 0")
+    summary, _ = modes_of(gudgeon, deck)
+    expected = np.sort(np.sqrt(np.concatenate([lateral, axial]))) / (2 * math.pi)
+    assert_close([mode["frequency"] for mode in summary["modes"]], expected, relative=1e-8, what="frequencies")
+    exact = 1.8751040687**2 / (2 * math.pi) * math.sqrt(bend / (mass * length**3))
+    assert_close(summary["modes"][0]["frequency"], exact, relative=0.01, what="first frequency of a slender beam")
+    hanging = modes_of(gudgeon, ROOT / "inputs" / "cantilever_beams.deck")[0]
+    slowest = min(mode["frequency"] for mode in hanging["modes"] if mode["frequency"] > 0)
+    said = float(hanging["linear_model"]["state"].split("frequency ")[1].split()[0])
+    assert_close(slowest, said, relative=1e-5, what="lowest frequency of the static analysis")
+
+
+DAMPED = (
+    PLANE.replace("[analysis.dynamic]\nend = 1 s\n", "")
+    .replace("[bodies]", "[parameters]\npush = 0 N\ntwist = 0 N.m\nmove = 0 m\n[bodies]\nbase   1          0.1               0      0")
+    .replace("name   mass", "NAME").replace("[bodies]\nbase   1          0.1               0      0\nNAME", "[bodies]\nname   mass")
+    .replace("a      1.3 ", "base   1          0.1               0      0\na      1.3 ")
+    .replace("o      ground   0       0\n", "o      base     0       0\nwall   ground   0       0\n")
+    + """[joint.translational]
+name   i      j   axis
+rail   wall   o   x
+[driver.position]
+name    i      j   axis   position
+shake   wall   o   x      {move*(t/1s)^2*(3-2*t/0.5s)}
+[force.torsion_spring]
+name   i      j   stiffness[N.m/rad]   damping[N.m.s/rad]
+hold   base   a   3                    0.9
+link   a      b   2                    0.4
+[force.point]
+name   point   fx       fy
+fan    b1      {push}   0N
+[force.torque]
+name   body   moment
+turn   a      {twist}
+[analysis.static]
+[analysis.dynamic]
+end = 0.4 s
+tolerance = 1e-12
+[output]
+every = 20 ms
+channels = *
+[modes]
+inputs = b1.fx a.mz shake
+outputs = b.position b.velocity b.acceleration p.force q.force
+"""
+)
+
+
+def matrices(out):
+    """A, B, C, D."""
+    with h5py.File(out / "modes.h5", "r") as file:
+        return file["states/a"][()], file["states/b"][()], file["outputs/c"][()], file["outputs/d"][()]
+
+
+def end_of(program, text, *sets):
+    """Time histories of the channels of the outputs."""
+    out = scratch() / "out"
+    words = [word for name in sets for word in ("--set", name)]
+    run = Run(out, call(program, "run", written(scratch(), text), "--out", out, "--write", "channels", *words))
+    columns = [run.item(f"bodies/{name}", "b") for name in ("position", "velocity", "acceleration")]
+    columns += [run.item("joints/force", name) for name in "pq"]
+    return run.time, np.hstack(columns)
+
+
+@pytest.mark.parametrize("name, amplitude", [("push", 1e-3), ("twist", 1e-3), ("move", 1e-3)])
+def test_matrices_against_motions(gudgeon, name, amplitude):
+    """A small step of a force, of a moment, and a motion of the base: the differences of two runs are C z + D u, z' = A z + B u."""
+    summary, out = modes_of(gudgeon, DAMPED)
+    a, b, c, d = matrices(out)
+    names = summary["linear_model"]["inputs"]
+    assert names == ["b1.fx", "a.mz", "shake.displacement", "shake.speed", "shake.acceleration"]
+    assert a.shape == (4, 4) and d.shape == (10, 5)
+    unit = {"push": "N", "twist": "N.m", "move": "m"}[name]
+    (time, up), (_, down) = [end_of(gudgeon, DAMPED, f"{name}={sign * amplitude} {unit}") for sign in (1, -1)]
+    response = (up - down) / (2 * amplitude)
+    # the input and its chain as further states: a step, or the polynomial t^2 (3 - 4 t) of the base with its derivatives
+    n = 1 if name != "move" else 4
+    big = np.zeros((4 + n, 4 + n))
+    big[:4, :4] = a
+    start = np.zeros(4 + n)
+    if n == 1:
+        k = ["push", "twist"].index(name)
+        big[:4, 4], through = b[:, k], np.column_stack([d[:, k]])
+        start[4] = 1
+    else:  # displacement, speed, acceleration, jerk
+        big[:4, 4:7] = b[:, 2:]
+        big[4:7, 5:8] = np.eye(3)
+        through = np.hstack([d[:, 2:], np.zeros((10, 1))])
+        start[4:] = [0, 0, 6, -24]
+    predicted = np.array([np.hstack([c, through]) @ expm(big * t) @ start for t in time])
+    for k in range(10):
+        scale = abs(predicted[:, k]).max()
+        if scale > 1e-9:
+            assert_close(response[:, k], predicted[:, k], absolute=1e-6 * scale, what=f"output {k}")
+
+
+def test_base_motion_has_no_hidden_inertia(gudgeon):
+    """The acceleration of the base is in D only: what it moves at once is across the free directions."""
+    _, out = modes_of(gudgeon, DAMPED)
+    _, b, _, d = matrices(out)
+    assert_close(b[:, 4], 0, absolute=1e-12, what="B")
+    assert abs(d[:, 4]).max() > 1e-3
+
+
+@pytest.mark.parametrize("line, message", [
+    ("inputs = b1.fq", "not an input"), ("inputs = nothing", "not an input"), ("inputs = o.fx", "not an input"), ("inputs = a.mx", "not an input"),
+    ("outputs = b.nothing", "unknown channel"), ("outputs = energy.kinetic", "is an energy"), ("axes = nobody", "is not a body"),
+    ("at = sometimes", "sometimes"), ("parameter = none", "not a parameter"), ("parameter = w", "no 'from'"),
+    ("parameter = w\nfrom = 1 m\nto = 2 m", "has not the unit"), ("parameter = w\nfrom = 1 rad/s\nto = 1 rad/s", "must differ"),
+    ("points = 3.5", "not a whole number"), ("time = 1 turns of nobody", "nobody"),
+])
+def test_mistakes(gudgeon, line, message):
+    """Each mistake of the section has its message, with its place, for all verbs that read decks."""
+    text = PLANE.replace("[bodies]", "[parameters]\nw = 1 rad/s\n[bodies]") + "[modes]\n" + line + "\n"
+    done = modes_of(gudgeon, text, expect=3)
+    assert message in done.stderr and "scene.deck:" in done.stderr and "^" in done.stderr
+    done = call(gudgeon, "check", written(scratch(), text), expect=3)
+    assert message in done.stderr
+
+
+def test_states_that_are_not_there(gudgeon):
+    """No equilibrium, no steady motion: a message, and an exit code."""
+    falls = PLANE.replace("q      a2   b1\n", "")
+    assert "no static equilibrium" in modes_of(gudgeon, falls, expect=4).stderr
+    assert "no steady motion" in modes_of(gudgeon, falls + "[modes]\nat = steady\n", expect=4).stderr
+
+
+def test_instant_that_is_no_equilibrium(gudgeon):
+    """The state is told to be none."""
+    summary, _ = modes_of(gudgeon, PLANE.replace("b1     b        0       0.45", "b1     b        0.45    0") + "[modes]\nat = time\n")
+    assert any("not an equilibrium" in warning for warning in summary["warnings"])
+    assert summary["linear_model"]["residual"] > 1e-3
+
+
+def test_nothing_is_free(gudgeon):
+    """Drivers prescribe everything: no modes, which is said, and files without rows."""
+    out = scratch() / "out"
+    done = call(gudgeon, "modes", ROOT / "inputs" / "four_bar_kinematic.deck", "--out", out)
+    assert "no modes" in done.stdout
+    assert json.loads((out / "summary.json").read_text())["modes"] == []
+    with h5py.File(out / "modes.h5", "r") as file:
+        assert file["modes/frequency"].shape == (0,)
+
+
+def test_contact_that_presses(gudgeon):
+    """A ball at rest on a plane: the tangent stiffness of Hertz' law, 1.5 K^(2/3) (m g)^(1/3), without damping."""
+    summary, _ = modes_of(gudgeon, ROOT / "inputs" / "bouncing_ball.deck", "law=hertz")
+    stiffness = 4 / 3 * math.sqrt(0.1) * 207e9 / (2 * (1 - 0.3**2))
+    mode, = [mode for mode in summary["modes"] if mode["frequency"] > 1]
+    assert_close(mode["frequency"], math.sqrt(1.5 * stiffness**(2 / 3) * G**(1 / 3)) / (2 * math.pi), relative=1e-7, what="frequency")
+    assert mode["participation"]["ball.y"] > 0.999999
+    assert abs(mode["damping_ratio"]) < 1e-6
+
+
+def test_bristles_are_states(gudgeon):
+    """Friction with bristles adds its states; constraints and Euler parameters add none."""
+    deck = (ROOT / "inputs" / "hard" / "side_by_side.deck").read_text()
+    summary, _ = modes_of(gudgeon, deck + "\n[modes]\nat = time\ntime = 50 ms\n")
+    model = summary["linear_model"]
+    assert model["states"] == 2 * model["degrees_of_freedom"] + 2
+    summary, _ = modes_of(gudgeon, ROOT / "inputs" / "hard" / "a04_bricard.deck")
+    assert summary["linear_model"]["states"] == 2

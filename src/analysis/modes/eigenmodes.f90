@@ -3,9 +3,9 @@
 !> $$ A \hat z = \lambda \hat z, \quad f = \frac{|\lambda|}{2\pi}, \quad \zeta = -\frac{\mathrm{Re}\,\lambda}{|\lambda|}, \quad
 !> \mathrm{share}_i = \frac{m_i |(D \hat x)_i|^2}{\sum_j m_j |(D \hat x)_j|^2} $$
 !>
-!> Of a complex pair the eigenvalue with the positive imaginary part stands for both. The mean kinetic energy of a mode has the shares
-!> of its displacements, since its rates are lambda times these. Source: Meirovitch, Computational Methods in Structural Dynamics
-!> (1980), section 3.10. Limits: dense (LAPACK dgeev).
+!> Of a complex pair the eigenvalue with the positive imaginary part stands for both. The mean kinetic energy of a mode has the
+!> shares of its displacements, since its rates are lambda times these. Source: Meirovitch, Computational Methods in Structural
+!> Dynamics (1980), section 3.10. Limits: dense (LAPACK dgeev).
 module eigenmodes
    use kinds, only: not_a_number, two_pi, wp
    use lapack, only: dgeev

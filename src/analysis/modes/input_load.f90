@@ -105,7 +105,7 @@ contains
       integer, intent(in) :: code                !! the channel
       real(wp), intent(in) :: t                  !! time [s]
       type(motion_t), intent(in) :: motion       !! positions and velocities
-      real(wp), intent(inout) :: values(:, :)    !! (components, 0) values
+      real(wp), intent(inout) :: values(:, :)    !! (components, 0) values [any]
 
       if (size(values) > 0) values = values + 0.0_wp*(self%n + code + t + motion%t)
    end subroutine input_report

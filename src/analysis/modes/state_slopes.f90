@@ -1,9 +1,10 @@
 !> Derivatives of the right-hand side and of outputs along changes of the state, by central differences of sixth order.
 !>
-!> A step moves no body by more than a thousandth of the size of the bodies or of a radian, and no surface by more than a hundredth of
-!> the penetration of a contact that touches or of the gap of a film; rates likewise, over the time of a radian. Where friction acts
-!> rates move less, so that its laws are met near rest. Source: Fornberg, Math. Comp. 51 (1988) 699-706 (weights).
-!> Limits: a law that has a kink at the state gives the mean of both sides.
+!> A step moves no body by more than a thousandth of the size of the bodies or of a radian, and no surface by more than a hundredth
+!> of the penetration of a contact that touches; where films act nothing moves by more than a hundredth of the smallest gap. Rates
+!> likewise, over the time of a radian. Where friction acts rates move less, so that its laws are met near rest.
+!> Source: Fornberg, Math. Comp. 51 (1988) 699-706 (weights). Limits: a law that has a kink at the state gives the mean of both
+!> sides.
 module state_slopes
    use catalogue, only: catalogue_t
    use kinds, only: wp
@@ -130,7 +131,7 @@ contains
       real(wp), intent(in) :: others(:)                  !! (other states) their changes [any]
 
       real(wp), dimension(system%clearance_joints%n_contact) :: by_rates, by_shift, delta
-      real(wp) :: gap, length, of_rates, of_shift, weights(system%n)
+      real(wp) :: gap, length, of_rates, of_shift, weights(system%n), widest
       integer :: i, k
 
       length = system%linkage%scales%length
@@ -138,6 +139,7 @@ contains
          of_shift = maxval([0.0_wp, abs(x)/scale])
          of_rates = maxval([0.0_wp, abs(w)/scale])/self%rate
       end associate
+      widest = 1.0_wp
       if (self%has_friction) of_rates = of_rates/slow
       call find_approach(self, system, x, delta, by_shift)
       call find_approach(self, system, w, delta, by_rates)
@@ -147,13 +149,17 @@ contains
                if (.not. (set%contact(i)%is_touching .or. allocated(set%laws%films))) cycle
                associate (n => set%before%contacts + i)
                   gap = part_of_gap*max(abs(delta(n)), min_gap*length)
-                  of_shift = max(of_shift, part*abs(by_shift(n))/gap)
-                  of_rates = max(of_rates, part*abs(by_rates(n))/(gap*self%rate))
+                  if (allocated(set%laws%films)) then
+                     widest = max(widest, part*length/gap)
+                  else
+                     of_shift = max(of_shift, part*abs(by_shift(n))/gap)
+                     of_rates = max(of_rates, part*abs(by_rates(n))/(gap*self%rate))
+                  end if
                end associate
             end do
          end associate
       end do
-      step = part/max(of_shift, of_rates, tiny(1.0_wp))
+      step = part/max(widest*of_shift, widest*of_rates, tiny(1.0_wp))
       if (size(others) == 0) return
       if (.not. any(abs(others) > 0.0_wp)) return
       call system%weights(self%y, weights)

@@ -46,7 +46,7 @@ contains
          call table%put("re", "1/s", "real part of the eigenvalue, positive: unstable", modes%eigenvalue%re, heading="real part", &
                         digits=8)
          call table%put("im", "rad/s", "imaginary part of the eigenvalue", modes%eigenvalue%im, heading="imaginary part", digits=8)
-         call table%put("most_in", "1", "greatest shares of the kinetic energy", texts=names, heading="kinetic energy in", &
+         call table%put("most_in", "1", "maximum shares of the kinetic energy", texts=names, heading="kinetic energy in", &
                         formats=in_csv)
          call table%put("share", "1", "shares of the kinetic energy", share, shape=[size(parts)], parts=parts)
          call table%put("shape_re", "list", "local displacements and turns, real part", re, shape=[size(parts)], formats=in_hdf5)
