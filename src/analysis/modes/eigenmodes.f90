@@ -5,7 +5,7 @@
 !>
 !> Of a complex pair the eigenvalue with the positive imaginary part stands for both. The mean kinetic energy of a mode has the
 !> shares of its displacements, since its rates are lambda times these. Source: Meirovitch, Computational Methods in Structural
-!> Dynamics (1980), section 3.10. Limits: dense (LAPACK dgeev).
+!> Dynamics (1980), section 3.10. Limits: dense (LAPACK dgeev); eigenvalues below 1e-7 of the maximum modulus are zero.
 module eigenmodes
    use kinds, only: not_a_number, two_pi, wp
    use lapack, only: dgeev
@@ -15,6 +15,9 @@ module eigenmodes
    private
    public :: find_modes, follow_branches, growth_of
 
+   real(wp), parameter :: lost = 1.0e-7_wp       !! of the maximum eigenvalue: rounding makes as much of one that is zero twice [1]
+   real(wp), parameter :: nothing = 1.0e-12_wp   !! eigenvalue that is zero [1/s]
+
 contains
 
    !> The modes, by frequency; those that do not oscillate first, by their eigenvalues.
@@ -23,10 +26,9 @@ contains
       type(linear_model_t), intent(in) :: model             !! the matrices
       type(mode_t), allocatable, intent(out) :: modes(:)    !! (n) the modes
 
-      type(mode_t) :: mode
-      complex(wp), allocatable :: x(:)
       real(wp), dimension(model%n_state) :: im, re
       real(wp) :: a(model%n_state, model%n_state), left(1, 1), right(model%n_state, model%n_state), work(8*model%n_state + 8)
+      real(wp) :: zero
       integer :: info, k, n
 
       n = model%n_state
@@ -34,20 +36,36 @@ contains
       if (n == 0) return
       a = model%a
       call dgeev("N", "V", n, a, n, re, im, left, 1, right, n, work, size(work), info)
+      zero = max(nothing, lost*maxval(hypot(re, im)))
       do k = 1, n
          if (im(k) < 0.0_wp) cycle
-         mode%eigenvalue = cmplx(re(k), im(k), wp)
-         mode%frequency = merge(abs(mode%eigenvalue)/two_pi, 0.0_wp, im(k) > 0.0_wp)
-         mode%damping_ratio = not_a_number()
-         if (abs(mode%eigenvalue) > 0.0_wp) mode%damping_ratio = -re(k)/abs(mode%eigenvalue)
-         if (im(k) > 0.0_wp) then
-            x = cmplx(right(:model%n_free, k), right(:model%n_free, k + 1), wp)
+         if (hypot(re(k), im(k)) <= zero) then
+            call add_mode((0.0_wp, 0.0_wp), cmplx(right(:model%n_free, k), 0.0_wp, wp))
+            if (im(k) > 0.0_wp) call add_mode((0.0_wp, 0.0_wp), cmplx(right(:model%n_free, k + 1), 0.0_wp, wp))
+         else if (im(k) > 0.0_wp) then
+            call add_mode(cmplx(re(k), im(k), wp), cmplx(right(:model%n_free, k), right(:model%n_free, k + 1), wp))
          else
-            x = cmplx(right(:model%n_free, k), 0.0_wp, wp)
+            call add_mode(cmplx(re(k), 0.0_wp, wp), cmplx(right(:model%n_free, k), 0.0_wp, wp))
          end if
+      end do
+
+   contains
+
+      !> A mode with an eigenvalue and its displacements.
+      subroutine add_mode(eigenvalue, x)
+         complex(wp), intent(in) :: eigenvalue    !! its eigenvalue [1/s]
+         complex(wp), intent(in) :: x(:)          !! (freedoms) its displacements [any]
+
+         type(mode_t) :: mode
+
+         mode%eigenvalue = eigenvalue
+         mode%damping_ratio = not_a_number()
+         if (abs(eigenvalue) > 0.0_wp) mode%damping_ratio = -eigenvalue%re/abs(eigenvalue)
+         if (abs(eigenvalue%im) > 0.0_wp) mode%frequency = abs(eigenvalue)/two_pi
          call shape_of(system, model, x, mode)
          call insert(mode, modes)
-      end do
+      end subroutine add_mode
+
    end subroutine find_modes
 
    !> Shape and shares of a mode.
