@@ -358,6 +358,59 @@ def test_campbell_diagram(gudgeon):
     assert len(np.unique(rows[names[1]])) <= 4, "branches"
 
 
+TWO_FILMS = whirl.DECK.replace("[lubricant]", "[clearance.revolute]\nname      bearing   journal   bearing_radius[mm]   clearance[mm]   length[mm]   level  "
+                               "film     lubricant\nsecond    housing   centre    25.15                0.15            20           lubricated   {film}   oil\n"
+                               "[lubricant]")
+
+
+def test_rotor_on_two_films(gudgeon):
+    """Two bearings of different gaps carry the rotor: the onset of whirl is that of the static analysis, which has other differences."""
+    summary, _ = modes_of(gudgeon, TWO_FILMS + CAMPBELL.replace("1600", "3000"))
+    onset, = summary["stability"]
+    static = whirl.run_of(gudgeon, "--analysis", "static", text=TWO_FILMS).summary["small_motions"]
+    assert_close(onset["parameter"], static["onset"] * whirl.SPEED, relative=1e-6, what="onset")
+    assert_close(2 * math.pi * onset["frequency"], static["onset_frequency"], relative=1e-6, what="frequency")
+    found = sorted(eigenvalues(summary), key=lambda value: -value.real)
+    listed = [value["growth"] for value in static["eigenvalues"]]
+    assert_close([value.real for value in found], listed, relative=1e-6, what="growth")
+
+
+TOP = """deck = 1
+[scene]
+title = "Sleeping top"
+space = spatial
+gravity = 0 0 -9.81 m/s^2
+[parameters]
+spin = 100 rad/s
+[bodies]
+name   mass[kg]   ixx[kg.m^2]   iyy[kg.m^2]   izz[kg.m^2]   z[m]   wz[rad/s]
+top    2          0.01          0.01          0.015         0.2    {spin}
+[points]
+name   body     zeta[m]
+foot   ground   0
+tip    top      -0.2
+[joint.spherical]
+name   i      j
+ball   foot   tip
+[analysis.dynamic]
+end = 1 s
+[modes]
+at = time
+"""
+
+
+@pytest.mark.parametrize("spin", [60.0, 100.0, 300.0])
+def test_sleeping_top(gudgeon, spin):
+    """Upright on its tip: stable from the spin 2 sqrt(I m g l)/I_p on; precession and nutation of the closed form in axes of the world."""
+    summary, _ = modes_of(gudgeon, TOP, f"spin={spin!r} rad/s")
+    inertia, weight = 0.01 + 2 * 0.2**2, 2 * G * 0.2
+    roots = np.roots([inertia, -1j * 0.015 * spin, -weight])  # of the slope of the axis as x + i y
+    right = np.concatenate([roots, roots.conjugate(), [0, 0]])
+    assert_same_eigenvalues(eigenvalues(summary), right, 1e-8, "eigenvalues")
+    assert summary["linear_model"]["unsteady"] < 1e-9
+    assert (max(eigenvalues(summary).real) > 1e-6) == (0.015 * spin < 2 * math.sqrt(inertia * weight))
+
+
 def test_cantilever(gudgeon):
     """A row of beams between lumped masses: the same finite elements, assembled here."""
     n, length, mass, bend = 8, 0.6, 1140 * 0.6 * 0.03 * 0.006, 3e9 * 0.03 * 0.006**3 / 12
@@ -415,7 +468,7 @@ tolerance = 1e-12
 every = 20 ms
 channels = *
 [modes]
-inputs = b1.fx a.mz shake
+inputs = fan.fx a.mz shake
 outputs = b.position b.velocity b.acceleration p.force q.force
 """
 )
@@ -443,7 +496,7 @@ def test_matrices_against_motions(gudgeon, name, amplitude):
     summary, out = modes_of(gudgeon, DAMPED)
     a, b, c, d = matrices(out)
     names = summary["linear_model"]["inputs"]
-    assert names == ["b1.fx", "a.mz", "shake.displacement", "shake.speed", "shake.acceleration"]
+    assert names == ["fan.fx", "a.mz", "shake.displacement", "shake.speed", "shake.acceleration"]
     assert a.shape == (4, 4) and d.shape == (10, 5)
     unit = {"push": "N", "twist": "N.m", "move": "m"}[name]
     (time, up), (_, down) = [end_of(gudgeon, DAMPED, f"{name}={sign * amplitude} {unit}") for sign in (1, -1)]
@@ -478,7 +531,7 @@ def test_base_motion_has_no_hidden_inertia(gudgeon):
 
 
 @pytest.mark.parametrize("line, message", [
-    ("inputs = b1.fq", "not an input"), ("inputs = nothing", "not an input"), ("inputs = o.fx", "not an input"), ("inputs = a.mx", "not an input"),
+    ("inputs = b1.fq", "not an input"), ("inputs = nothing", "not an input"), ("inputs = o.fx", "not an input"), ("inputs = p.fx", "not an input"), ("inputs = a.mx", "not an input"),
     ("outputs = b.nothing", "unknown channel"), ("outputs = energy.kinetic", "is an energy"), ("axes = nobody", "is not a body"),
     ("at = sometimes", "sometimes"), ("parameter = none", "not a parameter"), ("parameter = w", "no 'from'"),
     ("parameter = w\nfrom = 1 m\nto = 2 m", "has not the unit"), ("parameter = w\nfrom = 1 rad/s\nto = 1 rad/s", "must differ"),
@@ -525,6 +578,25 @@ def test_contact_that_presses(gudgeon):
     assert_close(mode["frequency"], math.sqrt(1.5 * stiffness**(2 / 3) * G**(1 / 3)) / (2 * math.pi), relative=1e-7, what="frequency")
     assert mode["participation"]["ball.y"] > 0.999999
     assert abs(mode["damping_ratio"]) < 1e-6
+
+
+SLOW = ("primitives",)  # its search for an equilibrium takes half a minute
+DECKS = sorted(path for folder in ("", "hard") for path in (ROOT / "inputs" / folder).glob("*.deck") if path.stem not in SLOW)
+
+
+@pytest.mark.parametrize("deck", DECKS, ids=[path.stem for path in DECKS])
+def test_every_deck(gudgeon_debug, deck):
+    """Modes or a message: all decks, with run-time checks."""
+    out = scratch() / "out"
+    done = call(gudgeon_debug, "modes", deck, "--out", out, "--quiet", expect=(0, 4))
+    if done.returncode:
+        assert "no static equilibrium" in done.stderr
+        return
+    summary = json.loads((out / "summary.json").read_text())
+    model = summary["linear_model"]
+    assert len(eigenvalues(summary)) == model["states"] >= 2 * model["degrees_of_freedom"]
+    for mode in summary["modes"]:
+        assert sum(mode["participation"].values()) <= 1 + 1e-9
 
 
 def test_bristles_are_states(gudgeon):

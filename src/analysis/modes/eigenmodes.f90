@@ -7,10 +7,10 @@
 !> shares of its displacements, since its rates are lambda times these. Source: Meirovitch, Computational Methods in Structural
 !> Dynamics (1980), section 3.10. Limits: dense (LAPACK dgeev); eigenvalues below 1e-7 of the maximum modulus are zero.
 module eigenmodes
-   use kinds, only: not_a_number, two_pi, wp
+   use kinds, only: wp
    use lapack, only: dgeev
    use mechanism, only: mechanism_t
-   use modes_results, only: linear_model_t, mode_t
+   use modes_results, only: frequency_of, linear_model_t, mode_t, ratio_of
    implicit none (type, external)
    private
    public :: find_modes, follow_branches, growth_of
@@ -59,9 +59,8 @@ contains
          type(mode_t) :: mode
 
          mode%eigenvalue = eigenvalue
-         mode%damping_ratio = not_a_number()
-         if (abs(eigenvalue) > 0.0_wp) mode%damping_ratio = -eigenvalue%re/abs(eigenvalue)
-         if (abs(eigenvalue%im) > 0.0_wp) mode%frequency = abs(eigenvalue)/two_pi
+         mode%damping_ratio = ratio_of(eigenvalue)
+         mode%frequency = frequency_of(eigenvalue)
          call shape_of(system, model, x, mode)
          call insert(mode, modes)
       end subroutine add_mode

@@ -2,6 +2,7 @@
 module modes_words
    use catalogue, only: catalogue_t
    use channel_names, only: scalar_name, scalar_t
+   use columns, only: cell_text
    use deck_parameter, only: number_parameter
    use deck_types, only: deck_t
    use diagnostics, only: diagnostics_t
@@ -91,7 +92,7 @@ contains
             input = input_of(scene, value%words(k)%s)
             if (input%kind == 0) then
                call mistakes%add(location_of(value, k), "'"//value%words(k)%s//"' is not an input of this deck", "not an input", &
-                                 "write POINT.fx, BODY.fx or BODY.mz (in space also fz, mx, my), or the name of a driver")
+                                 "write POINT.fx, BODY.fx, BODY.mz, LOAD.fx of [force.point] (in space fz, mx, my), or a driver")
             else if (input%kind == input_driver .and. plan%axes > 0) then
                call mistakes%add(location_of(value, k), "driver '"//value%words(k)%s//"' is no input in axes that turn", &
                                  "not with axes", "omit axes, or give loads as inputs")
@@ -123,6 +124,7 @@ contains
       input%axis = index(letters, word(len(word):))
       body = number_of(word(:dot - 1), scene%bodies%names)
       point = number_of(word(:dot - 1), scene%points%names)
+      if (body == 0 .and. point == 0) call find_place(scene, word(:dot - 1), body, point)
       select case (word(dot + 1:dot + 1)//merge("s", "p", scene%settings%is_spatial))
       case ("fp")
          if (input%axis < 1 .or. input%axis > 2) return
@@ -142,6 +144,26 @@ contains
       end if
       if (input%body == 0) input%kind = 0
    end function input_of
+
+   !> Point or body that a force element names as the place of its load.
+   subroutine find_place(scene, name, body, point)
+      type(scene_t), intent(in) :: scene                 !! the scene
+      character(*), intent(in) :: name                   !! of the element
+      integer, intent(inout) :: body                     !! the body, if it names one
+      integer, intent(inout) :: point                    !! the point, if it names one
+
+      integer :: i, k
+
+      do k = 1, size(scene%forces)
+         do i = 1, size(scene%forces(k)%items)
+            associate (info => scene%forces(k)%info, item => scene%forces(k)%items(i))
+               if (item%name /= name) cycle
+               body = number_of(cell_text(info, item, "body"), scene%bodies%names)
+               point = number_of(cell_text(info, item, "point"), scene%points%names)
+            end associate
+         end do
+      end do
+   end subroutine find_place
 
    !> The outputs.
    subroutine read_outputs(catalogue, section, plan, mistakes)

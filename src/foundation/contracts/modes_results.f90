@@ -1,10 +1,11 @@
 !> What a study of modes asks for and finds.
 module modes_results
-   use kinds, only: wp
+   use kinds, only: not_a_number, two_pi, wp
    use text, only: text_t
    implicit none (type, external)
    private
    public :: at_equilibrium, at_steady, at_time, campbell_point_t, input_driver, input_force, input_moment, linear_model_t
+   public :: frequency_of, ratio_of
    public :: mode_t, modes_input_t, modes_output_t, modes_plan_t, modes_study_t, onset_t, state_names
 
    integer, parameter :: at_equilibrium = 1   !! the static equilibrium; with films the steady state
@@ -102,5 +103,23 @@ module modes_results
       type(onset_t), allocatable :: onsets(:)          !! (n) changes of stability in it
       type(text_t), allocatable :: warnings(:)         !! (n) what was noticed
    end type modes_study_t
+
+contains
+
+   !> Natural frequency of an eigenvalue; 0 of a real one.
+   elemental real(wp) function frequency_of(value) result(frequency)
+      complex(wp), intent(in) :: value            !! the eigenvalue [1/s]
+
+      frequency = 0.0_wp
+      if (abs(value%im) > 0.0_wp) frequency = abs(value)/two_pi
+   end function frequency_of
+
+   !> Damping ratio of an eigenvalue; NaN of zero.
+   elemental real(wp) function ratio_of(value) result(ratio)
+      complex(wp), intent(in) :: value            !! the eigenvalue [1/s]
+
+      ratio = not_a_number()
+      if (abs(value) > 0.0_wp) ratio = -value%re/abs(value)
+   end function ratio_of
 
 end module modes_results

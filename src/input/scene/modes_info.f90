@@ -22,8 +22,8 @@ contains
       call add_duration(info, "time", "the instant, a time or `N turns of DRIVER`", default="0 s")
       call add_word(info, "axes", "body in whose axes motions are resolved, for mechanisms that turn as a whole; world: axes at " &
                     //"rest", default="world")
-      call add_words(info, "inputs", "inputs of the matrices: POINT.fx and BODY.fx, BODY.mz (likewise fy, fz, mx, my), and names " &
-                     //"of drivers", default="")
+      call add_words(info, "inputs", "inputs of the matrices: POINT.fx, BODY.fx, BODY.mz, LOAD.fx of an element of [force.point] " &
+                     //"(likewise fy, fz, mx, my), and names of drivers", default="")
       call add_words(info, "outputs", "outputs of the matrices: channels, as in [output]", default="")
       call add_word(info, "parameter", "name of a parameter that is a number, over which the Campbell diagram is drawn; none: " &
                     //"no diagram", default="")

@@ -7,8 +7,7 @@ module modes_plots
    use display_units, only: choose_unit, display_unit_t
    use errors, only: error_t
    use kinds, only: two_pi, wp
-   use modes_results, only: modes_study_t
-   use modes_tables, only: frequency_of
+   use modes_results, only: frequency_of, modes_study_t
    use plot_text, only: quoted
    use script_parts, only: colours, preamble
    use text, only: append_text, real_text, text_t, to_text

@@ -1,12 +1,12 @@
 !> The results of a study of modes as tables: modes, matrices, Campbell diagram, changes of stability.
 module modes_tables
-   use kinds, only: not_a_number, two_pi, wp
-   use modes_results, only: mode_t, modes_study_t
+   use kinds, only: two_pi, wp
+   use modes_results, only: frequency_of, mode_t, modes_study_t, ratio_of
    use result_table, only: in_csv, in_hdf5, result_table_t
    use text, only: real_text, text_t, to_text
    implicit none (type, external)
    private
-   public :: frequency_of, main_shares, ratio_of, table_of_campbell, table_of_modes, tables_of_matrices, table_of_stability
+   public :: table_of_campbell, table_of_modes, tables_of_matrices, table_of_stability
 
    real(wp), parameter :: least_shown = 0.05_wp   !! share of a direction that is named [1]
    integer, parameter :: most_shown = 4           !! directions that are named
@@ -170,22 +170,6 @@ contains
       call table%put("re", "1/s", "real part of the eigenvalue", values%re)
       call table%put("im", "rad/s", "imaginary part of the eigenvalue", values%im)
    end function table_of_campbell
-
-   !> Natural frequency of an eigenvalue; 0 of a real one.
-   elemental real(wp) function frequency_of(value) result(frequency)
-      complex(wp), intent(in) :: value            !! the eigenvalue [1/s]
-
-      frequency = 0.0_wp
-      if (abs(value%im) > 0.0_wp) frequency = abs(value)/two_pi
-   end function frequency_of
-
-   !> Damping ratio of an eigenvalue; NaN of zero.
-   elemental real(wp) function ratio_of(value) result(ratio)
-      complex(wp), intent(in) :: value            !! the eigenvalue [1/s]
-
-      ratio = not_a_number()
-      if (abs(value) > 0.0_wp) ratio = -value%re/abs(value)
-   end function ratio_of
 
    !> A row for each change of stability.
    function table_of_stability(study) result(table)

@@ -3,8 +3,8 @@
 !> All bodies keep all their coordinates there, and what would stabilise constraints is off. Limits: those of the analyses.
 module linear_state
    use assembly_report, only: assembly_t
-   use build_system, only: new_system
-   use errors, only: error_t, exit_assembly, set_error
+   use build_system, only: levels_as_written, new_system
+   use errors, only: error_t, exit_assembly, exit_usage, set_error
    use integration_settings, only: chosen
    use item, only: place_of
    use jobs, only: job_t
@@ -13,7 +13,7 @@ module linear_state
    use modes_results, only: at_equilibrium, at_time, modes_plan_t
    use mover, only: mover_t
    use prescribed_motion, only: newton_t, solve_rates
-   use scene, only: analysis_static, scene_t
+   use scene, only: analysis_dynamic, analysis_kinematic, analysis_static, scene_t
    use sensitivity_motion, only: setting_of
    use start_state, only: find_start
    use static, only: equilibrium_t, find_equilibrium
@@ -52,7 +52,11 @@ contains
       call all%scene%settings%integration%stabilisation%take(chosen)
       allocate (state%warnings(0))
       associate (system => state%mover%system)
-         if (plan%at == at_time) then
+         if (plan%at == at_time .and. .not. all%scene%settings%has_analysis(analysis_dynamic)) then
+            call set_error(error, exit_usage, "at = time needs [analysis.dynamic]")
+         else if (plan%at == at_time) then
+            all%scene%analysis = analysis_dynamic
+            if (job%scene%analysis == analysis_kinematic) all%levels = levels_as_written
             call move_to(all, plan%time, state, error)
          else
             all%scene%analysis = analysis_static
@@ -87,7 +91,7 @@ contains
       associate (settings => job%scene%settings%integration, mover => state%mover)
          asked = settings%controls%tolerance
          if (settings%controls%fixed_step > 0.0_wp) asked = settings%controls%fixed_step
-         call mover%start(job, setting_of(settings), asked, max(time, job%plan%end), error)
+         call mover%start(job, setting_of(settings), asked, max(time, merge(job%plan%end, 1.0_wp, job%plan%end > 0.0_wp)), error)
          if (.not. allocated(error) .and. time > 0.0_wp) call mover%advance(time, error)
          if (allocated(error)) return
          state%t = mover%method%t
