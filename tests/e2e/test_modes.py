@@ -363,6 +363,19 @@ TWO_FILMS = whirl.DECK.replace("[lubricant]", "[clearance.revolute]\nname      b
                                "[lubricant]")
 
 
+def test_unequal_inertias(gudgeon):
+    """A rotor with unequal inertias is not steady in axes of the world, but in its own: the closed form in these."""
+    text = ROTOR.replace("6          0.03          0.03          0.055", "6          0.03          0.036         0.055")
+    assert any("not steady" in warning for warning in modes_of(gudgeon, text)[0]["warnings"])
+    text = TOP.replace("0.01          0.01          0.015", "0.01          0.02          0.025").replace("at = time", "at = time\naxes = top")
+    summary, _ = modes_of(gudgeon, text)
+    assert not summary["warnings"]
+    i, j, k, weight, spin = 0.01 + 0.08, 0.02 + 0.08, 0.025, 2 * G * 0.2, 100.0
+    coriolis = spin * (i + j - k) * np.array([[0, -1], [1, 0]])  # of the slopes along the body's axes
+    right = second_order(np.diag([i, j]), coriolis, np.diag([(k - j) * spin**2 - weight, (k - i) * spin**2 - weight]))
+    assert_same_eigenvalues(eigenvalues(summary), np.concatenate([right, [0, 0]]), 1e-8, "eigenvalues")
+
+
 def test_rotor_on_two_films(gudgeon):
     """Two bearings of different gaps carry the rotor: the onset of whirl is that of the static analysis, which has other differences."""
     summary, _ = modes_of(gudgeon, TWO_FILMS + CAMPBELL.replace("1600", "3000"))

@@ -8,7 +8,8 @@
 !> $$ \Phi_q E = -\frac{\partial \dot\Phi}{\partial q}\, (D, W), \qquad D^T M E = 0 $$
 !>
 !> so that E is the rate of D and W, which vanishes at rest. In axes that turn with the speed omega the directions turn as D C does,
-!> $C = D^T M\, (\omega \times D)$. What is left, $E + D C - \omega \times D$, is how much the motion is not steady in these axes.
+!> $C = D^T M\, (\omega \times D)$. What is left, $E + D C - \omega \times D$, is how much the motion is not steady in these axes;
+!> so is the rate of $D^T M D$ where inertias turn in them.
 !>
 !> Numbers are resolved along the bodies' axes, as local changes are. Source: Shabana, Dynamics of Multibody Systems (2020),
 !> section 3.4 (velocity transformation). Limits: dense.
@@ -34,7 +35,7 @@ module motion_frame
       real(wp), allocatable :: drift(:, :)         !! (rates, free + drivers) E [any]
       real(wp), allocatable :: bend(:, :)          !! (free, free + drivers) what E adds to accelerations [1/s^2]
       real(wp), allocatable :: carry(:, :)         !! (free, free) C [1/s]
-      real(wp) :: unsteady = 0.0_wp                !! maximum rate of D that the axes do not explain, over the rate of turning [1]
+      real(wp) :: unsteady = 0.0_wp                !! maximum rate of D and M that the axes do not explain, over speeds [1]
    contains
       procedure :: find => find_frame
       procedure :: to_state
@@ -168,22 +169,25 @@ contains
       real(wp), intent(in) :: y(:)                    !! (n) state [any]
       integer, intent(in) :: axes                     !! body whose axes turn, 0: those of the world
 
-      real(wp), dimension(size(self%direction, 1), self%n_free) :: left, swept
-      real(wp) :: omega(3), rate
+      real(wp), dimension(size(self%direction, 1), self%n_free) :: left, spun, swept
+      real(wp) :: inertia(self%n_free, self%n_free), omega(3), rate
       integer :: j
 
       call system%linkage%set_motion(t, y)
       omega = system%linkage%motion%omega(:, axes)
       do j = 1, self%n_free
          swept(:, j) = self%turned(system, self%direction(:, j), omega)
+         spun(:, j) = self%turned(system, self%direction(:, j))
       end do
+      inertia = matmul(transpose(self%reading), spun - swept)
+      inertia = inertia + transpose(inertia)
       self%carry = matmul(transpose(self%reading), swept)
       left = self%drift(:, :self%n_free) + matmul(self%direction(:, :self%n_free), self%carry) - swept
       rate = max(norm2(omega), maxval([0.0_wp, norm2(system%linkage%motion%omega, dim=1)]))
       self%unsteady = 0.0_wp
       if (self%n_free == 0) return
       associate (root => sqrt(reshape(system%linkage%mass(:, system%linkage%rows%unknown), [self%n_rate])))
-         self%unsteady = maxval(abs(spread(root, 2, self%n_free)*left))
+         self%unsteady = max(maxval(abs(spread(root, 2, self%n_free)*left)), maxval(abs(inertia)))
       end associate
       if (self%unsteady > 0.0_wp) self%unsteady = self%unsteady/max(rate, self%unsteady)
    end subroutine find_turning

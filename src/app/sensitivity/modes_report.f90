@@ -6,7 +6,7 @@ module modes_report
    use load, only: loaded_t
    use modes_object, only: put_modes
    use modes_results, only: modes_study_t
-   use modes_tables, only: table_of_campbell, table_of_modes, table_of_stability
+   use modes_tables, only: stability_of, table_of_campbell, table_of_modes, table_of_stability
    use options, only: options_t
    use output_plan, only: output_plan_t
    use recorder, only: status_complete
@@ -53,6 +53,7 @@ contains
                          counted(model%n_free, "degree of freedom", "degrees of freedom"))
          call lines%line("state      "//study%state)
          call lines%line("           residual "//real_text(model%residual, 2)//" of the loads; axes "//study%plan%axes_name)
+         if (size(study%modes) > 0) call lines%line("stability  "//stability_of(study))
          if (model%n_state > 2*model%n_free) call lines%line("           "//to_text(model%n_state - 2*model%n_free) &
                                                             //" states of friction with bristles")
          if (model%n_state == 0) call lines%line("           no modes: joints and drivers prescribe the motion of all bodies")

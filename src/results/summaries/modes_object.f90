@@ -3,6 +3,7 @@ module modes_object
    use json_text, only: json_object_t, json_string
    use kinds, only: i8, wp
    use modes_results, only: mode_t, modes_study_t
+   use modes_tables, only: stability_of
    use text, only: exact_text, text_t
    implicit none (type, external)
    private
@@ -27,6 +28,7 @@ contains
       call object%put_text("axes", study%plan%axes_name)
       call object%put_integer("degrees_of_freedom", int(study%model%n_free, i8))
       call object%put_integer("states", int(study%model%n_state, i8))
+      call object%put_text("stability", stability_of(study))
       call object%put_real("residual", study%model%residual)
       call object%put_real("unsteady", study%model%unsteady)
       call object%put_list("inputs", study%model%inputs)

@@ -6,9 +6,10 @@ module modes_tables
    use text, only: real_text, text_t, to_text
    implicit none (type, external)
    private
-   public :: table_of_campbell, table_of_modes, tables_of_matrices, table_of_stability
+   public :: stability_of, table_of_campbell, table_of_modes, tables_of_matrices, table_of_stability
 
    real(wp), parameter :: least_shown = 0.05_wp   !! share of a direction that is named [1]
+   real(wp), parameter :: lost = 1.0e-10_wp       !! real part that is none, of the maximum eigenvalue [1]
    integer, parameter :: most_shown = 4           !! directions that are named
 
 contains
@@ -67,6 +68,26 @@ contains
          units(k)%s = "m or rad"
       end do
    end function units_of
+
+   !> Stability of the state, as text; blank without modes.
+   function stability_of(study) result(words)
+      type(modes_study_t), intent(in) :: study     !! the study
+      character(:), allocatable :: words           !! stable, marginally stable or unstable, and how fast
+
+      real(wp) :: growth, scale
+
+      words = ""
+      if (size(study%modes) == 0) return
+      growth = maxval(study%modes%eigenvalue%re)
+      scale = maxval(abs(study%modes%eigenvalue))
+      if (growth > lost*scale) then
+         words = "unstable: a mode grows e-fold in "//real_text(1.0_wp/growth, 4)//" s"
+      else if (growth < -lost*scale) then
+         words = "asymptotically stable: the slowest mode decays e-fold in "//real_text(-1.0_wp/growth, 4)//" s"
+      else
+         words = "marginally stable: a mode neither grows nor decays"
+      end if
+   end function stability_of
 
    !> The directions of bodies that take part most.
    function main_shares(study, mode) result(words)
