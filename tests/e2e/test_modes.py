@@ -358,6 +358,17 @@ def test_campbell_diagram(gudgeon):
     assert len(np.unique(rows[names[1]])) <= 4, "branches"
 
 
+def test_values_that_a_deck_refuses(gudgeon):
+    """Values without a state are named in warnings, the others are there; without any the verb fails."""
+    text = PLANE.replace("[bodies]", "[parameters]\nm = 1.3 kg\n[bodies]").replace("a      1.3 ", "a      {m}")
+    text = text.replace("mass[kg]", "mass").replace("b      0.7", "b      0.7kg")
+    diagram = "[modes]\nparameter = m\nfrom = -1 kg\nto = {} kg\npoints = 5\n"
+    summary, _ = modes_of(gudgeon, text + diagram.format(3))
+    assert sorted({row["parameter"] for row in summary["campbell"]}) == [1, 2, 3]
+    assert sum("does not take" in warning for warning in summary["warnings"]) == 2
+    assert "does not take" in modes_of(gudgeon, text + diagram.format(-0.5), expect=4).stderr
+
+
 TWO_FILMS = whirl.DECK.replace("[lubricant]", "[clearance.revolute]\nname      bearing   journal   bearing_radius[mm]   clearance[mm]   length[mm]   level  "
                                "film     lubricant\nsecond    housing   centre    25.15                0.15            20           lubricated   {film}   oil\n"
                                "[lubricant]")

@@ -7,7 +7,7 @@
 module campbell
    use catalogue, only: catalogue_t
    use eigenmodes, only: find_modes, follow_branches, growth_of
-   use errors, only: error_t
+   use errors, only: error_t, exit_assembly, set_error
    use jobs, only: first_line, job_t
    use kinds, only: wp
    use linear_model, only: linearise
@@ -101,8 +101,7 @@ contains
          if (status /= 0) reason = "the equations cannot be solved there"
       end if
       if (reason /= "") then
-         if (.not. allocated(error)) allocate (error)
-         if (.not. allocated(error%message)) error%message = reason
+         if (.not. allocated(error)) call set_error(error, exit_assembly, reason)
          return
       end if
       call find_modes(state%mover%system, model, modes)
