@@ -40,7 +40,7 @@ program gudgeon
          call sweep_deck(options, error)
       case ("merge")
          call merge_sweep(options, error)
-      case ("life", "sensitivity", "orbit", "fit", "tolerance", "precision")
+      case ("life", "sensitivity", "orbit", "modes", "fit", "tolerance", "precision")
          call make_study(options, error)
       case ("compare")
          call compare_runs(options, error)

@@ -4,6 +4,7 @@ module study_verbs
    use options, only: options_t
    use verb_fit, only: fit_deck_to_data
    use verb_life, only: live_deck
+   use verb_modes, only: find_deck_modes
    use verb_orbit, only: orbit_deck
    use verb_precision, only: compare_precision
    use verb_sensitivity, only: derive_deck
@@ -26,6 +27,8 @@ contains
          call derive_deck(options, error)
       case ("orbit")
          call orbit_deck(options, error)
+      case ("modes")
+         call find_deck_modes(options, error)
       case ("fit")
          call fit_deck_to_data(options, error)
       case ("tolerance")

@@ -22,7 +22,7 @@ SWEEP = "\n[sweep]\nlaw = hertz lankarani_nikravesh\nc = 0.5 0.2 mm\n"
 def test_every_verb_has_a_smoke_test(gudgeon):
     """The verbs of `gudgeon help` are those below."""
     verbs = set(re.findall(r"(?m)^  gudgeon (\w+)", call(gudgeon, "help").stdout))
-    known = "run sweep merge life sensitivity orbit tolerance fit precision check explain compare import new list help version"
+    known = "run sweep merge life sensitivity orbit modes tolerance fit precision check explain compare import new list help version"
     assert verbs == set(known.split())
 
 

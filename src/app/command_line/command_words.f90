@@ -41,6 +41,8 @@ module command_words
                 "--out --set --tolerance --method --quiet --json"), &
       command_t("orbit", "DECK", "periodic orbits, Floquet multipliers, branches and bifurcations, by [orbit]", &
                 "--out --set --tolerance --method --quiet --json"), &
+      command_t("modes", "DECK", "eigenvalues, natural frequencies, modes, matrices and Campbell diagram, by [modes]", &
+                "--out --set --ideal --tolerance --method --quiet --json"), &
       command_t("tolerance", "DECK", "tolerances and clearances by [tolerance]: derivatives, worst case, scatter, yield", &
                 "--out --set --tolerance --quiet --json"), &
       command_t("fit", "DECK DATA", "parameters from measured data by [fit], with 95 % intervals", &

@@ -26,6 +26,8 @@ module load
    use mechanism, only: mechanism_t
    use mechanism_catalogue, only: build_catalogue
    use memory_purpose, only: memory_is_for
+   use modes_results, only: modes_plan_t
+   use modes_words, only: plan_modes
    use name_table, only: name_table_t
    use options, only: options_t
    use orbit_info, only: orbit_section
@@ -169,9 +171,9 @@ contains
       if (loaded%scene%settings%life%is_present) call check_life(loaded%scene, loaded%system, mistakes)
       if (.not. options%runs%is_member) then
          if (has_all_words) then
-            call check_studies(loaded%deck, loaded%scene, loaded%catalogue, mistakes)
+            call check_studies(loaded%deck, loaded%scene, loaded%system, loaded%catalogue, mistakes)
          else
-            call check_studies(loaded%deck, loaded%scene, catalogue, mistakes)
+            call check_studies(loaded%deck, loaded%scene, loaded%system, catalogue, mistakes)
          end if
       end if
       if (mistakes%count() == 0) call check_function_ranges(loaded%scene, loaded%plan%end, mistakes)
@@ -199,15 +201,18 @@ contains
    end subroutine prepare
 
    !> Check the tables of studies: each checks its own.
-   subroutine check_studies(deck, scene, catalogue, mistakes)
+   subroutine check_studies(deck, scene, system, catalogue, mistakes)
       type(deck_t), intent(inout) :: deck             !! the deck
       type(scene_t), intent(in) :: scene              !! its scene
+      type(mechanism_t), intent(in) :: system         !! its system, for the drivers
       type(catalogue_t), intent(in) :: catalogue      !! all that it can report
       type(diagnostics_t), intent(inout) :: mistakes  !! errors found
 
       type(fit_plan_t) :: fit
+      type(modes_plan_t) :: modes
       type(scalar_t), allocatable :: sensors(:)
 
+      if (has_section(deck, "modes")) call plan_modes(deck, scene, system, catalogue, modes, mistakes)
       if (has_fit(deck)) call plan_fit(deck, catalogue, fit, sensors, mistakes)
       if (has_tolerances(deck)) call check_tolerances(deck, scene, catalogue, mistakes)
    end subroutine check_studies

@@ -24,6 +24,7 @@ module kind_list
    use requests, only: motion_request_info, reaction_info, request_info
    use shapes, only: shapes_info
    use section_info, only: dynamic_info, kinematic_info, output_info, scene_info, static_info
+   use modes_info, only: modes_section
    use orbit_info, only: orbit_section
    use sensitivity_info, only: sensitivity_section
    use study_info, only: ensemble_info, life_info, statistics_info, sweep_info
@@ -178,7 +179,7 @@ contains
       before_films = before_wears + n_wear_kinds() + 1
       before_worn = before_films + n_film_kinds()
       before_settings = before_worn + n_worn_kinds()
-      allocate (known(before_settings + 24))
+      allocate (known(before_settings + 25))
       known(1) = scene_info()
       known(2) = bodies_info()
       known(3) = points_info()
@@ -276,6 +277,7 @@ contains
       known(before_settings + 22) = fit_study_info()
       known(before_settings + 23) = precision_section()
       known(before_settings + 24) = orbit_section()
+      known(before_settings + 25) = modes_section()
    end subroutine ask_settings
 
 end module kind_list
