@@ -39,9 +39,10 @@ dry    1e-15            2e-6                  NUMBERS
 name   point    fy
 pull   centre   {-100 N}
 [analysis.dynamic]
-end     = 1 s
-overlap = preload
-start   = given
+end       = 1 s
+overlap   = preload
+start     = given
+tolerance = 1e-11
 [output]
 every    = 0.1 s
 channels = bearing.normal_force
