@@ -19,6 +19,8 @@ module read_tolerance
    private
    public :: has_tolerances, read_tolerance_plan
 
+   integer, parameter :: fewest_points = 10   !! of a plan of Sobol' indices
+
 contains
 
    !> Whether a deck has tables of tolerances.
@@ -190,6 +192,7 @@ contains
       associate (requests => study%values(place_of(study, "requests")), sampling => plan%sampling)
          plan%requests = requests%words
          plan%places = requests%places
+         plan%level = number_of(info, study, "level")
          sampling%members = nint(study%number("members"))
          sampling%seed = nint(study%number("seed"))
          sampling%is_hypercube = number_of(info, study, "plan") == 2
@@ -200,6 +203,12 @@ contains
          sampling%points = nint(study%number("points"))
          sampling%resamples = nint(study%number("resamples"))
          sampling%bins = nint(study%number("bins"))
+         if (sampling%members == 1) call mistakes%add(study%values(place_of(study, "members"))%location, &
+                                                      "one member has no standard deviation", "give 2 or more")
+         if (sampling%points > 0 .and. sampling%points < fewest_points) then
+            call mistakes%add(study%values(place_of(study, "points"))%location, "too few points for Sobol' indices", &
+                              "give 10 or more")
+         end if
       end associate
    end subroutine read_sampling
 

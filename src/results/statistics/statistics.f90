@@ -26,6 +26,7 @@ module statistics
    integer, parameter :: n_of_channel = 5  !! numbers of a channel
    !> Their names.
    character(*), parameter :: channel_words(n_of_channel) = [character(4) :: "mean", "rms", "peak", "min", "max"]
+   character(*), parameter :: final_word = ".final"   !! name of the value at the last output time
    integer, parameter :: n_of_joint = 8    !! numbers of a joint with clearance
    !> Their names.
    character(*), parameter :: joint_words(n_of_joint) = [character(18) :: "contact_fraction", "impacts", &
@@ -49,6 +50,7 @@ module statistics
       integer :: bins = 20                       !! of the histograms
       type(text_t), allocatable :: channels(:)   !! (n) words for channels
       type(text_t), allocatable :: spectra(:)    !! (n) words for channels
+      logical :: has_finals = .false.            !! the values at the last output time are numbers too
    end type statistics_plan_t
 
    !> One number of a run.
@@ -309,6 +311,7 @@ contains
       type(number_t), allocatable :: list(:)         !! (any) numbers
 
       type(joint_statistics_t), allocatable :: contacts(:)
+      type(number_t) :: final
       type(text_t), allocatable :: joints(:), wearing(:)
       real(wp) :: angle, depth, span, values(n_of_joint)
       integer :: k
@@ -355,6 +358,13 @@ contains
          associate (first => size(list) - n_of_wear*size(wearing) + 2*(k - 1))
             list(first + 1:first + 2)%value = [sum(worn(k)%volume), depth]
          end associate
+      end do
+      if (.not. self%plan%has_finals .or. self%n_sample == 0) return
+      do k = 1, size(self%channels)
+         final%name = scalar_name(catalogue, self%channels(k))//final_word
+         final%unit = catalogue%groups(self%channels(k)%group)%channel%unit
+         final%value = self%x_last(k)
+         list = [list, final]
       end do
    end function numbers_of_run
 

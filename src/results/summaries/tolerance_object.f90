@@ -3,6 +3,7 @@ module tolerance_object
    use dimension_text, only: unit_text
    use json_text, only: json_object_t
    use kinds, only: i8, wp
+   use tolerance_plan, only: level_dynamic
    use tolerance_results, only: tolerance_study_t, yield_t
    implicit none (type, external)
    private
@@ -52,6 +53,7 @@ contains
                                              reshape([members%lowest(r, :), members%highest(r, :)], [size(low), 2])))
          call one%put_object("yield", object_of_yield(members%yields(r), 3))
       end associate
+      if (allocated(study%splits)) call one%put_object("variance", variances())
       call one%put_object("index", indices())
       call one%put_object("histogram", histogram())
       call one%put_real("expansion_error", study%errors(r))
@@ -134,6 +136,26 @@ contains
          object = members%get()
       end function indices
 
+      !> The variance, between parts and within the motion.
+      function variances() result(object)
+         character(:), allocatable :: object               !! as text
+
+         type(json_object_t) :: members, share
+
+         associate (split => study%splits(r))
+            call members%start(3)
+            call members%put_real("parts", split%parts)
+            call members%put_real("motion", split%motion)
+            call share%start(4)
+            call share%put_real("value", split%share(1))
+            call share%put_real("low", split%share(2))
+            call share%put_real("high", split%share(3))
+            call members%put_object("share_within", share%get())
+            call members%put_integer("members", int(split%n_parts, i8))
+         end associate
+         object = members%get()
+      end function variances
+
       !> The histogram.
       function histogram() result(object)
          character(:), allocatable :: object               !! as text
@@ -166,6 +188,16 @@ contains
       call one%put_integer("open", yield%open)
       text = one%get()
    end function object_of_yield
+
+   !> How members are made.
+   pure function method_of(study) result(word)
+      type(tolerance_study_t), intent(in) :: study     !! the study
+      character(:), allocatable :: word                !! one word
+
+      word = "expansion"
+      if (study%members%is_exact) word = "exact"
+      if (study%plan%level == level_dynamic) word = "runs"
+   end function method_of
 
    !> What is common to all channels.
    function object_of_study(study) result(text)
@@ -207,7 +239,8 @@ contains
       end do
       call one%put_object("joints", pins%get())
       call one%put_object("yield", object_of_yield(study%members%yield, 2))
-      call one%put_text("method", trim(merge("exact    ", "expansion", study%members%is_exact)))
+      call one%put_text("level", trim(merge("dynamic  ", "kinematic", study%plan%level == level_dynamic)))
+      call one%put_text("method", method_of(study))
       call one%put_integer("members", study%members%n)
       call one%put_integer("open", study%members%open)
       call one%put_integer("checked", int(study%n_checked, i8))

@@ -7,7 +7,8 @@ module tolerance_tables
    use tolerance_results, only: tolerance_study_t
    implicit none (type, external)
    private
-   public :: table_of_contributors, table_of_derivatives, table_of_histograms, table_of_requests, table_of_times
+   public :: table_of_contributors, table_of_derivatives, table_of_histograms, table_of_requests, table_of_splits, &
+      table_of_times
 
    integer, parameter :: in_files = in_csv + in_hdf5   !! for programs, but not in JSON, which has objects of its own
 
@@ -65,6 +66,36 @@ contains
       end subroutine put
 
    end function table_of_requests
+
+   !> The variance of each number of a run, between parts and within the motion.
+   function table_of_splits(study) result(table)
+      type(tolerance_study_t), intent(in) :: study   !! the study, its variances split
+      type(result_table_t) :: table                  !! a row for each request
+
+      type(text_t) :: names(size(study%splits))
+      integer :: r
+
+      allocate (table%units(size(names)))
+      do r = 1, size(names)
+         names(r)%s = study%requests(r)%name
+         table%units(r)%s = study%requests(r)%unit
+      end do
+      associate (splits => study%splits)
+         call table%start("splits", "tolerance_splits", size(names), title="Between parts and within the motion")
+         call table%put("request", "1", "number of a run", texts=names, heading="number", formats=in_files)
+         call table%put("parts", "rows", "standard deviation between parts", sqrt(splits%parts), heading="between parts", &
+                        digits=4, formats=in_files)
+         call table%put("motion", "rows", "standard deviation within the motion of a part", sqrt(splits%motion), &
+                        heading="within motion", digits=4, formats=in_files)
+         call table%put("share", "1", "share of the variance that is within the motion; NaN: nothing scatters", &
+                        [(splits(r)%share(1), r=1, size(names))], heading="share within", digits=4, formats=in_files)
+         call table%put("share_low", "1", "lower end of its interval of 95 %", [(splits(r)%share(2), r=1, size(names))], &
+                        heading="95 % from", digits=4, formats=in_files)
+         call table%put("share_high", "1", "upper end of it", [(splits(r)%share(3), r=1, size(names))], heading="to", digits=4, &
+                        formats=in_files)
+         call table%put("members", "1", "parts none of whose runs failed", integers=splits%n_parts, formats=in_files)
+      end associate
+   end function table_of_splits
 
    !> The contributors of each channel at the time that is shown of it, largest first.
    function table_of_contributors(study) result(table)

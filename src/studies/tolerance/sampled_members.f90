@@ -13,7 +13,7 @@ module sampled_members
    use tolerance_results, only: members_t, tolerance_study_t, yield_t
    implicit none (type, external)
    private
-   public :: sample_members
+   public :: begin_members, end_members, sample_members, take_block
 
    real(wp), parameter :: histogram_half = 4.0_wp   !! half the width of a histogram, of a standard deviation [1]
 

@@ -3,6 +3,7 @@ module tolerance_results
    use kinds, only: i8, wp
    use text, only: text_t
    use tolerance_plan, only: tolerance_plan_t
+   use variance_split, only: split_t
    use varied_mechanism, only: instant_t
    implicit none (type, external)
    private
@@ -101,6 +102,7 @@ module tolerance_results
       integer :: n_open = 0                                !! of these, members that cannot be assembled
       real(wp), allocatable :: errors(:)                   !! (requests) maximum error of the expansion in them [any]
       type(text_t), allocatable :: contributors(:)         !! (contributors) names: parameters, then joints
+      type(split_t), allocatable :: splits(:)              !! (requests) between parts and within the motion; unallocated: not split
    end type tolerance_study_t
 
 end module tolerance_results
