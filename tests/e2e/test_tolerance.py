@@ -237,7 +237,9 @@ def test_files(gudgeon):
     ("swing   request.rocker", "swing   request.locker", "unknown channel 'request.locker'"),
     ("98.3deg    98.9deg", "98.3mm     98.9deg", "wrong dimension of a limit"),
     ("98.3deg    98.9deg", "98.9deg    98.3deg", "the upper limit is below the lower one"),
-    ("[analysis.kinematic]", "[analysis.dynamic]", "the deck has no section [analysis.kinematic]"),
+    ("[analysis.kinematic]", "[tolerance.study]\nlevel = kinematic\n[analysis.dynamic]",
+     "the deck has no section [analysis.kinematic]"),
+    ("[analysis.kinematic]", "[analysis.dynamic]", "'request.rocker' is not a number of a run"),
     ("[tolerance.limit]", "[tolerance.joint]\nname   pin\na      disc\n[tolerance.limit]",
      "not a planar revolute joint with clearance"),
     ("[tolerance.limit]", "[tolerance]\nname   fit\nbranch   H7\n[tolerance.limit]", "a fit needs its diameter"),
@@ -247,8 +249,8 @@ def test_refused(gudgeon, old, new, words):
     directory = scratch()
     assert old in FOUR_BAR
     path = written(directory, FOUR_BAR.replace(old, new, 1))
-    for verb in ("tolerance",) if "kinematic" in words else ("tolerance", "check"):
-        run = call(gudgeon, verb, path, expect=2 if "kinematic" in words else 3)
+    for verb in ("tolerance",) if "the deck has no" in words else ("tolerance", "check"):
+        run = call(gudgeon, verb, path, expect=2 if "the deck has no" in words else 3)
         assert words in run.stderr, run.stderr
 
 

@@ -92,9 +92,14 @@ contains
       type(buffer_t) :: lines
 
       call lines%line(plan%title)
-      call lines%line("complete: "//counted(size(study%plan%parameters), "toleranced parameter", "toleranced parameters")//", "// &
-                      counted(size(study%pins), "joint with clearance", "joints with clearance")//", "// &
-                      counted(size(study%derivatives%instants), "output time", "output times"))
+      if (study%plan%level == level_dynamic) then
+         call lines%line("complete: "//counted(size(study%plan%parameters), "toleranced parameter", "toleranced parameters")// &
+                         ", simulated")
+      else
+         call lines%line("complete: "//counted(size(study%plan%parameters), "toleranced parameter", "toleranced parameters")// &
+                         ", "//counted(size(study%pins), "joint with clearance", "joints with clearance")//", "// &
+                         counted(size(study%derivatives%instants), "output time", "output times"))
+      end if
       associate (members => study%members)
          if (study%plan%level == level_dynamic) then
             call lines%line("members    "//to_text(members%n)//" run, "//to_text(members%open)//" failed")
@@ -114,7 +119,9 @@ contains
       if (allocated(study%splits)) call add_table(lines, table_of_splits(study))
       call add_table(lines, table_of_contributors(study))
       call lines%line("")
-      call add_output(lines, plan%directory, "tolerance.h5, tolerance.csv, tolerance_derivatives.csv", pictures, warnings)
+      call add_output(lines, plan%directory, "tolerance.h5, tolerance.csv, tolerance_derivatives.csv"// &
+                      trim(merge(", sweep.csv (runs)", "                  ", study%plan%level == level_dynamic)), pictures, &
+                      warnings)
       text = lines%get()
    end function text_of
 

@@ -108,9 +108,9 @@ contains
                               "give plus_minus or fit")
          else if (half%number < 0.0_wp) then
             call mistakes%add(half%location, "plus_minus must not be negative", "negative")
-         else if (cp%given .and. .not. is_normal) then
+         else if (abs(item%number("cp") - 1.0_wp) > 0.0_wp .and. .not. is_normal) then
             call mistakes%add(cp%location, "cp is given for a distribution without it", "of normal, truncated and lognormal")
-         else if (move%given .and. .not. is_normal) then
+         else if (abs(shift) > 0.0_wp .and. .not. is_normal) then
             call mistakes%add(move%location, "shift is given for a distribution without it", "of normal, truncated and lognormal")
          else if (abs(shift) > half%number) then
             call mistakes%add(move%location, "the shifted mean is outside of the tolerance", "more than plus_minus")
@@ -134,7 +134,8 @@ contains
       real(wp) :: limits(2, 2)
       integer :: n
 
-      associate (fit => item%values(place_of(item, "fit")), diameter => item%values(place_of(item, "diameter")))
+      associate (fit => item%values(place_of(item, "fit")), diameter => item%values(place_of(item, "diameter")), &
+                 half => item%values(place_of(item, "plus_minus")), move => item%values(place_of(item, "shift")))
          call read_fit(fit%text, diameter%number, n, limits, message)
          if (.not. diameter%given) message = "a fit needs its diameter"
          if (message /= "") then
@@ -143,7 +144,7 @@ contains
          else if (.not. same_dimension(parameter%dimension, dim_length)) then
             call mistakes%add(item%location, "parameter '"//item%name//"' is "//dimension_name(parameter%dimension), &
                               "a fit gives a length")
-         else if (any([item%values(place_of(item, "plus_minus"))%given, item%values(place_of(item, "shift"))%given]) .or. &
+         else if (half%given .or. (move%given .and. abs(move%number) > 0.0_wp) .or. &
                   number_of(tolerance_table_info(), item, "distribution") /= shape_truncated) then
             call mistakes%add(fit%location, "a fit gives the limits and a truncated normal distribution", "more than a fit", &
                               "omit plus_minus, shift and distribution")

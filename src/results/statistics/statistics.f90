@@ -26,7 +26,6 @@ module statistics
    integer, parameter :: n_of_channel = 5  !! numbers of a channel
    !> Their names.
    character(*), parameter :: channel_words(n_of_channel) = [character(4) :: "mean", "rms", "peak", "min", "max"]
-   character(*), parameter :: final_word = ".final"   !! name of the value at the last output time
    integer, parameter :: n_of_joint = 8    !! numbers of a joint with clearance
    !> Their names.
    character(*), parameter :: joint_words(n_of_joint) = [character(18) :: "contact_fraction", "impacts", &
@@ -72,7 +71,7 @@ module statistics
       integer, private :: n_sample = 0                    !! output instants in the window so far
       real(wp), private :: t_first = 0.0_wp               !! the first of them [s]
       real(wp), private :: t_last = 0.0_wp                !! the last of them [s]
-      real(wp), allocatable, private :: x_last(:)         !! (n) values at the last instant, SI; NaN: none [any]
+      real(wp), allocatable :: x_last(:)                  !! (n) values at the last instant, SI; NaN: none [any]
       real(wp), allocatable, private :: integral(:)       !! (n) of the values [any]
       real(wp), allocatable, private :: integral_2(:)     !! (n) of their squares [any]
       real(wp), allocatable, private :: gap(:)            !! (n) time without values [s]
@@ -311,7 +310,6 @@ contains
       type(number_t), allocatable :: list(:)         !! (any) numbers
 
       type(joint_statistics_t), allocatable :: contacts(:)
-      type(number_t) :: final
       type(text_t), allocatable :: joints(:), wearing(:)
       real(wp) :: angle, depth, span, values(n_of_joint)
       integer :: k
@@ -358,13 +356,6 @@ contains
          associate (first => size(list) - n_of_wear*size(wearing) + 2*(k - 1))
             list(first + 1:first + 2)%value = [sum(worn(k)%volume), depth]
          end associate
-      end do
-      if (.not. self%plan%has_finals .or. self%n_sample == 0) return
-      do k = 1, size(self%channels)
-         final%name = scalar_name(catalogue, self%channels(k))//final_word
-         final%unit = catalogue%groups(self%channels(k)%group)%channel%unit
-         final%value = self%x_last(k)
-         list = [list, final]
       end do
    end function numbers_of_run
 
