@@ -86,6 +86,8 @@ def test_closed_forms(gudgeon):
     good = sum(min(max((1.8 - v * v / 20 - 0.9) / 0.2, 0), 1) for v in (3.5 + (i + 0.5) / 10000 for i in range(10000))) / 10000
     assert high["yield"]["low"] < good < high["yield"]["high"]
     assert high["yield"]["members"] == 300 and "variance" not in high
+    capability = (1.8 - high["mean"]["sampled"][0]) / (3 * high["sigma"]["sampled"][0])
+    assert high["capability"]["value"] == pytest.approx(capability, rel=1e-9) and final["capability"]["value"] is None
     with h5py.File(out / "tolerance.h5") as file:
         assert file["tolerance_times/sigma"].shape == (4,)
     assert len((out / "sweep.csv").read_text().splitlines()) == 1 + 1 + 6 + 300 + 5 * 60

@@ -7,6 +7,7 @@ module test_tolerance_runs
    use kinds, only: i8, pi, wp
    use normal_distribution, only: normal_quantile
    use run_design, only: new_design, run_design_t
+   use sample_moments, only: capability_of, sample_t
    use simulated_study, only: take_runs
    use tolerance_results, only: tolerance_study_t
    use tolerated, only: new_tolerance, shape_uniform
@@ -30,6 +31,7 @@ contains
       call suite%test("ishigami_runs", test_ishigami)
       call suite%test("ensembles", test_ensembles)
       call suite%test("failed_runs", test_failed)
+      call suite%test("capability", test_capability)
    end subroutine run_test_tolerance_runs
 
    !> By hand: W = 2, B = 32, between (32 - 2)/2 = 15; no scatter within, none at all, negative difference of mean squares.
@@ -279,5 +281,38 @@ contains
       if (allocated(error)) return
       call check_true(error, .not. study%derivatives%has_curvatures, "a warning follows")
    end subroutine test_failed
+
+   !> Cpk by hand, of one limit and of a mean beyond it; its interval holds in 95 +- 2 % of 1000 repeats.
+   subroutine test_capability(error)
+      type(error_t), allocatable, intent(out) :: error  !! what failed
+
+      integer, parameter :: repeats = 1000, n = 200
+      real(wp), parameter :: means(2) = [0.0_wp, 0.7_wp], exact(2) = [1.0_wp, 2.3_wp/3.0_wp]
+      type(sample_t) :: sample
+      real(wp) :: half, held, interval(2), mean, of(3), sigma
+      integer :: k, m, r
+
+      of = capability_of(1.0_wp, 0.5_wp, 100_i8, -2.0_wp, 2.5_wp)
+      call check_close(error, of(1), 1.0_wp, 1.0e-14_wp, "next to the upper limit")
+      if (allocated(error)) return
+      of = capability_of(1.0_wp, 0.5_wp, 100_i8, -huge(1.0_wp), 0.25_wp)
+      call check_close(error, of(1), -0.5_wp, 1.0e-14_wp, "beyond the only limit")
+      if (allocated(error)) return
+      of = capability_of(1.0_wp, 0.0_wp, 100_i8, -2.0_wp, 2.5_wp)
+      call check_true(error, all(ieee_is_nan(of)), "no scatter")
+      if (allocated(error)) return
+      do k = 1, size(means)
+         held = 0.0_wp
+         do r = 1, repeats
+            sample = sample_t(reference=0.1_wp)
+            call sample%add([(means(k) + normal_quantile(uniform_at(r, 7, int(m, i8), k)), m=1, n)])
+            call sample%moments(mean, half, sigma, interval)
+            of = capability_of(mean, sigma, int(n, i8), -3.0_wp, 3.0_wp)
+            if (of(2) <= exact(k) .and. exact(k) <= of(3)) held = held + 1.0_wp/repeats
+         end do
+         call check_close(error, held, 0.95_wp, 0.02_wp, "intervals that hold")
+         if (allocated(error)) return
+      end do
+   end subroutine test_capability
 
 end module test_tolerance_runs

@@ -371,20 +371,18 @@ contains
 
       integer :: k
 
-      if (allocated(self%outcome%numbers)) then
-         member%numbers = self%outcome%numbers
-         member%warnings = self%outcome%warnings
-         associate (n => self%statistics%n_poincare, channels => self%statistics%channels)
-            if (n > 0) then
-               allocate (member%poincare_names(size(channels)))
-               do k = 1, size(channels)
-                  member%poincare_names(k)%s = scalar_name(self%items, channels(k))
-               end do
-               member%poincare_times = self%statistics%poincare_times(:n)
-               member%poincare_samples = self%statistics%poincare_samples(:size(channels), :n)
-            end if
-         end associate
-      end if
+      if (.not. allocated(self%outcome%numbers)) return
+      member%numbers = self%outcome%numbers
+      member%warnings = self%outcome%warnings
+      associate (n => self%statistics%n_poincare, channels => self%statistics%channels)
+         if (n == 0) return
+         allocate (member%poincare_names(size(channels)))
+         do k = 1, size(channels)
+            member%poincare_names(k)%s = scalar_name(self%items, channels(k))
+         end do
+         member%poincare_times = self%statistics%poincare_times(:n)
+         member%poincare_samples = self%statistics%poincare_samples(:size(channels), :n)
+      end associate
    end subroutine result_of_run
 
    !> Append a list to a list.

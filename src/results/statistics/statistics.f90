@@ -338,8 +338,7 @@ contains
       do k = 1, size(joints)
          associate (joint => contacts(k))
             values = not_a_number()
-            if (span > 0.0_wp) values(1:2) = [joint%contact_fraction, real(size(joint%speeds), wp)]
-            if (span > 0.0_wp) values(3) = values(2)/span
+            if (span > 0.0_wp) values(1:3) = [joint%contact_fraction, real(size(joint%speeds), wp), size(joint%speeds)/span]
             if (span > 0.0_wp .and. self%plan%period > 0.0_wp) values(4) = values(2)*self%plan%period/span
             if (size(joint%speeds) > 0) then
                values(5:6) = [sum(joint%speeds)/real(size(joint%speeds), wp), maxval(joint%speeds)]

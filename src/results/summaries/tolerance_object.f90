@@ -52,6 +52,7 @@ contains
          call one%put_object("range", series(members%highest(r, :) - members%lowest(r, :), ["low ", "high"], &
                                              reshape([members%lowest(r, :), members%highest(r, :)], [size(low), 2])))
          call one%put_object("yield", object_of_yield(members%yields(r), 3))
+         call one%put_object("capability", interval(members%capability(:, r), 3))
       end associate
       if (allocated(study%splits)) call one%put_object("variance", variances())
       call one%put_object("index", indices())
@@ -140,17 +141,13 @@ contains
       function variances() result(object)
          character(:), allocatable :: object               !! as text
 
-         type(json_object_t) :: members, share
+         type(json_object_t) :: members
 
          associate (split => study%splits(r))
             call members%start(3)
             call members%put_real("parts", split%parts)
             call members%put_real("motion", split%motion)
-            call share%start(4)
-            call share%put_real("value", split%share(1))
-            call share%put_real("low", split%share(2))
-            call share%put_real("high", split%share(3))
-            call members%put_object("share_within", share%get())
+            call members%put_object("share_within", interval(split%share, 4))
             call members%put_integer("members", int(split%n_parts, i8))
          end associate
          object = members%get()
@@ -170,6 +167,21 @@ contains
       end function histogram
 
    end function object_of_request
+
+   !> A value with its interval.
+   function interval(of, depth) result(text)
+      real(wp), intent(in) :: of(3)                    !! (3) value, ends of its interval of 95 % [any]
+      integer, intent(in) :: depth                     !! objects around it
+      character(:), allocatable :: text                !! the object
+
+      type(json_object_t) :: one
+
+      call one%start(depth)
+      call one%put_real("value", of(1))
+      call one%put_real("low", of(2))
+      call one%put_real("high", of(3))
+      text = one%get()
+   end function interval
 
    !> A yield.
    function object_of_yield(yield, depth) result(text)

@@ -50,6 +50,11 @@ contains
                      formats=in_files)
       call table%put("yield_low", "1", "lower end of its interval of 95 %", yields(:, 2), heading="95 % from", formats=in_files)
       call table%put("yield_high", "1", "upper end of it", yields(:, 3), heading="to", formats=in_files)
+      call table%put("capability", "1", "process capability Cpk: distance of the mean to the next limit, of three standard "// &
+                     "deviations; NaN: no limits", study%members%capability(1, :), heading="Cpk", digits=4, formats=in_files)
+      call table%put("capability_low", "1", "lower end of its interval of 95 %", study%members%capability(2, :), &
+                     formats=in_files)
+      call table%put("capability_high", "1", "upper end of it", study%members%capability(3, :), formats=in_files)
       call table%put("expansion_error", "rows", "maximum error of the expansion in checked members", study%errors, &
                      heading="error", digits=2, formats=in_files)
 

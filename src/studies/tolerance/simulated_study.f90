@@ -12,7 +12,7 @@ module simulated_study
    use member_values, only: block_t
    use run_design, only: run_design_t
    use sample_moments, only: sample_t
-   use sampled_members, only: begin_members, end_members, take_block
+   use sampled_members, only: begin_members, end_members, find_capabilities, take_block
    use tolerance_results, only: tolerance_study_t
    use tolerance_study, only: compare_plans
    use variance_split, only: split_variance
@@ -170,6 +170,7 @@ contains
          call some%take(values(:, cases), is_failed(cases))
          call take_block(some, study, samples)
          call end_members(samples, study%members)
+         call find_capabilities(study)
          study%n_checked = size(good)
          study%n_open = size(cases) - size(good)
          allocate (study%errors(size(values, 1)), source=0.0_wp)

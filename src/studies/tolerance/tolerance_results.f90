@@ -67,6 +67,7 @@ module tolerance_results
       real(wp), allocatable :: highest(:, :)               !! (requests, times) highest value [any]
       type(yield_t), allocatable :: yields(:)              !! (requests) within the limits of each
       type(yield_t) :: yield                               !! within all limits
+      real(wp), allocatable :: capability(:, :)            !! (3, requests) Cpk, ends of its interval; NaN: no limits [1]
       integer, allocatable :: at(:)                        !! (requests) number of the time that is shown, see `shown_time`
       real(wp), allocatable :: edges(:, :)                 !! (0:bins, requests) of the histograms [any]
       integer(i8), allocatable :: counts(:, :)             !! (bins, requests) members between them
