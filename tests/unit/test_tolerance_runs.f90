@@ -1,6 +1,7 @@
 !> The dynamic level of tolerances: split of a variance, and studies of functions in place of runs, against closed forms.
 module test_tolerance_runs
    use check, only: check_close, check_equal, check_true, suite_t
+   use cost_allocation, only: cheapest_widths, sigma_for_yield
    use counter_random, only: uniform_at
    use errors, only: error_t
    use, intrinsic :: ieee_arithmetic, only: ieee_is_nan
@@ -32,6 +33,9 @@ contains
       call suite%test("ensembles", test_ensembles)
       call suite%test("failed_runs", test_failed)
       call suite%test("capability", test_capability)
+      call suite%test("yields_of_normal_numbers", test_sigma)
+      call suite%test("cheapest_widths", test_cheapest)
+      call suite%test("allocation", test_allocation)
    end subroutine run_test_tolerance_runs
 
    !> By hand: W = 2, B = 32, between (32 - 2)/2 = 15; no scatter within, none at all, negative difference of mean squares.
@@ -125,6 +129,7 @@ contains
       study%plan%sampling%resamples = 200
       study%plan%sampling%bins = 10
       study%plan%sampling%seed = 5
+      allocate (study%plan%costs(3), source=0.0_wp)
       call new_design(study, n_start, design)
    end subroutine begin
 
@@ -314,5 +319,70 @@ contains
          if (allocated(error)) return
       end do
    end subroutine test_capability
+
+   !> Standard deviations of yields: 3 on both sides for 0.9973002039367398, one side, between; a mean beyond a limit.
+   subroutine test_sigma(error)
+      type(error_t), allocatable, intent(out) :: error  !! what failed
+
+      call check_close(error, sigma_for_yield(-0.6_wp, 0.6_wp, 0.9973002039367398_wp), 0.2_wp, 1.0e-12_wp, "both sides")
+      if (allocated(error)) return
+      call check_close(error, sigma_for_yield(-huge(1.0_wp), 0.6_wp, 0.9986501019683699_wp), 0.2_wp, 1.0e-12_wp, "one side")
+      if (allocated(error)) return
+      call check_close(error, sigma_for_yield(-0.2_wp, 0.6_wp, 0.9986501019683699_wp - 0.15865525393145707_wp), 0.2_wp, &
+                       1.0e-12_wp, "mean off the middle")
+      if (allocated(error)) return
+      call check_close(error, sigma_for_yield(0.1_wp, 0.6_wp, 0.9_wp), 0.0_wp, 1.0e-15_wp, "mean beyond a limit")
+   end subroutine test_sigma
+
+   !> The solution of Lagrange by hand; no widths nearby with the same variance are cheaper; widths without a cost stay.
+   subroutine test_cheapest(error)
+      type(error_t), allocatable, intent(out) :: error  !! what failed
+
+      real(wp), parameter :: costs(3) = [8.0_wp, 1.0_wp, 0.0_wp], parts(3) = [1.0_wp, 1.0_wp, 0.5_wp]
+      real(wp) :: angle, cost, f(3), other, r
+      integer :: k
+
+      ! w = 2, 1: f = sqrt((5.5 - 0.5)/5) (2, 1)
+      call cheapest_widths(costs, parts, 5.5_wp, f, cost)
+      call check_close(error, f, [2.0_wp, 1.0_wp, 1.0_wp], 1.0e-14_wp, "factors")
+      if (allocated(error)) return
+      call check_close(error, cost, 5.0_wp, 1.0e-14_wp, "cost")
+      if (allocated(error)) return
+      r = sqrt(5.0_wp)
+      do k = 1, 99
+         angle = 0.5_wp*pi*k/100
+         other = costs(1)/(r*cos(angle)) + costs(2)/(r*sin(angle))
+         call check_true(error, other >= cost*(1.0_wp - 1.0e-12_wp), "others cost more")
+         if (allocated(error)) return
+      end do
+      call cheapest_widths(costs, parts, 0.4_wp, f, cost)
+      call check_true(error, all(ieee_is_nan(f)) .and. ieee_is_nan(cost), "what has no cost scatters too much")
+   end subroutine test_cheapest
+
+   !> Of a linear function: with the cheapest widths the root sum square is that of the yield.
+   subroutine test_allocation(error)
+      type(error_t), allocatable, intent(out) :: error  !! what failed
+
+      type(run_design_t) :: design
+      type(tolerance_study_t) :: study
+      logical, allocatable :: is_failed(:, :)
+      real(wp), allocatable :: values(:, :, :)
+
+      call begin(20, 10, 1, 0.1_wp, study, design)
+      study%requests(1)%is_limited = .true.
+      study%requests(1)%lower = 9.7_wp
+      study%requests(1)%upper = 10.3_wp
+      study%plan%costs = [1.0_wp, 1.0_wp, 1.0_wp]
+      study%plan%sampling%target = 0.9973002039367398_wp
+      call evaluate(of_linear, design, 0.0_wp, values, is_failed)
+      call take_runs(study, design, 2.0_wp, values, is_failed)
+      associate (one => study%allocations(1))
+         call check_close(error, one%sigma, 0.1_wp, 1.0e-10_wp, "standard deviation")
+         if (allocated(error)) return
+         call check_close(error, sqrt(sum(study%parts(:, 1, 1)*one%factors**2)), 0.1_wp, 1.0e-10_wp, "root sum square")
+         if (allocated(error)) return
+         call check_close(error, one%factors(1)/one%factors(3), 9.0_wp**(-1.0_wp/3.0_wp), 1.0e-10_wp, "ratio of widths")
+      end associate
+   end subroutine test_allocation
 
 end module test_tolerance_runs

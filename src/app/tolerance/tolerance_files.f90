@@ -17,7 +17,7 @@ module tolerance_files
    use tolerance_plots, only: write_tolerance_plots
    use tolerance_results, only: tolerance_study_t
    use tolerance_tables, only: table_of_contributors, table_of_derivatives, table_of_histograms, table_of_requests, &
-      table_of_splits, table_of_times
+      table_of_splits, table_of_times, table_of_widths
    implicit none (type, external)
    private
    public :: write_study
@@ -42,6 +42,7 @@ contains
       if (.not. allocated(error)) then
          tables = [table_of_requests(study), table_of_contributors(study), table_of_times(study), &
                    table_of_derivatives(study), table_of_histograms(study)]
+         if (allocated(study%allocations)) tables = [tables, table_of_widths(study)]
          if (allocated(study%splits)) tables = [tables, table_of_splits(study)]
          call write_table_file("tolerance.h5", "gudgeon tolerance", plan, status_complete, tables, error)
       end if

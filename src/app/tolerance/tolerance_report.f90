@@ -14,7 +14,7 @@ module tolerance_report
    use tolerance_object, only: put_tolerances
    use tolerance_plan, only: level_dynamic
    use tolerance_results, only: tolerance_study_t
-   use tolerance_tables, only: table_of_contributors, table_of_requests, table_of_splits
+   use tolerance_tables, only: table_of_contributors, table_of_requests, table_of_splits, table_of_widths
    implicit none (type, external)
    private
    public :: note_members, note_runs, report_tolerances
@@ -118,6 +118,7 @@ contains
       call add_table(lines, table_of_requests(study))
       if (allocated(study%splits)) call add_table(lines, table_of_splits(study))
       call add_table(lines, table_of_contributors(study))
+      if (allocated(study%allocations)) call add_table(lines, table_of_widths(study))
       call lines%line("")
       call add_output(lines, plan%directory, "tolerance.h5, tolerance.csv, tolerance_derivatives.csv"// &
                       trim(merge(", sweep.csv (runs)", "                  ", study%plan%level == level_dynamic)), pictures, &

@@ -43,8 +43,9 @@ contains
 
       before = mistakes%count()
       call read_items(deck, tolerance_table_info(), items, mistakes)
-      allocate (plan%parameters(size(items)))
+      allocate (plan%parameters(size(items)), plan%costs(size(items)))
       do k = 1, size(items)
+         plan%costs(k) = items(k)%number("cost")
          if (mistakes%count() == before) call read_parameter(deck, items(k), plan%parameters(k), mistakes)
       end do
       info = tolerance_joint_info()
@@ -204,6 +205,7 @@ contains
          sampling%points = nint(study%number("points"))
          sampling%resamples = nint(study%number("resamples"))
          sampling%bins = nint(study%number("bins"))
+         sampling%target = study%number("target")
          if (sampling%members == 1) call mistakes%add(study%values(place_of(study, "members"))%location, &
                                                       "one member has no standard deviation", "give 2 or more")
          if (sampling%points > 0 .and. sampling%points < fewest_points) then

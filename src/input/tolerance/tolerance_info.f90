@@ -33,6 +33,9 @@ contains
       call add_word(info, "fit", "ISO 286 fit of hole and shaft, as H7/f7: the parameter is their radial clearance; or one " &
                     //"tolerance class, as H7: it is the diameter", default="")
       call add_number(info, "diameter", dim_length, "nominal diameter of the fit", default="0 m", lower=0.0_wp)
+      call add_number(info, "cost", dim_none, "cost of the part with this tolerance, without what is the same with any: it goes " &
+                      //"with one over the width; of some rows: the cheapest tolerances for `target` are stated", default="0", &
+                      lower=0.0_wp)
    end function tolerance_table_info
 
    !> The table of joints with clearance.
@@ -95,6 +98,8 @@ contains
       call add_number(info, "resamples", dim_none, "bootstrap resamples for the intervals of the indices", default="200", &
                       lower=20.0_wp, upper=1.0e4_wp)
       call add_number(info, "bins", dim_none, "bins of the histograms", default="30", lower=2.0_wp, upper=10000.0_wp)
+      call add_number(info, "target", dim_none, "yield that the cheapest tolerances reach, with `cost` in [tolerance]", &
+                      default="0.9973", lower=0.0_wp, upper=1.0_wp, open_lower=.true., open_upper=.true.)
    end function tolerance_study_info
 
 end module tolerance_info

@@ -56,11 +56,13 @@ module tolerance_plan
       integer :: points = 0                     !! of the plan of Sobol' indices; 0: as the level has
       integer :: resamples = 0                  !! for their intervals
       integer :: bins = 0                       !! of histograms
+      real(wp) :: target = 0.0_wp               !! yield that cheapest tolerances must reach [1]
    end type sampling_t
 
    !> All of it.
    type :: tolerance_plan_t
       type(tolerated_t), allocatable :: parameters(:)  !! (parameters) with their tolerances
+      real(wp), allocatable :: costs(:)                !! (parameters) cost of a part that goes with one over the width; 0: none [1]
       type(pin_t), allocatable :: pins(:)              !! (any) rows of [tolerance.joint]
       type(limit_t), allocatable :: limits(:)          !! (any) rows of [tolerance.limit]
       type(text_t), allocatable :: requests(:)         !! (any) channels that are named as requests

@@ -54,6 +54,7 @@ contains
          call one%put_object("yield", object_of_yield(members%yields(r), 3))
          call one%put_object("capability", interval(members%capability(:, r), 3))
       end associate
+      if (allocated(study%allocations)) call one%put_object("cheapest", cheapest())
       if (allocated(study%splits)) call one%put_object("variance", variances())
       call one%put_object("index", indices())
       call one%put_object("histogram", histogram())
@@ -136,6 +137,28 @@ contains
          end do
          object = members%get()
       end function indices
+
+      !> The cheapest tolerances.
+      function cheapest() result(object)
+         character(:), allocatable :: object               !! as text
+
+         type(json_object_t) :: members, widths
+         integer :: k
+
+         call members%start(3)
+         call members%put_real("target", study%plan%sampling%target)
+         call members%put_real("sigma", study%allocations(r)%sigma)
+         call members%put_real("cost_now", sum(study%plan%costs))
+         call members%put_real("cost", study%allocations(r)%cost)
+         call widths%start(4)
+         do k = 1, size(study%plan%parameters)
+            associate (parameter => study%plan%parameters(k))
+               call widths%put_real(parameter%name, 0.5_wp*(parameter%upper - parameter%lower)*study%allocations(r)%factors(k))
+            end associate
+         end do
+         call members%put_object("width", widths%get())
+         object = members%get()
+      end function cheapest
 
       !> The variance, between parts and within the motion.
       function variances() result(object)

@@ -8,7 +8,7 @@ module tolerance_tables
    implicit none (type, external)
    private
    public :: table_of_contributors, table_of_derivatives, table_of_histograms, table_of_requests, table_of_splits, &
-      table_of_times
+      table_of_times, table_of_widths
 
    integer, parameter :: in_files = in_csv + in_hdf5   !! for programs, but not in JSON, which has objects of its own
 
@@ -71,6 +71,44 @@ contains
       end subroutine put
 
    end function table_of_requests
+
+   !> The cheapest tolerances of each request with limits.
+   function table_of_widths(study) result(table)
+      type(tolerance_study_t), intent(in) :: study   !! the study, its tolerances allocated
+      type(result_table_t) :: table                  !! a row for each such request and parameter
+
+      type(text_t), allocatable :: names(:), parameters(:), shown(:)
+      real(wp), allocatable :: x(:, :)
+      integer :: k, m, r
+
+      m = size(study%plan%parameters)*count(study%requests%is_limited)
+      allocate (names(m), parameters(m), shown(m), table%units(m), x(m, 4))
+      m = 0
+      do r = 1, size(study%requests)
+         if (.not. study%requests(r)%is_limited) cycle
+         do k = 1, size(study%plan%parameters)
+            m = m + 1
+            names(m)%s = study%requests(r)%name
+            associate (parameter => study%plan%parameters(k), factor => study%allocations(r)%factors(k))
+               parameters(m)%s = parameter%name
+               table%units(m)%s = unit_text(parameter%dimension)
+               shown(m)%s = names(m)%s//" by "//parameter%name
+               x(m, :) = [0.5_wp*(parameter%upper - parameter%lower), 0.5_wp*(parameter%upper - parameter%lower)*factor, &
+                          study%plan%costs(k), study%plan%costs(k)/factor]
+            end associate
+         end do
+      end do
+      call table%start("widths", "tolerance_widths", m, title="Cheapest tolerances for the target yield")
+      call table%put("row", "1", "request and parameter", texts=shown, heading="parameter", formats=only_shown)
+      call table%put("request", "1", "request", texts=names, formats=in_files)
+      call table%put("parameter", "1", "parameter", texts=parameters, formats=in_files)
+      call table%put("width", "rows", "half the width of its tolerance", x(:, 1), heading="now", digits=4, formats=in_files)
+      call table%put("cheapest", "rows", "half the cheapest width; NaN: none reaches the yield", x(:, 2), heading="cheapest", &
+                     digits=4, formats=in_files)
+      call table%put("cost", "1", "cost now", x(:, 3), heading="cost", digits=4, formats=in_files)
+      call table%put("cheapest_cost", "1", "cost with the cheapest width; NaN: none reaches the yield", x(:, 4), &
+                     heading="cheapest", digits=4, formats=in_files)
+   end function table_of_widths
 
    !> The variance of each number of a run, between parts and within the motion.
    function table_of_splits(study) result(table)

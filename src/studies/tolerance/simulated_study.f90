@@ -6,6 +6,7 @@
 !> H is zero. A member is good if its first run is within the limits: so members are independent. A run that failed is not good.
 !> Source: R. H. Myers, D. C. Montgomery, Response Surface Methodology (2002), chapter 2.
 module simulated_study
+   use cost_allocation, only: allocate_tolerances
    use first_order, only: combine_derivatives
    use kinds, only: i8, not_a_number, wp
    use lapack, only: dgelsd
@@ -50,6 +51,7 @@ contains
       end if
       call combine_derivatives(study)
       call take_members(study, design, values(:, 1, :), is_failed(1, :))
+      call allocate_tolerances(study)
       call take_plans(study, design, values(:, 1, :), is_failed(1, :))
    end subroutine take_runs
 

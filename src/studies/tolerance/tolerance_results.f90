@@ -7,7 +7,7 @@ module tolerance_results
    use varied_mechanism, only: instant_t
    implicit none (type, external)
    private
-   public :: found_pin_t, indices_t, members_t, request_t, sensitivities_t, tolerance_study_t, yield_t
+   public :: allocation_t, found_pin_t, indices_t, members_t, request_t, sensitivities_t, tolerance_study_t, yield_t
 
    !> A channel that is studied.
    type :: request_t
@@ -73,6 +73,13 @@ module tolerance_results
       integer(i8), allocatable :: counts(:, :)             !! (bins, requests) members between them
    end type members_t
 
+   !> The cheapest tolerances for a request.
+   type :: allocation_t
+      real(wp) :: sigma = 0.0_wp               !! standard deviation that has the yield asked for; NaN: no limits [any]
+      real(wp), allocatable :: factors(:)      !! (parameters) widths, of those of the deck; NaN: none reach the yield [1]
+      real(wp) :: cost = 0.0_wp                !! sum of the costs that change; NaN: none reach the yield [1]
+   end type allocation_t
+
    !> Sobol' indices.
    type :: indices_t
       integer :: points = 0                                !! of the plan
@@ -103,6 +110,7 @@ module tolerance_results
       integer :: n_open = 0                                !! of these, members that cannot be assembled
       real(wp), allocatable :: errors(:)                   !! (requests) maximum error of the expansion in them [any]
       type(text_t), allocatable :: contributors(:)         !! (contributors) names: parameters, then joints
+      type(allocation_t), allocatable :: allocations(:)    !! (requests) cheapest tolerances; unallocated: no costs are given
       type(split_t), allocatable :: splits(:)              !! (requests) between parts and within the motion; unallocated: not split
    end type tolerance_study_t
 

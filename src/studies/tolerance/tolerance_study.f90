@@ -1,5 +1,6 @@
 !> A study of tolerances: nominal motion, derivatives, what they give, members, Sobol' indices.
 module tolerance_study
+   use cost_allocation, only: allocate_tolerances
    use errors, only: error_t
    use exact_member, only: assemble_member
    use expansion, only: expanded_value, find_curvatures
@@ -42,6 +43,7 @@ contains
             is_exact = .not. is_accurate(study) .and. study%cpu_checked/study%n_checked*members <= sampling%budget
          end if
          call sample_members(source, study, is_exact)
+         call allocate_tolerances(study)
          call find_study_indices(source, study, is_exact)
       end associate
       call source%show(1.0_wp)
