@@ -239,7 +239,7 @@ def test_cheapest_tolerances(gudgeon):
     of = again["tolerance"]["request.rocker"]
     assert of["yield"]["low"] < 0.99 < of["yield"]["high"]
     assert of["sigma"]["value"][0] == pytest.approx(sigma, rel=1e-6)
-    assert of["cheapest"]["width"]["a"] == pytest.approx(found["width"]["a"], rel=1e-6)
+    assert of["cheapest"]["width"]["a"] == pytest.approx(found["width"]["a"], rel=1e-4)  # the mean to second order moves with the widths
     with h5py.File(out / "tolerance.h5") as file:
         assert file["tolerance_widths/cheapest"].shape == (4,)
 

@@ -54,6 +54,7 @@ module tolerance_results
    end type yield_t
 
    !> What the members give.
+   !> Components: moments, yields and histograms of the same members.
    type :: members_t
       logical :: is_exact = .false.                        !! each was assembled
       integer(i8) :: n = 0                                 !! members
