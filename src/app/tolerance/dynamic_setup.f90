@@ -7,6 +7,7 @@ module dynamic_setup
    use statistics, only: number_t
    use text, only: append_text, text_t
    use tolerance_results, only: request_t, tolerance_study_t
+   use tolerance_setup, only: add_limits
    implicit none (type, external)
    private
    public :: set_up_numbers
@@ -65,11 +66,7 @@ contains
                study%requests = [study%requests, request]
             end if
             if (limit == 0) cycle
-            associate (one => study%requests(m), given => study%plan%limits(limit))
-               one%is_limited = .true.
-               one%lower = max(one%lower, given%lower)
-               one%upper = min(one%upper, given%upper)
-            end associate
+            call add_limits(study%plan%limits(limit), study%requests(m))
          end do
       end subroutine add_word
 

@@ -12,12 +12,12 @@ module tolerance_setup
    use read_tolerance, only: has_tolerances, read_tolerance_plan
    use scene, only: analysis_kinematic
    use text, only: append_text, text_t
-   use tolerance_plan, only: pin_disc
+   use tolerance_plan, only: limit_t, pin_disc
    use tolerance_results, only: found_pin_t, request_t, tolerance_study_t
    use tolerance_words, only: names_of_pins
    implicit none (type, external)
    private
-   public :: read_plan, set_up_study
+   public :: add_limits, read_plan, set_up_study
 
 contains
 
@@ -176,13 +176,19 @@ contains
             m = size(study%requests)
          end if
          if (limit == 0) return
-         associate (one => study%requests(m), given => study%plan%limits(limit))
-            one%is_limited = .true.
-            one%lower = max(one%lower, given%lower)
-            one%upper = min(one%upper, given%upper)
-         end associate
+         call add_limits(study%plan%limits(limit), study%requests(m))
       end subroutine add_scalar
 
    end subroutine find_requests
+
+   !> Add limits to those of a request.
+   pure subroutine add_limits(limit, request)
+      type(limit_t), intent(in) :: limit         !! the limits
+      type(request_t), intent(inout) :: request  !! limited by them too
+
+      request%is_limited = .true.
+      request%lower = max(request%lower, limit%lower)
+      request%upper = min(request%upper, limit%upper)
+   end subroutine add_limits
 
 end module tolerance_setup
