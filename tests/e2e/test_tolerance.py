@@ -212,6 +212,38 @@ def test_fit(gudgeon):
     assert summary["tolerance"]["slider.position.x"]["band"]["value"][0] == pytest.approx(31e-6 / cosine, rel=1e-9)
 
 
+def test_cheapest_tolerances(gudgeon):
+    """Costs per tolerance: the cheapest widths are those of Lagrange, and a study with them has the yield that was asked for."""
+    rows = FOUR_BAR[FOUR_BAR.index("[tolerance]"):FOUR_BAR.index("[tolerance.limit]")]
+    table = "[tolerance]\nname plus_minus distribution cost\n{}\n\n"
+    now = {"a": (0.05, 1), "b": (0.05, 3), "c": (0.05, 2), "d": (0.05, 0)}
+    text = FOUR_BAR.replace("98.3deg    98.9deg", "98.5deg    98.7deg") + "\n[tolerance.study]\ntarget = 0.99\nmembers = 20000\n"
+
+    def table_of(widths):
+        rows_of = (f"{name} {width!r}mm normal {now[name][1] * now[name][0] / width!r}" for name, width in widths.items())
+        return table.format("\n".join(rows_of))
+
+    rocker = study(gudgeon, text.replace(rows, table_of({name: width for name, (width, _) in now.items()})))[0]["tolerance"]["request.rocker"]
+    found = rocker["cheapest"]
+    slopes, sigma = slopes_of(0.02, 0.06, 0.05, 0.07, math.radians(30)), found["sigma"]
+    parts = {name: (slopes[name] * width * 1e-3 / 3) ** 2 for name, (width, _) in now.items()}
+    weights = {name: (now[name][1] / parts[name]) ** (1 / 3) for name in "abc"}
+    scale = math.sqrt((sigma**2 - parts["d"]) / sum(parts[name] * weights[name] ** 2 for name in "abc"))
+    for name in "abc":
+        assert found["width"][name] == pytest.approx(5e-5 * scale * weights[name], rel=1e-8)
+    assert found["width"]["d"] == 5e-5
+    assert found["cost"] == pytest.approx(sum(now[name][1] / (scale * weights[name]) for name in "abc"), rel=1e-8)
+    assert found["cost_now"] == 6 and found["target"] == 0.99
+    widths = {name: 1e3 * width for name, width in found["width"].items()}
+    again, out = study(gudgeon, text.replace(rows, table_of(widths)))
+    of = again["tolerance"]["request.rocker"]
+    assert of["yield"]["low"] < 0.99 < of["yield"]["high"]
+    assert of["sigma"]["value"][0] == pytest.approx(sigma, rel=1e-6)
+    assert of["cheapest"]["width"]["a"] == pytest.approx(found["width"]["a"], rel=1e-4)  # the mean to second order moves with the widths
+    with h5py.File(out / "tolerance.h5") as file:
+        assert file["tolerance_widths/cheapest"].shape == (4,)
+
+
 def test_files(gudgeon):
     """tolerance.h5, both csv, figures; the echo is a deck."""
     text = MOVING.replace("part    = 0 mm", "part    = 0.02 mm")
@@ -237,7 +269,9 @@ def test_files(gudgeon):
     ("swing   request.rocker", "swing   request.locker", "unknown channel 'request.locker'"),
     ("98.3deg    98.9deg", "98.3mm     98.9deg", "wrong dimension of a limit"),
     ("98.3deg    98.9deg", "98.9deg    98.3deg", "the upper limit is below the lower one"),
-    ("[analysis.kinematic]", "[analysis.dynamic]", "the deck has no section [analysis.kinematic]"),
+    ("[analysis.kinematic]", "[tolerance.study]\nlevel = kinematic\n[analysis.dynamic]",
+     "the deck has no section [analysis.kinematic]"),
+    ("[analysis.kinematic]", "[analysis.dynamic]", "'request.rocker' is not a number of a run"),
     ("[tolerance.limit]", "[tolerance.joint]\nname   pin\na      disc\n[tolerance.limit]",
      "not a planar revolute joint with clearance"),
     ("[tolerance.limit]", "[tolerance]\nname   fit\nbranch   H7\n[tolerance.limit]", "a fit needs its diameter"),
@@ -247,8 +281,8 @@ def test_refused(gudgeon, old, new, words):
     directory = scratch()
     assert old in FOUR_BAR
     path = written(directory, FOUR_BAR.replace(old, new, 1))
-    for verb in ("tolerance",) if "kinematic" in words else ("tolerance", "check"):
-        run = call(gudgeon, verb, path, expect=2 if "kinematic" in words else 3)
+    for verb in ("tolerance",) if "the deck has no" in words else ("tolerance", "check"):
+        run = call(gudgeon, verb, path, expect=2 if "the deck has no" in words else 3)
         assert words in run.stderr, run.stderr
 
 

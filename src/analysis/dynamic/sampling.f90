@@ -230,22 +230,19 @@ contains
          if (allocated(error)) return
       end if
       t = next_instant(self, whole%system, plan)
-      t_peak = whole%next_peak()
-      t_field = self%films%next()
-      if (min(t, t_peak, t_field) > reached) return
-      if (t > reached .and. .not. wants_row(recorder, plan, row_peak, reached)) then  ! peaks that nobody reads
-         call whole%drop_peaks(reached)
-         t_peak = whole%next_peak()
-      end if
+      if (min(t, whole%next_peak(), self%films%next()) > reached) return
+      ! peaks that nobody reads
+      if (t > reached .and. .not. wants_row(recorder, plan, row_peak, reached)) call whole%drop_peaks(reached)
       call self%aside%leave()
-      do while (min(t, t_peak, t_field) <= reached)
+      do
+         t_peak = whole%next_peak()
+         t_field = self%films%next()
+         if (min(t, t_peak, t_field) > reached) exit
          if (t_field <= min(t, t_peak)) then
             call take_field(self, whole, t_field, residual, recorder, error)
-            t_field = self%films%next()
          else if (t_peak < t) then
             call put_row(self, whole, plan, t_peak, row_peak, residual, recorder, error, at_peak=.true.)
             call whole%drop_peaks(t_peak)
-            t_peak = whole%next_peak()
          else
             call report(self, whole, t, .false., 0.0_wp, residual, error)
             if (.not. allocated(error)) call recorder%sample(t, self%catalogue, error)

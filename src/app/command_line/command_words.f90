@@ -44,7 +44,7 @@ module command_words
       command_t("modes", "DECK", "eigenvalues, natural frequencies, modes, matrices and Campbell diagram, by [modes]", &
                 "--out --set --ideal --tolerance --method --quiet --json"), &
       command_t("tolerance", "DECK", "tolerances and clearances by [tolerance]: derivatives, worst case, scatter, yield", &
-                "--out --set --tolerance --quiet --json"), &
+                "--out --set --tolerance --method --quiet --json --jobs --shard"), &
       command_t("fit", "DECK DATA", "parameters from measured data by [fit], with 95 % intervals", &
                 "--out --set --time --tolerance --method --write --quiet --json"), &
       command_t("precision", "DECK", "compare methods and tolerances: accuracy against cost", &

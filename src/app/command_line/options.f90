@@ -30,6 +30,7 @@ module options
       integer :: n_shards = 1                        !! the N
       logical :: is_member = .false.                 !! one run of a sweep, whose cases need not be known
       logical :: has_known_words = .false.           !! of a deck whose words for channels and figures were checked
+      type(text_t), allocatable :: observed(:)       !! (n) channels whose numbers a study needs; unallocated: as the deck says
    end type runs_options_t
 
    !> Help in other forms.

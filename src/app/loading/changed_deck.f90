@@ -4,10 +4,10 @@ module changed_deck
    use kinds, only: wp
    use load, only: load_case, load_deck, loaded_t
    use options, only: options_t
-   use text, only: append_text, exact_text, starts_with, text_t
+   use text, only: append_text, exact_text, text_t
    implicit none (type, external)
    private
-   public :: change_parameter, changed_deck_t
+   public :: change_parameter, changed_deck_t, forget_parameter
 
    !> The deck.
    type :: changed_deck_t
@@ -46,15 +46,25 @@ contains
       real(wp), intent(in) :: value               !! its value, SI [any]
       character(*), intent(in) :: unit            !! SI
 
+      call forget_parameter(options, name)
+      call append_text(options%change%overrides, name//"="//exact_text(value)//" "//unit)
+   end subroutine change_parameter
+
+   !> Leave a parameter as the deck has it, whatever the command line gives it.
+   subroutine forget_parameter(options, name)
+      type(options_t), intent(inout) :: options   !! the command line
+      character(*), intent(in) :: name            !! of the parameter
+
       type(text_t), allocatable :: others(:)
       integer :: k
 
       allocate (others(0))
       do k = 1, size(options%change%overrides)
-         if (.not. starts_with(options%change%overrides(k)%s, name//"=")) others = [others, options%change%overrides(k)]
+         associate (override => options%change%overrides(k))
+            if (trim(adjustl(override%s(:index(override%s, "=") - 1))) /= name) others = [others, override]
+         end associate
       end do
       call move_alloc(others, options%change%overrides)
-      call append_text(options%change%overrides, name//"="//exact_text(value)//" "//unit)
-   end subroutine change_parameter
+   end subroutine forget_parameter
 
 end module changed_deck

@@ -7,13 +7,16 @@ module tolerance_words
    use diagnostics, only: diagnostics_t
    use dimension_text, only: dimension_name
    use item, only: location_t
-   use kind_info, only: dim_t, same_dimension
+   use kind_info, only: dim_none, dim_t, same_dimension
    use read_tolerance, only: read_tolerance_plan
    use run_limits, only: dimension_of
-   use scene, only: scene_t
+   use run_numbers, only: find_run_numbers
+   use scene, only: analysis_kinematic, scene_t
    use spelling, only: nearest_word
+   use statistics, only: number_t
    use text, only: append_text, join, text_t
-   use tolerance_plan, only: tolerance_plan_t
+   use tolerance_plan, only: level_dynamic, tolerance_plan_t
+   use units, only: parse_unit, unit_t
    implicit none (type, external)
    private
    public :: check_tolerances, find_numbers, names_of_pins
@@ -35,6 +38,11 @@ contains
 
       call read_tolerance_plan(deck, plan, mistakes)
       if (mistakes%count() > 0) return
+      call plan%settle(scene%settings%has_analysis(analysis_kinematic))
+      if (plan%level == level_dynamic) then
+         call check_numbers(plan, scene, catalogue, mistakes)
+         return
+      end if
       names = names_of_pins(scene)
       do k = 1, size(plan%pins)
          if (any_of(plan%pins(k)%joint, names)) cycle
@@ -54,6 +62,51 @@ contains
          end associate
       end do
    end subroutine check_tolerances
+
+   !> Words of the dynamic level: requests and limits are numbers of a run, joints are simulated.
+   subroutine check_numbers(plan, scene, catalogue, mistakes)
+      type(tolerance_plan_t), intent(in) :: plan      !! the plan
+      type(scene_t), intent(in) :: scene              !! the scene
+      type(catalogue_t), intent(in) :: catalogue      !! all that it can report
+      type(diagnostics_t), intent(inout) :: mistakes  !! errors found
+
+      type(number_t), allocatable :: numbers(:)
+      character(:), allocatable :: channel, hint, message
+      integer :: k
+
+      do k = 1, size(plan%pins)
+         call mistakes%add(plan%pins(k)%location, "a pin has a position at the kinematic level only", "simulated", &
+                           "omit [tolerance.joint], or give level = kinematic in [tolerance.study]")
+      end do
+      do k = 1, size(plan%requests)
+         call find_run_numbers(plan%requests(k)%s, scene, catalogue, .false., numbers, channel, message, hint)
+         if (message /= "") call mistakes%add(plan%places(k), message, "unknown here", hint)
+      end do
+      do k = 1, size(plan%limits)
+         associate (limit => plan%limits(k))
+            call find_run_numbers(limit%channel, scene, catalogue, .true., numbers, channel, message, hint)
+            if (message /= "") then
+               call mistakes%add(limit%location, message, "unknown here", hint)
+            else
+               call check_limit(dimension_in(numbers(1)%unit), limit%dimensions, limit%has, limit%at, mistakes)
+            end if
+         end associate
+      end do
+   end subroutine check_numbers
+
+   !> Dimension of a unit.
+   type(dim_t) function dimension_in(symbol) result(dimension)
+      character(*), intent(in) :: symbol   !! the unit, `1` if none
+
+      type(unit_t) :: unit
+      character(:), allocatable :: message
+      integer :: first, last
+
+      dimension = dim_none
+      if (symbol == "1") return
+      call parse_unit(symbol, unit, message, first, last)
+      dimension = unit%dimension
+   end function dimension_in
 
    !> Limits must have the dimension of their channel.
    subroutine check_limit(dimension, dimensions, has, at, mistakes)

@@ -19,7 +19,7 @@ module word_checks
    use text, only: append_text, join, real_text, text_t
    implicit none (type, external)
    private
-   public :: check_words, read_figures
+   public :: check_words, joints_that_wear, read_figures
 
 contains
 

@@ -58,7 +58,7 @@ contains
       plan%n_freedom = size(loaded%system%linkage%mass) - loaded%system%linkage%rows%n
       plan%mass = minval(loaded%system%linkage%mass(1, :))  ! the first rate of a body is of its place
       if (allocated(assembly%dependent)) plan%n_freedom = plan%n_freedom + size(assembly%dependent)
-      call plan_statistics(loaded, plan%statistics)
+      call plan_statistics(options, loaded, plan%statistics)
       call find_known_words(loaded, plan, figures)
       if (assembly%rate_changed > negligible*(1.0_wp + maxval(abs(loaded%scene%bodies%v)))) then
          call append_text(plan%warnings, "inconsistent initial velocity: that of body '"// &
@@ -154,19 +154,24 @@ contains
    end subroutine tell_origin
 
    !> What the deck asks of the statistics of a motion.
-   subroutine plan_statistics(loaded, plan)
+   subroutine plan_statistics(options, loaded, plan)
+      type(options_t), intent(in) :: options          !! the command line, or what a study makes of it
       type(loaded_t), intent(in) :: loaded            !! the deck
       type(statistics_plan_t), intent(out) :: plan    !! what is asked for
 
-      plan%is_wanted = loaded%scene%settings%statistics%is_present .and. loaded%scene%analysis == analysis_dynamic
-      if (.not. plan%is_wanted) return
-      plan%after = loaded%plan%after
-      plan%end = loaded%plan%end
-      plan%period = loaded%plan%period
       associate (settings => loaded%scene%settings%statistics)
+         plan%has_finals = allocated(options%runs%observed)
+         plan%is_wanted = (settings%is_present .or. plan%has_finals) .and. loaded%scene%analysis == analysis_dynamic
+         if (.not. plan%is_wanted) return
+         plan%after = loaded%plan%after
+         plan%end = loaded%plan%end
+         plan%period = loaded%plan%period
+         if (plan%has_finals) plan%channels = options%runs%observed
+         if (.not. settings%is_present) return
+         plan%bins = nint(settings%number("bins"))
+         if (plan%has_finals) return
          plan%channels = settings%values(place_of(settings, "channels"))%words
          plan%spectra = settings%values(place_of(settings, "spectra"))%words
-         plan%bins = nint(settings%number("bins"))
       end associate
    end subroutine plan_statistics
 

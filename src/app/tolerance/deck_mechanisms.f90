@@ -1,7 +1,7 @@
 !> Mechanisms of a deck whose parameters deviate from their nominal values: only what the parameters stand in is read again.
 module deck_mechanisms
    use build_system, only: new_system
-   use changed_deck, only: changed_deck_t
+   use changed_deck, only: changed_deck_t, forget_parameter
    use columns, only: column_of
    use dimension_text, only: unit_text
    use errors, only: error_t
@@ -45,12 +45,8 @@ contains
       self%deck%options%verb = "run"
       self%deck%options%is_quiet = .true.
       self%deck%options%is_json = .false.
-      deallocate (self%deck%options%change%overrides)
-      allocate (self%deck%options%change%overrides(0))
-      do k = 1, size(options%change%overrides)
-         if (.not. sets_one(options%change%overrides(k)%s)) then
-            call append_text(self%deck%options%change%overrides, options%change%overrides(k)%s)
-         end if
+      do k = 1, size(study%plan%parameters)   ! what the command line gives them is nominal
+         call forget_parameter(self%deck%options, study%plan%parameters(k)%name)
       end do
       self%parameters = study%plan%parameters
       allocate (self%pins(size(study%pins)), self%requested(3, size(study%requests)))
@@ -60,21 +56,6 @@ contains
       do k = 1, size(study%requests)
          self%requested(:, k) = study%requests(k)%at
       end do
-
-   contains
-
-      !> Whether an override sets a toleranced parameter: its value is the nominal one then.
-      pure logical function sets_one(override)
-         character(*), intent(in) :: override   !! `NAME=VALUE`
-
-         integer :: i
-
-         sets_one = .false.
-         do i = 1, size(study%plan%parameters)
-            sets_one = sets_one .or. trim(adjustl(override(:index(override, "=") - 1))) == study%plan%parameters(i)%name
-         end do
-      end function sets_one
-
    end subroutine deck_begin
 
    !> The mechanism whose parameters deviate from their nominal values.

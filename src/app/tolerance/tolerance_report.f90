@@ -12,11 +12,12 @@ module tolerance_report
    use text_buffer, only: buffer_t
    use text_of_table, only: add_table
    use tolerance_object, only: put_tolerances
+   use tolerance_plan, only: level_dynamic
    use tolerance_results, only: tolerance_study_t
-   use tolerance_tables, only: table_of_contributors, table_of_requests
+   use tolerance_tables, only: table_of_contributors, table_of_requests, table_of_splits, table_of_widths
    implicit none (type, external)
    private
-   public :: note_members, report_tolerances
+   public :: note_members, note_runs, report_tolerances
 
 contains
 
@@ -44,6 +45,24 @@ contains
                           "method = exact, or a larger budget")
       end if
    end subroutine note_members
+
+   !> What a careful reader should know of members that were run.
+   subroutine note_runs(study, warnings)
+      type(tolerance_study_t), intent(in) :: study              !! the study
+      type(text_t), allocatable, intent(inout) :: warnings(:)   !! (any) grown
+
+      if (.not. study%derivatives%has_curvatures) then
+         call append_text(warnings, "too few members or too many failed runs for some derivatives: they are stated as zero")
+      end if
+      if (study%members%open > 0) then
+         call append_text(warnings, to_text(study%members%open)//" of "//to_text(study%members%n)//" members failed: see "// &
+                          "sweep.csv; the yield counts them as failed parts")
+      end if
+      if (study%indices%open > 0) then
+         call append_text(warnings, to_text(study%indices%open)//" of "//to_text(study%plan%sampling%points)//" points of the "// &
+                          "indices have members that failed: the indices are those of the others")
+      end if
+   end subroutine note_runs
 
    !> Write and show the summaries.
    subroutine report_tolerances(options, loaded, plan, study, pictures, warnings, error)
@@ -73,13 +92,22 @@ contains
       type(buffer_t) :: lines
 
       call lines%line(plan%title)
-      call lines%line("complete: "//counted(size(study%plan%parameters), "toleranced parameter", "toleranced parameters")//", "// &
-                      counted(size(study%pins), "joint with clearance", "joints with clearance")//", "// &
-                      counted(size(study%derivatives%instants), "output time", "output times"))
+      if (study%plan%level == level_dynamic) then
+         call lines%line("complete: "//counted(size(study%plan%parameters), "toleranced parameter", "toleranced parameters")// &
+                         ", simulated")
+      else
+         call lines%line("complete: "//counted(size(study%plan%parameters), "toleranced parameter", "toleranced parameters")// &
+                         ", "//counted(size(study%pins), "joint with clearance", "joints with clearance")//", "// &
+                         counted(size(study%derivatives%instants), "output time", "output times"))
+      end if
       associate (members => study%members)
-         call lines%line("members    "//to_text(members%n)//trim(merge(" assembled       ", " by the expansion", &
-                         members%is_exact))//", "//to_text(members%open)//" cannot be assembled; "// &
-                         to_text(study%n_checked)//" checked")
+         if (study%plan%level == level_dynamic) then
+            call lines%line("members    "//to_text(members%n)//" run, "//to_text(members%open)//" failed")
+         else
+            call lines%line("members    "//to_text(members%n)//trim(merge(" assembled       ", " by the expansion", &
+                            members%is_exact))//", "//to_text(members%open)//" cannot be assembled; "// &
+                            to_text(study%n_checked)//" checked")
+         end if
          if (any(study%requests%is_limited)) then
             associate (yield => members%yield)
                call lines%line("yield      "//real_text(real(yield%good, wp)/real(yield%n, wp), 6)//", 95 %: "// &
@@ -88,9 +116,13 @@ contains
          end if
       end associate
       call add_table(lines, table_of_requests(study))
+      if (allocated(study%splits)) call add_table(lines, table_of_splits(study))
       call add_table(lines, table_of_contributors(study))
+      if (allocated(study%allocations)) call add_table(lines, table_of_widths(study))
       call lines%line("")
-      call add_output(lines, plan%directory, "tolerance.h5, tolerance.csv, tolerance_derivatives.csv", pictures, warnings)
+      call add_output(lines, plan%directory, "tolerance.h5, tolerance.csv, tolerance_derivatives.csv"// &
+                      trim(merge(", sweep.csv (runs)", "                  ", study%plan%level == level_dynamic)), pictures, &
+                      warnings)
       text = lines%get()
    end function text_of
 

@@ -10,25 +10,24 @@ module tolerance_setup
    use load, only: loaded_t
    use mechanism_catalogue, only: build_catalogue
    use read_tolerance, only: has_tolerances, read_tolerance_plan
+   use scene, only: analysis_kinematic
    use text, only: append_text, text_t
-   use tolerance_plan, only: pin_disc
+   use tolerance_plan, only: limit_t, pin_disc
    use tolerance_results, only: found_pin_t, request_t, tolerance_study_t
    use tolerance_words, only: names_of_pins
    implicit none (type, external)
    private
-   public :: set_up_study
+   public :: add_limits, read_plan, set_up_study
 
 contains
 
-   !> Set up a study. The tables were checked when the deck was loaded.
-   subroutine set_up_study(loaded, study, warnings, error)
-      type(loaded_t), intent(inout) :: loaded                   !! the deck, of a kinematic analysis
-      type(tolerance_study_t), intent(out) :: study             !! what is asked
-      type(text_t), allocatable, intent(inout) :: warnings(:)   !! (any) grown
-      type(error_t), allocatable, intent(out) :: error          !! nothing is asked
+   !> Read and settle the plan of a deck. The tables were checked when the deck was loaded.
+   subroutine read_plan(loaded, study, error)
+      type(loaded_t), intent(inout) :: loaded             !! the deck
+      type(tolerance_study_t), intent(out) :: study       !! its plan is set
+      type(error_t), allocatable, intent(out) :: error    !! the deck has no tables of tolerances
 
       type(diagnostics_t) :: ignored  ! there are no errors: the tables were checked
-      integer :: k
 
       if (.not. has_tolerances(loaded%deck)) then
          call set_error(error, exit_usage, "the deck has no table [tolerance]"//new_line("a")// &
@@ -36,6 +35,18 @@ contains
          return
       end if
       call read_tolerance_plan(loaded%deck, study%plan, ignored)
+      call study%plan%settle(loaded%scene%settings%has_analysis(analysis_kinematic))
+   end subroutine read_plan
+
+   !> Set up a study of the kinematic level, whose plan is settled.
+   subroutine set_up_study(loaded, study, warnings, error)
+      type(loaded_t), intent(inout) :: loaded                   !! the deck, of a kinematic analysis
+      type(tolerance_study_t), intent(inout) :: study           !! what is asked
+      type(text_t), allocatable, intent(inout) :: warnings(:)   !! (any) grown
+      type(error_t), allocatable, intent(out) :: error          !! nothing is asked
+
+      integer :: k
+
       call find_pins(loaded, study, warnings)
       call find_requests(loaded, study)
       allocate (study%contributors(0))
@@ -165,13 +176,19 @@ contains
             m = size(study%requests)
          end if
          if (limit == 0) return
-         associate (one => study%requests(m), given => study%plan%limits(limit))
-            one%is_limited = .true.
-            one%lower = max(one%lower, given%lower)
-            one%upper = min(one%upper, given%upper)
-         end associate
+         call add_limits(study%plan%limits(limit), study%requests(m))
       end subroutine add_scalar
 
    end subroutine find_requests
+
+   !> Add limits to those of a request.
+   pure subroutine add_limits(limit, request)
+      type(limit_t), intent(in) :: limit         !! the limits
+      type(request_t), intent(inout) :: request  !! limited by them too
+
+      request%is_limited = .true.
+      request%lower = max(request%lower, limit%lower)
+      request%upper = min(request%upper, limit%upper)
+   end subroutine add_limits
 
 end module tolerance_setup

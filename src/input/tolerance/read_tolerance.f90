@@ -19,6 +19,8 @@ module read_tolerance
    private
    public :: has_tolerances, read_tolerance_plan
 
+   integer, parameter :: fewest_points = 10   !! of a plan of Sobol' indices
+
 contains
 
    !> Whether a deck has tables of tolerances.
@@ -41,8 +43,9 @@ contains
 
       before = mistakes%count()
       call read_items(deck, tolerance_table_info(), items, mistakes)
-      allocate (plan%parameters(size(items)))
+      allocate (plan%parameters(size(items)), plan%costs(size(items)))
       do k = 1, size(items)
+         plan%costs(k) = items(k)%number("cost")
          if (mistakes%count() == before) call read_parameter(deck, items(k), plan%parameters(k), mistakes)
       end do
       info = tolerance_joint_info()
@@ -106,9 +109,9 @@ contains
                               "give plus_minus or fit")
          else if (half%number < 0.0_wp) then
             call mistakes%add(half%location, "plus_minus must not be negative", "negative")
-         else if (cp%given .and. .not. is_normal) then
+         else if (abs(item%number("cp") - 1.0_wp) > 0.0_wp .and. .not. is_normal) then
             call mistakes%add(cp%location, "cp is given for a distribution without it", "of normal, truncated and lognormal")
-         else if (move%given .and. .not. is_normal) then
+         else if (abs(shift) > 0.0_wp .and. .not. is_normal) then
             call mistakes%add(move%location, "shift is given for a distribution without it", "of normal, truncated and lognormal")
          else if (abs(shift) > half%number) then
             call mistakes%add(move%location, "the shifted mean is outside of the tolerance", "more than plus_minus")
@@ -132,7 +135,8 @@ contains
       real(wp) :: limits(2, 2)
       integer :: n
 
-      associate (fit => item%values(place_of(item, "fit")), diameter => item%values(place_of(item, "diameter")))
+      associate (fit => item%values(place_of(item, "fit")), diameter => item%values(place_of(item, "diameter")), &
+                 half => item%values(place_of(item, "plus_minus")), move => item%values(place_of(item, "shift")))
          call read_fit(fit%text, diameter%number, n, limits, message)
          if (.not. diameter%given) message = "a fit needs its diameter"
          if (message /= "") then
@@ -141,7 +145,7 @@ contains
          else if (.not. same_dimension(parameter%dimension, dim_length)) then
             call mistakes%add(item%location, "parameter '"//item%name//"' is "//dimension_name(parameter%dimension), &
                               "a fit gives a length")
-         else if (any([item%values(place_of(item, "plus_minus"))%given, item%values(place_of(item, "shift"))%given]) .or. &
+         else if (half%given .or. (move%given .and. abs(move%number) > 0.0_wp) .or. &
                   number_of(tolerance_table_info(), item, "distribution") /= shape_truncated) then
             call mistakes%add(fit%location, "a fit gives the limits and a truncated normal distribution", "more than a fit", &
                               "omit plus_minus, shift and distribution")
@@ -190,6 +194,7 @@ contains
       associate (requests => study%values(place_of(study, "requests")), sampling => plan%sampling)
          plan%requests = requests%words
          plan%places = requests%places
+         plan%level = number_of(info, study, "level")
          sampling%members = nint(study%number("members"))
          sampling%seed = nint(study%number("seed"))
          sampling%is_hypercube = number_of(info, study, "plan") == 2
@@ -200,6 +205,13 @@ contains
          sampling%points = nint(study%number("points"))
          sampling%resamples = nint(study%number("resamples"))
          sampling%bins = nint(study%number("bins"))
+         sampling%target = study%number("target")
+         if (sampling%members == 1) call mistakes%add(study%values(place_of(study, "members"))%location, &
+                                                      "one member has no standard deviation", "give 2 or more")
+         if (sampling%points > 0 .and. sampling%points < fewest_points) then
+            call mistakes%add(study%values(place_of(study, "points"))%location, "too few points for Sobol' indices", &
+                              "give 10 or more")
+         end if
       end associate
    end subroutine read_sampling
 

@@ -33,6 +33,9 @@ contains
       call add_word(info, "fit", "ISO 286 fit of hole and shaft, as H7/f7: the parameter is their radial clearance; or one " &
                     //"tolerance class, as H7: it is the diameter", default="")
       call add_number(info, "diameter", dim_length, "nominal diameter of the fit", default="0 m", lower=0.0_wp)
+      call add_number(info, "cost", dim_none, "cost of the part with this tolerance, without what is the same with any: it goes " &
+                      //"with one over the width; of some rows: the cheapest tolerances for `target` are stated", default="0", &
+                      lower=0.0_wp)
    end function tolerance_table_info
 
    !> The table of joints with clearance.
@@ -55,9 +58,10 @@ contains
       info%name = "tolerance.limit"
       info%help = "limits of a channel, for the yield of `gudgeon tolerance`"
       info%source = ""
-      call add_word(info, "channel", "one number of a channel, as slider.position.x or request.NAME")
-      call add_any_number(info, "lower", "lower limit at all output times; default: none", default="")
-      call add_any_number(info, "upper", "upper limit at all output times; default: none", default="")
+      call add_word(info, "channel", "one number of a channel, as slider.position.x or request.NAME; of the dynamic level " &
+                    //"a number of a run, as slider.acceleration.x.rms")
+      call add_any_number(info, "lower", "lower limit, of the kinematic level at all output times; default: none", default="")
+      call add_any_number(info, "upper", "upper limit, likewise; default: none", default="")
    end function tolerance_limit_info
 
    !> The section of settings.
@@ -69,9 +73,14 @@ contains
       info%source = "A. Saltelli et al. (2010), Comput. Phys. Commun. 181, 259-270; M. J. W. Jansen (1999), Comput. Phys. " &
                     //"Commun. 117, 35-43; J. K. Salmon et al. (2011), SC11 (random numbers)"
       info%is_table = .false.
-      call add_words(info, "requests", "channels that are studied; default: those of the tables of requests and of " &
-                     //"[tolerance.limit]", default="")
-      call add_number(info, "members", dim_none, "mechanisms that are sampled", default="10000", lower=2.0_wp, upper=1.0e8_wp)
+      call add_word(info, "level", "kinematic: positions by [analysis.kinematic]; dynamic: each member is a run of " &
+                    //"[analysis.dynamic]; auto: kinematic if the deck has [analysis.kinematic]", default="auto", &
+                    choices="auto kinematic dynamic")
+      call add_words(info, "requests", "what is studied, with [tolerance.limit]; kinematic: channels, default those of the " &
+                     //"tables of requests; dynamic: numbers of a run, as CHANNEL.rms, or .mean .peak .min .max .final, " &
+                     //"or JOINT.impacts", default="")
+      call add_number(info, "members", dim_none, "mechanisms that are sampled; 0: 10000, of the dynamic level 200", default="0", &
+                      lower=0.0_wp, upper=1.0e8_wp)
       call add_word(info, "plan", "sampling: independent members, or a Latin hypercube, whose means scatter less than their " &
                     //"intervals state", default="monte_carlo", choices="monte_carlo latin_hypercube")
       call add_number(info, "seed", dim_none, "seed of the random numbers, which depend only on it and the number of the member", &
@@ -85,10 +94,12 @@ contains
       call add_number(info, "checked", dim_none, "members that are assembled to find the error of the expansion", default="100", &
                       lower=1.0_wp, upper=1.0e6_wp)
       call add_number(info, "points", dim_none, "points of the plan of Sobol' indices; it has points*(contributors + 2) " &
-                      //"members", default="1000", lower=10.0_wp, upper=1.0e5_wp)
+                      //"members; 0: 1000, of the dynamic level 50", default="0", lower=0.0_wp, upper=1.0e5_wp)
       call add_number(info, "resamples", dim_none, "bootstrap resamples for the intervals of the indices", default="200", &
                       lower=20.0_wp, upper=1.0e4_wp)
       call add_number(info, "bins", dim_none, "bins of the histograms", default="30", lower=2.0_wp, upper=10000.0_wp)
+      call add_number(info, "target", dim_none, "yield that the cheapest tolerances reach, with `cost` in [tolerance]", &
+                      default="0.9973", lower=0.0_wp, upper=1.0_wp, open_lower=.true., open_upper=.true.)
    end function tolerance_study_info
 
 end module tolerance_info

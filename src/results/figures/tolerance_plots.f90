@@ -16,6 +16,7 @@ module tolerance_plots
    use text_file, only: write_file
    use text_table, only: number_row
    use tolerance_results, only: tolerance_study_t
+   use variance_plot, only: variance_rows, variance_script
    implicit none (type, external)
    private
    public :: write_tolerance_plots
@@ -39,6 +40,9 @@ contains
       if (.not. any(study%sigma > 0.0_wp)) return
       call add("tolerance_contributors", contributor_rows(study), contributor_script(study, title))
       if (.not. allocated(error)) call add("tolerance_histogram", histogram_rows(study), histogram_script(study, title))
+      if (allocated(study%splits) .and. .not. allocated(error)) then
+         call add("tolerance_variance", variance_rows(study), variance_script(study, title))
+      end if
       if (size(study%derivatives%instants) < fewest_times .or. allocated(error)) return
       call add("tolerance_band", band_rows(study), band_script(study, title))
 
@@ -125,6 +129,10 @@ contains
          file = "'tolerance_contributors.dat' index "//to_text(r - 1)
          call lines%line("set title "//quoted(study%requests(r)%name//" at t = "// &
                                               real_text(study%derivatives%instants(study%members%at(r))%t, 5)//" s"))
+         if (study%indices%points == 0) then
+            call lines%line("plot "//file//" using 2:xtic(1) linecolor rgb '"//colours(1)//"' title 'first order'")
+            cycle
+         end if
          call lines%line("plot "//file//" using 2:xtic(1) linecolor rgb '"//colours(1)//"' title 'first order', \")
          call lines%line("     "//file//" using 3 linecolor rgb '"//colours(2)//"' title 'Sobol'' index', \")
          call lines%line("     "//file//" using 4 linecolor rgb '"//colours(3)//"' title 'total index'")

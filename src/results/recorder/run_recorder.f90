@@ -14,6 +14,7 @@ module run_recorder
    use drawn_rows, only: drawn_rows_t
    use figure_needs, only: missing_films
    use figure_words, only: figure_t
+   use final_values, only: add_finals
    use film_fields, only: append_field, film_field_t
    use frames, only: frame_keeper_t
    use hot_films, only: films_too_hot
@@ -297,6 +298,7 @@ contains
       call self%keeper%finish()
       associate (outcome => self%outcome, full => self%summary)
          outcome%numbers = self%statistics%numbers(self%items, self%events, full%worn, full%time_end)
+         call add_finals(self%statistics, self%items, outcome%numbers)
          call self%extremes%find_noise(self%items, self%plan%mass)
          do k = 1, size(outcome%numbers)
             outcome%numbers(k)%noise = self%extremes%noise_in(outcome%numbers(k)%unit)
@@ -369,20 +371,18 @@ contains
 
       integer :: k
 
-      if (allocated(self%outcome%numbers)) then
-         member%numbers = self%outcome%numbers
-         member%warnings = self%outcome%warnings
-         associate (n => self%statistics%n_poincare, channels => self%statistics%channels)
-            if (n > 0) then
-               allocate (member%poincare_names(size(channels)))
-               do k = 1, size(channels)
-                  member%poincare_names(k)%s = scalar_name(self%items, channels(k))
-               end do
-               member%poincare_times = self%statistics%poincare_times(:n)
-               member%poincare_samples = self%statistics%poincare_samples(:size(channels), :n)
-            end if
-         end associate
-      end if
+      if (.not. allocated(self%outcome%numbers)) return
+      member%numbers = self%outcome%numbers
+      member%warnings = self%outcome%warnings
+      associate (n => self%statistics%n_poincare, channels => self%statistics%channels)
+         if (n == 0) return
+         allocate (member%poincare_names(size(channels)))
+         do k = 1, size(channels)
+            member%poincare_names(k)%s = scalar_name(self%items, channels(k))
+         end do
+         member%poincare_times = self%statistics%poincare_times(:n)
+         member%poincare_samples = self%statistics%poincare_samples(:size(channels), :n)
+      end associate
    end subroutine result_of_run
 
    !> Append a list to a list.

@@ -49,6 +49,7 @@ module statistics
       integer :: bins = 20                       !! of the histograms
       type(text_t), allocatable :: channels(:)   !! (n) words for channels
       type(text_t), allocatable :: spectra(:)    !! (n) words for channels
+      logical :: has_finals = .false.            !! the values at the last output time are numbers too
    end type statistics_plan_t
 
    !> One number of a run.
@@ -70,7 +71,7 @@ module statistics
       integer, private :: n_sample = 0                    !! output instants in the window so far
       real(wp), private :: t_first = 0.0_wp               !! the first of them [s]
       real(wp), private :: t_last = 0.0_wp                !! the last of them [s]
-      real(wp), allocatable, private :: x_last(:)         !! (n) values at the last instant, SI; NaN: none [any]
+      real(wp), allocatable :: x_last(:)                  !! (n) values at the last instant, SI; NaN: none [any]
       real(wp), allocatable, private :: integral(:)       !! (n) of the values [any]
       real(wp), allocatable, private :: integral_2(:)     !! (n) of their squares [any]
       real(wp), allocatable, private :: gap(:)            !! (n) time without values [s]
@@ -337,8 +338,7 @@ contains
       do k = 1, size(joints)
          associate (joint => contacts(k))
             values = not_a_number()
-            if (span > 0.0_wp) values(1:2) = [joint%contact_fraction, real(size(joint%speeds), wp)]
-            if (span > 0.0_wp) values(3) = values(2)/span
+            if (span > 0.0_wp) values(1:3) = [joint%contact_fraction, real(size(joint%speeds), wp), size(joint%speeds)/span]
             if (span > 0.0_wp .and. self%plan%period > 0.0_wp) values(4) = values(2)*self%plan%period/span
             if (size(joint%speeds) > 0) then
                values(5:6) = [sum(joint%speeds)/real(size(joint%speeds), wp), maxval(joint%speeds)]

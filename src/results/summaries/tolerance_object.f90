@@ -3,6 +3,7 @@ module tolerance_object
    use dimension_text, only: unit_text
    use json_text, only: json_object_t
    use kinds, only: i8, wp
+   use tolerance_plan, only: level_dynamic
    use tolerance_results, only: tolerance_study_t, yield_t
    implicit none (type, external)
    private
@@ -51,7 +52,10 @@ contains
          call one%put_object("range", series(members%highest(r, :) - members%lowest(r, :), ["low ", "high"], &
                                              reshape([members%lowest(r, :), members%highest(r, :)], [size(low), 2])))
          call one%put_object("yield", object_of_yield(members%yields(r), 3))
+         call one%put_object("capability", interval(members%capability(:, r), 3))
       end associate
+      if (allocated(study%allocations)) call one%put_object("cheapest", cheapest())
+      if (allocated(study%splits)) call one%put_object("variance", variances())
       call one%put_object("index", indices())
       call one%put_object("histogram", histogram())
       call one%put_real("expansion_error", study%errors(r))
@@ -134,6 +138,44 @@ contains
          object = members%get()
       end function indices
 
+      !> The cheapest tolerances.
+      function cheapest() result(object)
+         character(:), allocatable :: object               !! as text
+
+         type(json_object_t) :: members, widths
+         integer :: k
+
+         call members%start(3)
+         call members%put_real("target", study%plan%sampling%target)
+         call members%put_real("sigma", study%allocations(r)%sigma)
+         call members%put_real("cost_now", sum(study%plan%costs))
+         call members%put_real("cost", study%allocations(r)%cost)
+         call widths%start(4)
+         do k = 1, size(study%plan%parameters)
+            associate (parameter => study%plan%parameters(k))
+               call widths%put_real(parameter%name, 0.5_wp*(parameter%upper - parameter%lower)*study%allocations(r)%factors(k))
+            end associate
+         end do
+         call members%put_object("width", widths%get())
+         object = members%get()
+      end function cheapest
+
+      !> The variance, between parts and within the motion.
+      function variances() result(object)
+         character(:), allocatable :: object               !! as text
+
+         type(json_object_t) :: members
+
+         associate (split => study%splits(r))
+            call members%start(3)
+            call members%put_real("parts", split%parts)
+            call members%put_real("motion", split%motion)
+            call members%put_object("share_within", interval(split%share, 4))
+            call members%put_integer("members", int(split%n_parts, i8))
+         end associate
+         object = members%get()
+      end function variances
+
       !> The histogram.
       function histogram() result(object)
          character(:), allocatable :: object               !! as text
@@ -148,6 +190,21 @@ contains
       end function histogram
 
    end function object_of_request
+
+   !> A value with its interval.
+   function interval(of, depth) result(text)
+      real(wp), intent(in) :: of(3)                    !! (3) value, ends of its interval of 95 % [any]
+      integer, intent(in) :: depth                     !! objects around it
+      character(:), allocatable :: text                !! the object
+
+      type(json_object_t) :: one
+
+      call one%start(depth)
+      call one%put_real("value", of(1))
+      call one%put_real("low", of(2))
+      call one%put_real("high", of(3))
+      text = one%get()
+   end function interval
 
    !> A yield.
    function object_of_yield(yield, depth) result(text)
@@ -166,6 +223,16 @@ contains
       call one%put_integer("open", yield%open)
       text = one%get()
    end function object_of_yield
+
+   !> How members are made.
+   pure function method_of(study) result(word)
+      type(tolerance_study_t), intent(in) :: study     !! the study
+      character(:), allocatable :: word                !! one word
+
+      word = "expansion"
+      if (study%members%is_exact) word = "exact"
+      if (study%plan%level == level_dynamic) word = "runs"
+   end function method_of
 
    !> What is common to all channels.
    function object_of_study(study) result(text)
@@ -207,7 +274,8 @@ contains
       end do
       call one%put_object("joints", pins%get())
       call one%put_object("yield", object_of_yield(study%members%yield, 2))
-      call one%put_text("method", trim(merge("exact    ", "expansion", study%members%is_exact)))
+      call one%put_text("level", trim(merge("dynamic  ", "kinematic", study%plan%level == level_dynamic)))
+      call one%put_text("method", method_of(study))
       call one%put_integer("members", study%members%n)
       call one%put_integer("open", study%members%open)
       call one%put_integer("checked", int(study%n_checked, i8))

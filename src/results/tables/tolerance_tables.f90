@@ -7,7 +7,8 @@ module tolerance_tables
    use tolerance_results, only: tolerance_study_t
    implicit none (type, external)
    private
-   public :: table_of_contributors, table_of_derivatives, table_of_histograms, table_of_requests, table_of_times
+   public :: table_of_contributors, table_of_derivatives, table_of_histograms, table_of_requests, table_of_splits, &
+      table_of_times, table_of_widths
 
    integer, parameter :: in_files = in_csv + in_hdf5   !! for programs, but not in JSON, which has objects of its own
 
@@ -49,6 +50,11 @@ contains
                      formats=in_files)
       call table%put("yield_low", "1", "lower end of its interval of 95 %", yields(:, 2), heading="95 % from", formats=in_files)
       call table%put("yield_high", "1", "upper end of it", yields(:, 3), heading="to", formats=in_files)
+      call table%put("capability", "1", "process capability Cpk: distance of the mean to the next limit, of three standard "// &
+                     "deviations; NaN: no limits", study%members%capability(1, :), heading="Cpk", digits=4, formats=in_files)
+      call table%put("capability_low", "1", "lower end of its interval of 95 %", study%members%capability(2, :), &
+                     formats=in_files)
+      call table%put("capability_high", "1", "upper end of it", study%members%capability(3, :), formats=in_files)
       call table%put("expansion_error", "rows", "maximum error of the expansion in checked members", study%errors, &
                      heading="error", digits=2, formats=in_files)
 
@@ -65,6 +71,74 @@ contains
       end subroutine put
 
    end function table_of_requests
+
+   !> The cheapest tolerances of each request with limits.
+   function table_of_widths(study) result(table)
+      type(tolerance_study_t), intent(in) :: study   !! the study, its tolerances allocated
+      type(result_table_t) :: table                  !! a row for each such request and parameter
+
+      type(text_t), allocatable :: names(:), parameters(:), shown(:)
+      real(wp), allocatable :: x(:, :)
+      integer :: k, m, r
+
+      m = size(study%plan%parameters)*count(study%requests%is_limited)
+      allocate (names(m), parameters(m), shown(m), table%units(m), x(m, 4))
+      m = 0
+      do r = 1, size(study%requests)
+         if (.not. study%requests(r)%is_limited) cycle
+         do k = 1, size(study%plan%parameters)
+            m = m + 1
+            names(m)%s = study%requests(r)%name
+            associate (parameter => study%plan%parameters(k), factor => study%allocations(r)%factors(k))
+               parameters(m)%s = parameter%name
+               table%units(m)%s = unit_text(parameter%dimension)
+               shown(m)%s = names(m)%s//" by "//parameter%name
+               x(m, :) = [0.5_wp*(parameter%upper - parameter%lower), 0.5_wp*(parameter%upper - parameter%lower)*factor, &
+                          study%plan%costs(k), study%plan%costs(k)/factor]
+            end associate
+         end do
+      end do
+      call table%start("widths", "tolerance_widths", m, title="Cheapest tolerances for the target yield")
+      call table%put("row", "1", "request and parameter", texts=shown, heading="parameter", formats=only_shown)
+      call table%put("request", "1", "request", texts=names, formats=in_files)
+      call table%put("parameter", "1", "parameter", texts=parameters, formats=in_files)
+      call table%put("width", "rows", "half the width of its tolerance", x(:, 1), heading="now", digits=4, formats=in_files)
+      call table%put("cheapest", "rows", "half the cheapest width; NaN: none reaches the yield", x(:, 2), heading="cheapest", &
+                     digits=4, formats=in_files)
+      call table%put("cost", "1", "cost now", x(:, 3), heading="cost", digits=4, formats=in_files)
+      call table%put("cheapest_cost", "1", "cost with the cheapest width; NaN: none reaches the yield", x(:, 4), &
+                     heading="cheapest", digits=4, formats=in_files)
+   end function table_of_widths
+
+   !> The variance of each number of a run, between parts and within the motion.
+   function table_of_splits(study) result(table)
+      type(tolerance_study_t), intent(in) :: study   !! the study, its variances split
+      type(result_table_t) :: table                  !! a row for each request
+
+      type(text_t) :: names(size(study%splits))
+      integer :: r
+
+      allocate (table%units(size(names)))
+      do r = 1, size(names)
+         names(r)%s = study%requests(r)%name
+         table%units(r)%s = study%requests(r)%unit
+      end do
+      associate (splits => study%splits)
+         call table%start("splits", "tolerance_splits", size(names), title="Between parts and within the motion")
+         call table%put("request", "1", "number of a run", texts=names, heading="number", formats=in_files)
+         call table%put("parts", "rows", "standard deviation between parts", sqrt(splits%parts), heading="between parts", &
+                        digits=4, formats=in_files)
+         call table%put("motion", "rows", "standard deviation within the motion of a part", sqrt(splits%motion), &
+                        heading="within motion", digits=4, formats=in_files)
+         call table%put("share", "1", "share of the variance that is within the motion; NaN: nothing scatters", &
+                        [(splits(r)%share(1), r=1, size(names))], heading="share within", digits=4, formats=in_files)
+         call table%put("share_low", "1", "lower end of its interval of 95 %", [(splits(r)%share(2), r=1, size(names))], &
+                        heading="95 % from", digits=4, formats=in_files)
+         call table%put("share_high", "1", "upper end of it", [(splits(r)%share(3), r=1, size(names))], heading="to", digits=4, &
+                        formats=in_files)
+         call table%put("members", "1", "parts none of whose runs failed", integers=splits%n_parts, formats=in_files)
+      end associate
+   end function table_of_splits
 
    !> The contributors of each channel at the time that is shown of it, largest first.
    function table_of_contributors(study) result(table)

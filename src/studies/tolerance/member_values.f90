@@ -24,6 +24,7 @@ module member_values
       logical :: is_exact = .false.                   !! members are assembled
    contains
       procedure :: fill => block_fill
+      procedure :: take => block_take
       procedure :: values => block_values
    end type block_t
 
@@ -58,6 +59,18 @@ contains
          end if
       end do
    end subroutine block_fill
+
+   !> Take members that were run; they have one time and no pins.
+   subroutine block_take(self, values, is_open)
+      class(block_t), intent(inout) :: self    !! the block
+      real(wp), intent(in) :: values(:, :)     !! (requests, members) values; of failed ones any number [any]
+      logical, intent(in) :: is_open(:)        !! (members) failed
+
+      self%n = size(is_open)
+      self%is_exact = .true.
+      self%is_open = is_open
+      self%exact = reshape(values, [size(values, 1), 1, self%n])
+   end subroutine block_take
 
    !> A channel of all members of the block at a time; of open ones zero.
    subroutine block_values(self, study, r, at, values)

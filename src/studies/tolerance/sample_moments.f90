@@ -9,7 +9,7 @@ module sample_moments
    use normal_distribution, only: normal_95
    implicit none (type, external)
    private
-   public :: sample_t
+   public :: capability_of, sample_t
 
    !> A sample.
    type :: sample_t
@@ -65,5 +65,26 @@ contains
       error = 0.5_wp*sqrt(max(fourth/second**2 - 1.0_wp, 0.0_wp)/real(self%n, wp))
       interval = sigma*exp([-normal_95, normal_95]*error)
    end subroutine sample_moments_of
+
+   !> Process capability of a sample between limits, and its interval:
+   !> $$ C_{pk} = \frac{\min(u - m, m - l)}{3 s}, \quad
+   !>    \Delta = 1.96\sqrt{\frac{1}{9 n} + \frac{C_{pk}^2}{2(n - 1)}} . $$
+   !> Negative where the mean m is beyond a limit. Source: A. F. Bissell, Appl. Statist. 39 (1990) 331-340. Limits: a normal sample.
+   pure function capability_of(mean, sigma, n, lower, upper) result(capability)
+      real(wp), intent(in) :: mean        !! m [any]
+      real(wp), intent(in) :: sigma       !! s [any]
+      integer(i8), intent(in) :: n        !! members, at least 2
+      real(wp), intent(in) :: lower       !! l, -huge: none [any]
+      real(wp), intent(in) :: upper       !! u, huge: none [any]
+      real(wp) :: capability(3)           !! (3) value, ends of its interval of 95 %; NaN: no scatter [1]
+
+      real(wp) :: half
+
+      capability = not_a_number()
+      if (.not. sigma > 0.0_wp) return
+      capability = min(0.5_wp*upper - 0.5_wp*mean, 0.5_wp*mean - 0.5_wp*lower)/(1.5_wp*sigma)
+      half = normal_95*sqrt(1.0_wp/(9.0_wp*real(n, wp)) + capability(1)**2/(2.0_wp*real(n - 1_i8, wp)))
+      capability(2:3) = capability(1) + [-half, half]
+   end function capability_of
 
 end module sample_moments

@@ -3,17 +3,17 @@
 !> A member is good if all its channels are within their limits at all output times. One that cannot be assembled at some time is
 !> not good, and has no part in means. Where a pin is at its worst place a channel must be within its limits on both sides.
 module sampled_members
-   use kinds, only: i8, wp
+   use kinds, only: i8, not_a_number, wp
    use mechanism_source, only: mechanism_source_t
    use member_draws, only: draw_t, stream_members
    use member_values, only: block_length, block_t
    use normal_distribution, only: wilson_interval
-   use sample_moments, only: sample_t
+   use sample_moments, only: capability_of, sample_t
    use tolerance_plan, only: pin_worst
    use tolerance_results, only: members_t, tolerance_study_t, yield_t
    implicit none (type, external)
    private
-   public :: sample_members
+   public :: begin_members, end_members, find_capabilities, sample_members, take_block
 
    real(wp), parameter :: histogram_half = 4.0_wp   !! half the width of a histogram, of a standard deviation [1]
 
@@ -49,6 +49,7 @@ contains
          call source%show(0.7_wp + 0.2_wp*done/study%plan%sampling%members)
       end do
       call end_members(samples, study%members)
+      call find_capabilities(study)
       call cpu_time(now)
       study%cpu_members = now - start
    end subroutine sample_members
@@ -188,5 +189,21 @@ contains
       end subroutine end_yield
 
    end subroutine end_members
+
+   !> Process capability of each request at the time that is shown of it.
+   subroutine find_capabilities(study)
+      type(tolerance_study_t), intent(inout) :: study   !! means and deviations of its members are known
+
+      integer :: r
+
+      associate (members => study%members, requests => study%requests)
+         allocate (members%capability(3, size(requests)), source=not_a_number())
+         do r = 1, size(requests)
+            if (.not. requests(r)%is_limited .or. members%n - members%open < 2) cycle
+            members%capability(:, r) = capability_of(members%mean(r, members%at(r)), members%sigma(r, members%at(r)), &
+                                                     members%n - members%open, requests(r)%lower, requests(r)%upper)
+         end do
+      end associate
+   end subroutine find_capabilities
 
 end module sampled_members

@@ -3,10 +3,11 @@ module tolerance_results
    use kinds, only: i8, wp
    use text, only: text_t
    use tolerance_plan, only: tolerance_plan_t
+   use variance_split, only: split_t
    use varied_mechanism, only: instant_t
    implicit none (type, external)
    private
-   public :: found_pin_t, indices_t, members_t, request_t, sensitivities_t, tolerance_study_t, yield_t
+   public :: allocation_t, found_pin_t, indices_t, members_t, request_t, sensitivities_t, tolerance_study_t, yield_t
 
    !> A channel that is studied.
    type :: request_t
@@ -53,6 +54,7 @@ module tolerance_results
    end type yield_t
 
    !> What the members give.
+   !> Components: moments, yields and histograms of the same members.
    type :: members_t
       logical :: is_exact = .false.                        !! each was assembled
       integer(i8) :: n = 0                                 !! members
@@ -66,10 +68,18 @@ module tolerance_results
       real(wp), allocatable :: highest(:, :)               !! (requests, times) highest value [any]
       type(yield_t), allocatable :: yields(:)              !! (requests) within the limits of each
       type(yield_t) :: yield                               !! within all limits
+      real(wp), allocatable :: capability(:, :)            !! (3, requests) Cpk, ends of its interval; NaN: no limits [1]
       integer, allocatable :: at(:)                        !! (requests) number of the time that is shown, see `shown_time`
       real(wp), allocatable :: edges(:, :)                 !! (0:bins, requests) of the histograms [any]
       integer(i8), allocatable :: counts(:, :)             !! (bins, requests) members between them
    end type members_t
+
+   !> The cheapest tolerances for a request.
+   type :: allocation_t
+      real(wp) :: sigma = 0.0_wp               !! standard deviation that has the yield asked for; NaN: no limits [any]
+      real(wp), allocatable :: factors(:)      !! (parameters) widths, of those of the deck; NaN: none reach the yield [1]
+      real(wp) :: cost = 0.0_wp                !! sum of the costs that change; NaN: none reach the yield [1]
+   end type allocation_t
 
    !> Sobol' indices.
    type :: indices_t
@@ -101,6 +111,8 @@ module tolerance_results
       integer :: n_open = 0                                !! of these, members that cannot be assembled
       real(wp), allocatable :: errors(:)                   !! (requests) maximum error of the expansion in them [any]
       type(text_t), allocatable :: contributors(:)         !! (contributors) names: parameters, then joints
+      type(allocation_t), allocatable :: allocations(:)    !! (requests) cheapest tolerances; unallocated: no costs are given
+      type(split_t), allocatable :: splits(:)              !! (requests) between parts and within the motion; unallocated: not split
    end type tolerance_study_t
 
 end module tolerance_results

@@ -1,5 +1,6 @@
 !> A study of tolerances: nominal motion, derivatives, what they give, members, Sobol' indices.
 module tolerance_study
+   use cost_allocation, only: allocate_tolerances
    use errors, only: error_t
    use exact_member, only: assemble_member
    use expansion, only: expanded_value, find_curvatures
@@ -16,7 +17,7 @@ module tolerance_study
    use varied_mechanism, only: varied_t
    implicit none (type, external)
    private
-   public :: run_study
+   public :: compare_plans, run_study
 
 contains
 
@@ -42,6 +43,7 @@ contains
             is_exact = .not. is_accurate(study) .and. study%cpu_checked/study%n_checked*members <= sampling%budget
          end if
          call sample_members(source, study, is_exact)
+         call allocate_tolerances(study)
          call find_study_indices(source, study, is_exact)
       end associate
       call source%show(1.0_wp)
@@ -153,15 +155,15 @@ contains
          call plans(k)%fill(source, study, draw, mixed, is_exact)
          call source%show(0.9_wp + 0.05_wp*k/n_all)
       end do
-      call compare_plans(source, plans, draw%seed, study)
+      call compare_plans(plans, draw%seed, study, source)
    end subroutine find_study_indices
 
    !> Indices from the plans. Points with a member that cannot be assembled in any of them are omitted.
-   subroutine compare_plans(source, plans, seed, study)
-      class(mechanism_source_t), intent(inout) :: source   !! shows how far it is
-      type(block_t), intent(in) :: plans(0:)               !! (0:contributors + 1) plan A, mixed ones, plan B
-      integer, intent(in) :: seed                          !! of the resamples
-      type(tolerance_study_t), intent(inout) :: study      !! indices are set
+   subroutine compare_plans(plans, seed, study, source)
+      type(block_t), intent(in) :: plans(0:)                         !! (0:contributors + 1) plan A, mixed ones, plan B
+      integer, intent(in) :: seed                                    !! of the resamples
+      type(tolerance_study_t), intent(inout) :: study                !! indices are set
+      class(mechanism_source_t), intent(inout), optional :: source   !! shows how far it is
 
       real(wp), allocatable :: kept(:, :), values(:), weights(:, :)
       logical, allocatable :: is_closed(:)
@@ -189,7 +191,7 @@ contains
                call find_indices(kept(:, 0), kept(:, n_all + 1), kept(:, 1:n_all), weights, indices%first(:, :, r, at), &
                                  indices%total(:, :, r, at))
             end do
-            call source%show(0.95_wp + 0.05_wp*at/n_time)
+            if (present(source)) call source%show(0.95_wp + 0.05_wp*at/n_time)
          end do
       end associate
    end subroutine compare_plans
