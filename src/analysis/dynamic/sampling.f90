@@ -231,8 +231,7 @@ contains
       end if
       t = next_instant(self, whole%system, plan)
       if (min(t, whole%next_peak(), self%films%next()) > reached) return
-      ! peaks that nobody reads
-      if (t > reached .and. .not. wants_row(recorder, plan, row_peak, reached)) call whole%drop_peaks(reached)
+      if (t > reached .and. .not. wants_row(recorder, plan, row_peak, reached)) call whole%drop_peaks(reached)  ! nobody reads them
       call self%aside%leave()
       do
          t_peak = whole%next_peak()
