@@ -106,9 +106,9 @@ contains
    !> Deflection and loads of an item.
    pure subroutine find_deflection(self, k, motion, it)
       class(frame_spring_t), intent(in) :: self  !! the set
-      integer, intent(in) :: k                          !! item
-      type(motion_t), intent(in) :: motion              !! positions and velocities
-      type(deflection_t), intent(out) :: it             !! the deflection
+      integer, intent(in) :: k                   !! item
+      type(motion_t), intent(in) :: motion       !! positions and velocities
+      type(deflection_t), intent(out) :: it      !! the deflection
 
       real(wp) :: angle, along(3), d(3), m, v(3), w
 
@@ -135,10 +135,10 @@ contains
    !> Add the loads of all items; none of their power is but stored or lost.
    subroutine frame_spring_evaluate(self, t, motion, loads, power)
       class(frame_spring_t), intent(in) :: self  !! the set
-      real(wp), intent(in) :: t                         !! time, not used [s]
-      type(motion_t), intent(in) :: motion              !! positions and velocities
-      type(loads_t), intent(inout) :: loads             !! loads on the bodies
-      real(wp), intent(inout) :: power                  !! left as it is [W]
+      real(wp), intent(in) :: t                  !! time, not used [s]
+      type(motion_t), intent(in) :: motion       !! positions and velocities
+      type(loads_t), intent(inout) :: loads      !! loads on the bodies
+      real(wp), intent(inout) :: power           !! left as it is [W]
 
       type(deflection_t) :: it
       integer :: k
@@ -157,13 +157,13 @@ contains
    !> Load of an item on the body of i or j, about its point.
    subroutine frame_spring_load_on(self, k, side, t, motion, force, moment, place)
       class(frame_spring_t), intent(in) :: self  !! the set
-      integer, intent(in) :: k                          !! item
-      integer, intent(in) :: side                       !! 1: on the body of i, 2: on that of j
-      real(wp), intent(in) :: t                         !! time, not used [s]
-      type(motion_t), intent(in) :: motion              !! positions and velocities
-      real(wp), intent(out) :: force(3)                 !! (3) world frame [N]
-      real(wp), intent(out) :: moment(3)                !! (3) about the point, world frame [N.m]
-      real(wp), intent(out) :: place(3)                 !! (3) the point, world frame [m]
+      integer, intent(in) :: k                   !! item
+      integer, intent(in) :: side                !! 1: on the body of i, 2: on that of j
+      real(wp), intent(in) :: t                  !! time, not used [s]
+      type(motion_t), intent(in) :: motion       !! positions and velocities
+      real(wp), intent(out) :: force(3)          !! (3) world frame [N]
+      real(wp), intent(out) :: moment(3)         !! (3) about the point, world frame [N.m]
+      real(wp), intent(out) :: place(3)          !! (3) the point, world frame [m]
 
       type(deflection_t) :: it
 
@@ -177,10 +177,10 @@ contains
    !> Values of a channel for all items.
    subroutine frame_spring_report(self, code, t, motion, values)
       class(frame_spring_t), intent(in) :: self  !! the set
-      integer, intent(in) :: code                       !! the channel
-      real(wp), intent(in) :: t                         !! time, not used [s]
-      type(motion_t), intent(in) :: motion              !! positions and velocities
-      real(wp), intent(inout) :: values(:, :)           !! (components, n) values [N, N.m, m, rad or W]
+      integer, intent(in) :: code                !! the channel
+      real(wp), intent(in) :: t                  !! time, not used [s]
+      type(motion_t), intent(in) :: motion       !! positions and velocities
+      real(wp), intent(inout) :: values(:, :)    !! (components, n) values [N, N.m, m, rad or W]
 
       type(deflection_t) :: it
       integer :: k

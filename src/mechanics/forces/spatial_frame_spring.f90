@@ -117,9 +117,9 @@ contains
    !> Rotation vector of an item: of j against i, along the axes of i.
    pure function rotation_of(self, k, motion) result(psi)
       class(frame_spring_t), intent(in) :: self  !! the set
-      integer, intent(in) :: k                           !! item
-      type(motion_t), intent(in) :: motion               !! positions
-      real(wp) :: psi(3)                                 !! (3) at most half a turn [rad]
+      integer, intent(in) :: k                   !! item
+      type(motion_t), intent(in) :: motion       !! positions
+      real(wp) :: psi(3)                         !! (3) at most half a turn [rad]
 
       real(wp) :: r_i(3, 3), r_j(3, 3)
 
@@ -131,9 +131,9 @@ contains
    !> Deflection of an item and its rate.
    pure subroutine find_deflection(self, k, motion, it)
       class(frame_spring_t), intent(in) :: self  !! the set
-      integer, intent(in) :: k                           !! item
-      type(motion_t), intent(in) :: motion               !! positions and velocities
-      type(deflection_t), intent(out) :: it              !! the deflection
+      integer, intent(in) :: k                   !! item
+      type(motion_t), intent(in) :: motion       !! positions and velocities
+      type(deflection_t), intent(out) :: it      !! the deflection
 
       real(wp) :: p_i(3), p_j(3), psi(3), w(3)
 
@@ -159,13 +159,13 @@ contains
    !> Deflection and loads of an item.
    pure subroutine find_loads(self, k, motion, it, q, force, couple_i, couple_j)
       class(frame_spring_t), intent(in) :: self  !! the set
-      integer, intent(in) :: k                           !! item
-      type(motion_t), intent(in) :: motion               !! positions and velocities
-      type(deflection_t), intent(out) :: it              !! the deflection
-      real(wp), intent(out) :: q(6)                      !! (6) Q [N and N.m]
-      real(wp), intent(out) :: force(3)                  !! (3) on the body of i at its point, world frame [N]
-      real(wp), intent(out) :: couple_i(3)               !! (3) on the body of i, world frame [N.m]
-      real(wp), intent(out) :: couple_j(3)               !! (3) on the body of j, world frame [N.m]
+      integer, intent(in) :: k                   !! item
+      type(motion_t), intent(in) :: motion       !! positions and velocities
+      type(deflection_t), intent(out) :: it      !! the deflection
+      real(wp), intent(out) :: q(6)              !! (6) Q [N and N.m]
+      real(wp), intent(out) :: force(3)          !! (3) on the body of i at its point, world frame [N]
+      real(wp), intent(out) :: couple_i(3)       !! (3) on the body of i, world frame [N.m]
+      real(wp), intent(out) :: couple_j(3)       !! (3) on the body of j, world frame [N.m]
 
       real(wp) :: g(3), m(3)
 
@@ -182,10 +182,10 @@ contains
    !> Add the loads of all items; none of their power is but stored or lost.
    subroutine frame_spring_evaluate(self, t, motion, loads, power)
       class(frame_spring_t), intent(in) :: self  !! the set
-      real(wp), intent(in) :: t                          !! time, not used [s]
-      type(motion_t), intent(in) :: motion               !! positions and velocities
-      type(loads_t), intent(inout) :: loads              !! loads on the bodies
-      real(wp), intent(inout) :: power                   !! left as it is [W]
+      real(wp), intent(in) :: t                  !! time, not used [s]
+      type(motion_t), intent(in) :: motion       !! positions and velocities
+      type(loads_t), intent(inout) :: loads      !! loads on the bodies
+      real(wp), intent(inout) :: power           !! left as it is [W]
 
       type(deflection_t) :: it
       real(wp) :: couple(3, 2), f(3), q(6)
@@ -206,13 +206,13 @@ contains
    !> Load of an item on the body of i or j, about its point.
    subroutine frame_spring_load_on(self, k, side, t, motion, force, moment, place)
       class(frame_spring_t), intent(in) :: self  !! the set
-      integer, intent(in) :: k                           !! item
-      integer, intent(in) :: side                        !! 1: on the body of i, 2: on that of j
-      real(wp), intent(in) :: t                          !! time, not used [s]
-      type(motion_t), intent(in) :: motion               !! positions and velocities
-      real(wp), intent(out) :: force(3)                  !! (3) world frame [N]
-      real(wp), intent(out) :: moment(3)                 !! (3) about the point, world frame [N.m]
-      real(wp), intent(out) :: place(3)                  !! (3) the point, world frame [m]
+      integer, intent(in) :: k                   !! item
+      integer, intent(in) :: side                !! 1: on the body of i, 2: on that of j
+      real(wp), intent(in) :: t                  !! time, not used [s]
+      type(motion_t), intent(in) :: motion       !! positions and velocities
+      real(wp), intent(out) :: force(3)          !! (3) world frame [N]
+      real(wp), intent(out) :: moment(3)         !! (3) about the point, world frame [N.m]
+      real(wp), intent(out) :: place(3)          !! (3) the point, world frame [m]
 
       type(deflection_t) :: it
       real(wp) :: couple(3, 2), q(6)
@@ -226,10 +226,10 @@ contains
    !> Values of a channel for all items.
    subroutine frame_spring_report(self, code, t, motion, values)
       class(frame_spring_t), intent(in) :: self  !! the set
-      integer, intent(in) :: code                        !! the channel
-      real(wp), intent(in) :: t                          !! time, not used [s]
-      type(motion_t), intent(in) :: motion               !! positions and velocities
-      real(wp), intent(inout) :: values(:, :)            !! (components, n) values [N, N.m, m, rad or W]
+      integer, intent(in) :: code                !! the channel
+      real(wp), intent(in) :: t                  !! time, not used [s]
+      type(motion_t), intent(in) :: motion       !! positions and velocities
+      real(wp), intent(inout) :: values(:, :)    !! (components, n) values [N, N.m, m, rad or W]
 
       type(deflection_t) :: it
       real(wp) :: couple(3, 2), f(3), q(6)
@@ -252,7 +252,7 @@ contains
    !> A step has ended: a rotation vector that has turned about went through half a turn.
    subroutine frame_spring_follow(self, motion)
       class(frame_spring_t), intent(inout) :: self  !! the set
-      type(motion_t), intent(in) :: motion                  !! positions
+      type(motion_t), intent(in) :: motion          !! positions
 
       real(wp) :: psi(3)
       integer :: k
@@ -276,7 +276,7 @@ contains
    !> Write what the set remembers.
    subroutine frame_spring_save(self, archive)
       class(frame_spring_t), intent(in) :: self  !! the set
-      type(archive_t), intent(inout) :: archive          !! the checkpoint
+      type(archive_t), intent(inout) :: archive  !! the checkpoint
 
       integer :: k
 
@@ -288,7 +288,7 @@ contains
    !> Read what the set remembers.
    subroutine frame_spring_load(self, archive)
       class(frame_spring_t), intent(inout) :: self  !! the set
-      type(archive_t), intent(inout) :: archive             !! the checkpoint
+      type(archive_t), intent(inout) :: archive     !! the checkpoint
 
       integer :: c, k
 
