@@ -5,9 +5,10 @@
 !>
 !> Of a complex pair the eigenvalue with the positive imaginary part stands for both. The mean kinetic energy of a mode has the
 !> shares of its displacements, since its rates are lambda times these. Source: Meirovitch, Computational Methods in Structural
-!> Dynamics (1980), section 3.10. Limits: dense (LAPACK dgeev); eigenvalues below 1e-7 of the maximum modulus are zero.
+!> Dynamics (1980), section 3.10. Limits: dense (LAPACK dgeev); eigenvalues below 1e-7 of the maximum modulus are zero, and so are
+!> real parts below 1e-12 of the eigenvalue.
 module eigenmodes
-   use kinds, only: wp
+   use kinds, only: eps, wp
    use lapack, only: dgeev
    use mechanism, only: mechanism_t
    use modes_results, only: frequency_of, linear_model_t, mode_t, ratio_of
@@ -17,6 +18,7 @@ module eigenmodes
 
    real(wp), parameter :: lost = 1.0e-7_wp       !! of the maximum eigenvalue: rounding makes as much of one that is zero twice [1]
    real(wp), parameter :: nothing = 1.0e-12_wp   !! eigenvalue that is zero [1/s]
+   real(wp), parameter :: noise = 1.0e-12_wp     !! of an eigenvalue, as real part: rounding makes as much of an undamped mode [1]
 
 contains
 
@@ -39,6 +41,7 @@ contains
       zero = max(nothing, lost*maxval(hypot(re, im)))
       do k = 1, n
          if (im(k) < 0.0_wp) cycle
+         if (abs(re(k)) <= noise*hypot(re(k), im(k)) + 4.0_wp*eps*maxval(hypot(re, im))) re(k) = 0.0_wp
          if (hypot(re(k), im(k)) <= zero) then
             call add_mode((0.0_wp, 0.0_wp), cmplx(right(:model%n_free, k), 0.0_wp, wp))
             if (im(k) > 0.0_wp) call add_mode((0.0_wp, 0.0_wp), cmplx(right(:model%n_free, k + 1), 0.0_wp, wp))

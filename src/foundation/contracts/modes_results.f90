@@ -119,7 +119,7 @@ contains
       complex(wp), intent(in) :: value            !! the eigenvalue [1/s]
 
       ratio = not_a_number()
-      if (abs(value) > 0.0_wp) ratio = -value%re/abs(value)
+      if (abs(value) > 0.0_wp) ratio = (0.0_wp - value%re)/abs(value)  ! never -0
    end function ratio_of
 
 end module modes_results

@@ -39,7 +39,7 @@ contains
          end do
       end do
       associate (modes => study%modes)
-         call table%start("modes", "modes", n, title="Modes")
+         call table%start("modes", "modes", n, title="Frequency [Hz]")
          call table%put("frequency", "Hz", "natural frequency, 0 of a mode that does not oscillate", modes%frequency, &
                         heading="frequency", digits=8)
          call table%put("damping_ratio", "1", "damping ratio; NaN: the eigenvalue is zero", modes%damping_ratio, &
