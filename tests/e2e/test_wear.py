@@ -42,7 +42,7 @@ pull   centre   {-100 N}
 end       = 1 s
 overlap   = preload
 start     = given
-tolerance = 1e-11
+tolerance = 1e-12
 [output]
 every    = 0.1 s
 channels = bearing.normal_force

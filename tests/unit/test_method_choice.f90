@@ -63,8 +63,8 @@ contains
       call check_true(error, .not. seen%is_due(), "seldom again")
    end subroutine test_stretches
 
-   !> A trial of 50 evaluations that leads through 1 s. The explicit method with 50 evaluations a second remains, and the next
-   !> trial waits for 20, then 40 times those 50. One with 400 a second is left as soon as it has taken 200, one with 4000 as
+   !> A trial of 100 evaluations that leads through 1 s. The explicit method with 100 evaluations a second remains, and the next
+   !> trial waits for 20, then 40 times those 100. One with 400 a second is left as soon as it has taken 200, one with 4000 as
    !> soon as it has taken 100.
    subroutine test_trials(error)
       type(error_t), allocatable, intent(out) :: error  !! what failed
@@ -80,23 +80,23 @@ contains
       n = 1000
       t = 0.0_wp
       do k = 1, 2
-         call try_and_go_on(50.0_wp)
+         call try_and_go_on(100.0_wp)
          call check_true(error, .not. (choice%is_implicit .or. choice%is_comparing), "the explicit method remains")
-         call check_true(error, .not. choice%wants_trial(n_trial + 1000_i8*k - 1, .true.), "waits")
-         n = n_trial + 1000_i8*k
+         call check_true(error, .not. choice%wants_trial(n_trial + 2000_i8*k - 1, .true.), "waits")
+         n = n_trial + 2000_i8*k
          call check_true(error, choice%wants_trial(n, .true.), "no longer")
       end do
       call try_and_go_on(400.0_wp)
       call check_true(error, choice%is_implicit .and. n - n_trial == 200, "the implicit method is better")
       call check_close(error, choice%t_change(1), t, 0.0_wp, "the change is kept")
       call check_close(error, choice%product(1), 4.0_wp, 0.0_wp, "with its reason")
-      call check_true(error, .not. choice%wants_trial(n + 999_i8, .true.), "the explicit one is not tried at once")
-      call check_true(error, choice%wants_trial(n + 1000_i8, .false.), "but then")
+      call check_true(error, .not. choice%wants_trial(n + 1999_i8, .true.), "the explicit one is not tried at once")
+      call check_true(error, choice%wants_trial(n + 2000_i8, .false.), "but then")
       choice%is_at_event = .true.
-      call check_true(error, choice%wants_trial(n + 250_i8, .false.), "sooner after an event")
-      call try_and_go_on(45.0_wp)
+      call check_true(error, choice%wants_trial(n + 500_i8, .false.), "sooner after an event")
+      call try_and_go_on(95.0_wp)
       call check_true(error, choice%is_implicit, "the implicit method remains")
-      call try_and_go_on(55.0_wp)
+      call try_and_go_on(105.0_wp)
       call check_true(error, .not. choice%is_implicit .and. choice%n_change == 2, "the explicit one is better")
       call try_and_go_on(4000.0_wp)
       call check_true(error, choice%is_implicit .and. n - n_trial == 120, "the implicit method is far better")
@@ -114,7 +114,7 @@ contains
          was_implicit = choice%is_implicit
          n_trial = n
          n_first = n
-         call choice%note_trial(trial_t(t, t + 1.0_wp, 0.1_wp, 50_i8), n, 4.0_wp)
+         call choice%note_trial(trial_t(t, t + 1.0_wp, 0.1_wp, 100_i8), n, 4.0_wp)
          do i = 1, 100
             t = t + 0.01_wp
             n = n_first + nint(rate*0.01_wp*real(i, wp), i8)
