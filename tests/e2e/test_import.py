@@ -427,6 +427,34 @@ def test_elastic_elements(gudgeon):
     assert np.abs(r - want).max() < 1e-4 * np.abs(want).max()
 
 
+def test_contacts(gudgeon):
+    """A ball falls on a plane by IMPACT, one slides on the face of a box, two meet on one line; what is assumed and omitted is listed."""
+    run, said = imported(gudgeon, "contacts", end="0.15s", every="0.5ms")
+    rows = run["row_kind"][:] == 0
+    t = run["time"][rows]
+
+    def impact(_, y):  # N, mm, s
+        depth = 20 - y[0]
+        share = min(max(depth, 0) / 0.02, 1)
+        force = max(2e4 * max(depth, 0) ** 1.5 - 0.8 * share**2 * (3 - 2 * share) * y[1], 0) if depth > 0 else 0
+        return [y[1], 1000 * force / 0.5 - 9806.65]
+
+    want = solve_ivp(impact, (0, 0.15), [65.0, 0.0], t_eval=t, rtol=1e-11, atol=1e-11, max_step=1e-4).y
+    assert np.abs(column(run, "bodies", "position", "PART_2")[rows][:, 2] * 1e3 - want[0]).max() < 1e-5
+    assert np.abs(column(run, "bodies", "velocity", "PART_2")[rows][:, 2] * 1e3 - want[1]).max() < 1e-2
+    slide = column(run, "bodies", "velocity", "PART_3")[rows]
+    assert np.abs(slide[:, 0] - 1 + 0.1 * (9.80665 * t + slide[:, 2])).max() < 1e-7
+    assert np.abs(column(run, "bodies", "position", "PART_3")[rows][:, 2] - 0.13).max() < 0.005
+    meeting = t > 0.021
+    for part, speed in (("PART_4", 0), ("PART_5", 2)):
+        assert np.abs(column(run, "bodies", "velocity", part)[rows][meeting, 0] - speed).max() < 1e-7
+    lines = (MODELS / "contacts.adm").read_text().splitlines()
+    for words, reason in (("CONTACT/4", "its JGEOM is no sphere, plane or box"), ("CONTACT/1", "the plane across z has no edges in a deck"),
+                          ("CONTACT/2", "the face of the box across z has no edges in a deck"), ("CONTACT/2", "POISSON is contact.kelvin_voigt")):
+        place = next(k for k, line in enumerate(lines, 1) if line.startswith(words))
+        assert any(f"line {place}," in line and reason in line for line in said.splitlines()), (words, reason)
+
+
 def test_what_is_left_out_is_named_with_its_line(gudgeon):
     _, said = imported(gudgeon, "drives")
     text = (MODELS / "drives.adm").read_text().splitlines()

@@ -9,6 +9,7 @@
 module adams_deck
    use adams_arguments, only: name_small_degrees, name_unknown_arguments
    use adams_constraints, only: add_constraints
+   use adams_contacts, only: add_contacts
    use adams_elastic, only: add_elastic
    use adams_forces, only: add_forces
    use adams_gears, only: add_gears
@@ -78,8 +79,10 @@ contains
       call add_forces(model, draft, mistakes)
       call add_loads(model, draft, mistakes)
       call add_elastic(model, draft, mistakes)
+      call add_contacts(model, draft, mistakes)
       do k = 1, size(model%statements)
          associate (it => model%statements(k))
+            if (it%is_used) cycle
             if (is_setting(it%keyword)) then
                call settings%add(line_words(it%at)//it%keyword)
             else if (is_understood(it%keyword)) then

@@ -11,11 +11,11 @@ module adams_names
 
    character(*), parameter :: understood = &
       "ACCGRAV GRAVITY JOINT JPRIM MARKER MOTION GEAR COUPLER PART SFORCE SPRINGDAMPER UNITS VFORCE VTORQUE GFORCE VARIABLE GCON " &
-      //"SPLINE BEAM BUSHING FIELD"
+      //"SPLINE BEAM BUSHING FIELD CONTACT"
    character(*), parameter :: refused = "NFORCE FLEX_BODY FE_PART FEMDATA"   !! elastic bodies
    character(*), parameter :: settings = "DEBUG EQUILIBRIUM GRAPHICS IC INTEGRATOR KINEMATICS LSOLVER OUTPUT PREFERENCES " &
       //"REQUEST MREQUEST RESULTS TITLE LIST MATERIAL"   !! no part of the mechanism
-   character(*), parameter :: others = "ADAMS_DOC_FILENAME ARRAY CONTACT CURVE CVCV CVSF DIFF DV END " &
+   character(*), parameter :: others = "ADAMS_DOC_FILENAME ARRAY CURVE CVCV CVSF DIFF DV END " &
       //"FRICTION FORCE GSE LSE MATRIX MFORCE PINPUT POINT_MASS POUTPUT PTCV PTSF RULE SENSOR SFSF " &
       //"STRING SURFACE TFSISO TIRE UCON USERCON"
 
@@ -79,7 +79,6 @@ contains
       character(:), allocatable :: reason          !! one line
 
       select case (keyword)
-      case ("CONTACT"); reason = "its solids are not in the dataset; see the joints with clearance, clearance.*"
       case ("FRICTION")
          reason = "its law is not supported; joints of a deck name a row of friction.* in their column 'friction'"
       case ("MFORCE", "CURVE", "MATRIX", "STRING", "ARRAY")

@@ -30,6 +30,7 @@ module dataset
       logical :: has_slash = .false.                !! a slash is behind its name, as statements have it
       type(argument_t), allocatable :: arguments(:) !! (n) in the order of the text
       character(:), allocatable :: view_name        !! name from the comment before it; blank: none
+      logical :: is_used = .false.                  !! another statement takes it into the deck
       type(location_t) :: at                        !! where its name stands
    end type statement_t
 

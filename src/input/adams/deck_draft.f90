@@ -37,8 +37,10 @@ module deck_draft
       type(text_list_t) :: answers                   !! names of these rows
    contains
       procedure :: put => put_row
+      procedure :: has => has_table
       procedure :: new_name
       procedure :: point => point_of_marker
+      procedure :: put_point
       procedure :: row_of
       procedure :: place_of => place_of_row
       procedure :: write => write_tables
@@ -66,6 +68,20 @@ contains
       end if
       call self%tables(k)%add(cells)
    end subroutine put_row
+
+   !> Whether the deck has a table.
+   pure logical function has_table(self, name)
+      class(deck_draft_t), intent(in) :: self      !! the deck
+      character(*), intent(in) :: name             !! of the kind
+
+      integer :: k
+
+      has_table = .false.
+      if (.not. allocated(self%tables)) return
+      do k = 1, size(self%tables)
+         if (self%tables(k)%name == name) has_table = .true.
+      end do
+   end function has_table
 
    !> A name of something that has channels.
    subroutine new_name(self, wanted, id, name)
@@ -151,7 +167,6 @@ contains
       integer, intent(in) :: k                             !! the marker, by its place in the list
       character(:), allocatable, intent(out) :: name       !! of the point
 
-      real(wp) :: r(3), size_of_part, unit
       integer :: previous
 
       associate (marker => model%markers(k), part => model%parts(model%markers(k)%part))
@@ -168,18 +183,34 @@ contains
             end do
             marker%is_used = .true.
             marker%name = name
-            r = marker%r - part%centre
-            if (part%is_ground) r = model%place(k)
-            unit = model%units%length_shown()
-            size_of_part = maxval(abs(r)) + maxval(abs(part%centre)) + tiny(unit)
-            call self%put("points", "name body xi["//model%units%length_name()//"] eta["//model%units%length_name()//"] zeta["// &
-                          model%units%length_name()//"]", name//tab//body_name(part%name, part%is_ground)//tab// &
-                                number_cell(r(1)/unit, size_of_part/unit)//tab//number_cell(r(2)/unit, size_of_part/unit)//tab// &
-                                      number_cell(r(3)/unit, size_of_part/unit))
+            call self%put_point(model, name, k, [0.0_wp, 0.0_wp, 0.0_wp])
          end if
          name = marker%name
       end associate
    end subroutine point_of_marker
+
+   !> The row of a point.
+   subroutine put_point(self, model, name, k, place)
+      class(deck_draft_t), intent(inout) :: self    !! the deck
+      type(adams_model_t), intent(in) :: model      !! the dataset
+      character(*), intent(in) :: name              !! of the point
+      integer, intent(in) :: k                      !! a marker, by its place in the list
+      real(wp), intent(in) :: place(3)              !! (3) the point in its axes [m]
+
+      character(:), allocatable :: length
+      real(wp) :: r(3), size_of_part, unit
+
+      associate (marker => model%markers(k), part => model%parts(model%markers(k)%part))
+         r = marker%r + matmul(marker%a, place) - part%centre
+         if (part%is_ground) r = model%place(k) + matmul(model%axes(k), place)
+         unit = model%units%length_shown()
+         length = "["//model%units%length_name()//"]"
+         size_of_part = (maxval(abs(r)) + maxval(abs(part%centre)) + tiny(unit))/unit
+         call self%put("points", "name body xi"//length//" eta"//length//" zeta"//length, name//tab// &
+                       body_name(part%name, part%is_ground)//tab//number_cell(r(1)/unit, size_of_part)//tab// &
+                       number_cell(r(2)/unit, size_of_part)//tab//number_cell(r(3)/unit, size_of_part))
+      end associate
+   end subroutine put_point
 
    !> How a deck calls a part.
    pure function body_name(name, is_ground) result(word)
