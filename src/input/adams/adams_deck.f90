@@ -82,9 +82,8 @@ contains
       call add_contacts(model, draft, mistakes)
       do k = 1, size(model%statements)
          associate (it => model%statements(k))
-            if (it%is_used) cycle
             if (is_setting(it%keyword)) then
-               call settings%add(line_words(it%at)//it%keyword)
+               if (.not. it%is_used) call settings%add(line_words(it%at)//it%keyword)
             else if (is_understood(it%keyword)) then
                call name_unknown_arguments(model, it)
                call name_small_degrees(model, it)
@@ -99,8 +98,7 @@ contains
       imported%settings = settings%get()
       call write_head(model, file, imported, buffer, mistakes)
       call draft%write(buffer)
-      call buffer%line("")
-      call buffer%line("[analysis.dynamic]")
+      call buffer%line(new_line("a")//"[analysis.dynamic]")
       call buffer%line("end        = {end}")
       call buffer%line("tolerance  = 1e-8")
       call buffer%line("")

@@ -17,7 +17,7 @@ submodule(radau) radau_equations
    real(wp), parameter :: hopeless = 2.0_wp             !! ratio of successive changes at which the iteration is given up [1]
    real(wp), parameter :: out_of_reach = 1.0_wp/sqrt(eps)  !! change of the stages over the scales that no motion makes [1]
    real(wp), parameter :: part_of_tolerance = 0.03_wp   !! of TOL': error left by the iteration, at most [1]
-   real(wp), parameter :: part_in_films = 0.1_wp        !! of TOL: error left in a row where films act, which amplify it, at most [1]
+   real(wp), parameter :: part_in_films = 0.1_wp        !! of TOL: error left in a row where films act, at most: they amplify it [1]
    real(wp), parameter :: most_in_films = 1.0e-10_wp    !! the same by itself [1]
    real(wp), parameter :: conservative = 3.0_wp         !! ratio of that, as it is estimated with the matrix, to what is left [1]
    real(wp), parameter :: noise = 10.0_wp*eps           !! minimum error of the iteration, over the scales [1]
