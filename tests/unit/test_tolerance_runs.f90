@@ -266,6 +266,7 @@ contains
 
       call begin(100, 20, 1, 0.1_wp, study, design)
       study%requests(1)%is_limited = .true.
+      study%requests(1)%upper = 1000.0_wp
       call evaluate(of_linear, design, 0.0_wp, values, is_failed)
       is_failed(1, design%member(3)) = .true.
       is_failed(1, design%point(2, 7)) = .true.

@@ -4,7 +4,6 @@
 !> deviation has the standard error sqrt((kappa - 1)/n)/2, kappa the fourth moment over the square of the second.
 !> Source: M. G. Kendall, A. Stuart, The Advanced Theory of Statistics, vol. 1 (1977), section 10.5. Limits: independent members.
 module sample_moments
-   use, intrinsic :: ieee_arithmetic, only: ieee_is_nan
    use batch_means, only: student
    use kinds, only: i8, not_a_number, wp
    use normal_distribution, only: normal_95
@@ -77,12 +76,11 @@ contains
       integer(i8), intent(in) :: n        !! members, at least 2
       real(wp), intent(in) :: lower       !! l, -huge: none [any]
       real(wp), intent(in) :: upper       !! u, huge: none [any]
-      real(wp) :: capability(3)           !! (3) value, ends of its interval of 95 %; NaN: no scatter, or no member [1]
+      real(wp) :: capability(3)           !! (3) value, ends of its interval of 95 %; NaN: no scatter [1]
 
       real(wp) :: half
 
       capability = not_a_number()
-      if (ieee_is_nan(sigma)) return
       if (.not. sigma > 0.0_wp) return
       capability = min(0.5_wp*upper - 0.5_wp*mean, 0.5_wp*mean - 0.5_wp*lower)/(1.5_wp*sigma)
       half = normal_95*sqrt(1.0_wp/(9.0_wp*real(n, wp)) + capability(1)**2/(2.0_wp*real(n - 1_i8, wp)))
