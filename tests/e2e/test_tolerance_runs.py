@@ -192,5 +192,5 @@ def test_nothing_to_study(gudgeon):
     """No scatter, no request."""
     start, end = BALL.index("[tolerance]"), BALL.index("[tolerance.limit]")
     for text, words in ((BALL[:start] + BALL[end:], "nothing scatters"),
-                        (BALL[:end] + "[analysis" + BALL.split("[analysis")[1], "no number of a run")):
+                        (BALL[:end] + "[analysis" + BALL.split("[analysis")[1], "no requests of a run")):
         assert words in call(gudgeon, "tolerance", written(scratch(), text), expect=2).stderr

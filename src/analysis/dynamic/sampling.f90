@@ -231,7 +231,7 @@ contains
       end if
       t = next_instant(self, whole%system, plan)
       if (min(t, whole%next_peak(), self%films%next()) > reached) return
-      if (t > reached .and. .not. wants_row(recorder, plan, row_peak, reached)) call whole%drop_peaks(reached)  ! nobody reads them
+      if (t > reached .and. .not. wants_row(recorder, plan, row_peak, reached)) call whole%drop_peaks(reached)  ! without a reader
       call self%aside%leave()
       do
          t_peak = whole%next_peak()

@@ -22,7 +22,7 @@ module steady_motion
    private
    public :: find_steady
 
-   real(wp), parameter :: found = 1.0e-12_wp      !! residual of a steady motion that is none [1]
+   real(wp), parameter :: found = 1.0e-12_wp      !! residual at which the search of a steady motion ends [1]
    real(wp), parameter :: good = 1.0e-8_wp        !! residual that is allowed where no step makes it less [1]
    real(wp), parameter :: longest = 0.3_wp        !! step of Newton's iteration, in sizes of the bodies or radians [1]
    integer, parameter :: most = 50                !! its steps
@@ -158,7 +158,7 @@ contains
       real(wp), intent(inout) :: b(:)                   !! (freedoms) b, then x [any]
       integer, intent(out) :: status                    !! 0: done
 
-      real(wp), parameter :: same = 1.0e-10_wp          ! singular values that are none, of the maximum one [1]
+      real(wp), parameter :: same = 1.0e-10_wp          ! singular values that count as zero, over the maximum [1]
       real(wp) :: a(model%n_free, model%n_free), s(model%n_free), x(model%n_free, 1)
       real(wp), allocatable :: work(:)
       integer, allocatable :: iwork(:)

@@ -103,7 +103,7 @@ contains
       end associate
    end subroutine read_inputs
 
-   !> An input; of kind 0 if there is none.
+   !> An input; its kind is 0 where the word names no input.
    function input_of(scene, word) result(input)
       type(scene_t), intent(in) :: scene                 !! the scene
       character(*), intent(in) :: word                   !! as written

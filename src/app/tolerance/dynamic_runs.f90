@@ -137,7 +137,7 @@ contains
          call set_error(error, exit_integration, "the nominal mechanism failed: "//reason())
       else if (n_without > 0) then
          call append_text(warnings, to_text(n_without)//" of "//to_text(size(is_failed))//" runs have no value of a request, "// &
-                          "as the speed of impacts that there are none of: they count as failed")
+                          "as an impact speed without impacts: they count as failed")
       end if
 
    contains

@@ -38,7 +38,7 @@ contains
          call set_error(error, exit_usage, "nothing scatters: no parameter has a tolerance"//new_line("a")// &
                         "  = give a row of [tolerance]")
       else if (size(study%requests) == 0) then
-         call set_error(error, exit_usage, "no number of a run is studied"//new_line("a")// &
+         call set_error(error, exit_usage, "the deck has no requests of a run"//new_line("a")// &
                         "  = name some as requests of [tolerance.study], as slider.acceleration.x.rms")
       end if
 

@@ -5,7 +5,7 @@ module modes_results
    implicit none (type, external)
    private
    public :: at_equilibrium, at_steady, at_time, campbell_point_t, input_driver, input_force, input_moment, linear_model_t
-   public :: frequency_of, ratio_of
+   public :: frequency_of, no_growth, ratio_of
    public :: mode_t, modes_input_t, modes_output_t, modes_plan_t, modes_study_t, onset_t, state_names
 
    integer, parameter :: at_equilibrium = 1   !! the static equilibrium; with films the steady state
@@ -16,6 +16,8 @@ module modes_results
    integer, parameter :: input_force = 1    !! a force on a point
    integer, parameter :: input_moment = 2   !! a moment on a body
    integer, parameter :: input_driver = 3   !! what a driver adds to its displacement, and the rates of that
+
+   real(wp), parameter :: no_growth = 1.0e-9_wp   !! real part without growth or decay, over the maximum eigenvalue [1]
 
    !> An input.
    type :: modes_input_t

@@ -18,7 +18,7 @@ submodule(radau) radau_equations
    real(wp), parameter :: out_of_reach = 1.0_wp/sqrt(eps)  !! change of the stages over the scales that no motion makes [1]
    real(wp), parameter :: part_of_tolerance = 0.03_wp   !! of TOL': error left by the iteration, at most [1]
    real(wp), parameter :: part_in_films = 0.1_wp        !! of TOL: error left in a row where films act, at most: they amplify it [1]
-   real(wp), parameter :: most_in_films = 1.0e-10_wp    !! the same by itself [1]
+   real(wp), parameter :: most_in_films = 1.0e-10_wp    !! the same at loose tolerances [1]
    real(wp), parameter :: conservative = 3.0_wp         !! ratio of that, as it is estimated with the matrix, to what is left [1]
    real(wp), parameter :: noise = 10.0_wp*eps           !! minimum error of the iteration, over the scales [1]
    real(wp), parameter :: left_by_gmres(2) = [3.0e-4_wp, 1.0e-2_wp]  !! (2) of the residual of Newton's equations: minimum, most [1]

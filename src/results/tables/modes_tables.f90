@@ -1,7 +1,7 @@
 !> The results of a study of modes as tables: modes, matrices, Campbell diagram, changes of stability.
 module modes_tables
    use kinds, only: two_pi, wp
-   use modes_results, only: frequency_of, mode_t, modes_study_t, ratio_of
+   use modes_results, only: frequency_of, mode_t, modes_study_t, no_growth, ratio_of
    use result_table, only: in_csv, in_hdf5, result_table_t
    use text, only: real_text, text_t, to_text
    implicit none (type, external)
@@ -9,7 +9,6 @@ module modes_tables
    public :: stability_of, table_of_campbell, table_of_modes, tables_of_matrices, table_of_stability
 
    real(wp), parameter :: least_shown = 0.05_wp   !! share of a direction that is named [1]
-   real(wp), parameter :: lost = 1.0e-10_wp       !! real part that is none, of the maximum eigenvalue [1]
    integer, parameter :: most_shown = 4           !! directions that are named
 
 contains
@@ -80,9 +79,9 @@ contains
       if (size(study%modes) == 0) return
       growth = maxval(study%modes%eigenvalue%re)
       scale = maxval(abs(study%modes%eigenvalue))
-      if (growth > lost*scale) then
+      if (growth > no_growth*scale) then
          words = "unstable: a mode grows e-fold in "//real_text(1.0_wp/growth, 4)//" s"
-      else if (growth < -lost*scale) then
+      else if (growth < -no_growth*scale) then
          words = "asymptotically stable: the slowest mode decays e-fold in "//real_text(-1.0_wp/growth, 4)//" s"
       else
          words = "marginally stable: a mode neither grows nor decays"

@@ -12,7 +12,8 @@ module campbell
    use kinds, only: wp
    use linear_model, only: linearise
    use linear_state, only: find_state, linear_state_t
-   use modes_results, only: campbell_point_t, linear_model_t, mode_t, modes_input_t, modes_plan_t, modes_study_t, onset_t
+   use modes_results, only: campbell_point_t, linear_model_t, mode_t, modes_input_t, modes_plan_t, modes_study_t, no_growth, &
+      onset_t
    use parameter_source, only: parameter_source_t
    use text, only: append_text, real_text
    implicit none (type, external)
@@ -22,7 +23,6 @@ module campbell
    integer, parameter :: the_parameter = 1          !! its number in the source
    integer, parameter :: most = 60                  !! steps of a bracket
    real(wp), parameter :: close = 1.0e-10_wp        !! width of a bracket in the end, of the range [1]
-   real(wp), parameter :: no_growth = 1.0e-9_wp     !! real part that is none, of the maximum eigenvalue [1]
 
 contains
 
@@ -81,7 +81,7 @@ contains
       type(modes_plan_t), intent(in) :: plan                       !! what is asked for
       real(wp), intent(in) :: p                                    !! the value [any]
       type(campbell_point_t), intent(out) :: point                 !! eigenvalues by frequency, no branches
-      character(:), allocatable, intent(out) :: reason             !! why there are none; blank: there are
+      character(:), allocatable, intent(out) :: reason             !! why the modes were not found; blank: they were
       type(error_t), allocatable, intent(out) :: error             !! the same
 
       type(linear_state_t), target :: state
