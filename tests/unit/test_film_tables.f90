@@ -60,7 +60,8 @@ contains
       end do
    end subroutine test_rotation
 
-   !> Every cell of the journal that approaches or parts.
+   !> Every cell of the journal that approaches or parts: load, and side flow against the volume that leaves the loaded part, to a
+   !> column at both edges of that part.
    subroutine test_squeeze(error)
       type(error_t), allocatable, intent(out) :: error  !! what failed
 
@@ -81,9 +82,31 @@ contains
             call check_close(error, -0.5_wp*film%f(1)*state%v(1), squeeze_load(i, k), allowed(squeeze_load(i, k), squeeze_eps(i)), &
                              "So"//cell)
             call check_close(error, film%f(2), 0.0_wp, 1.0e-10_wp*norm2(film%f), "across"//cell)
+            call check_close(error, film%side_flow, squeezed_out(grid), &
+                             24.0_wp*grid%ratio**2*(2.0_wp*pi/n_column), "side flow"//cell)
          end do
       end do
    end subroutine test_squeeze
+
+   !> Volume per time that the gap loses where there is pressure, over c R^3/(3 L): 12 (L/D)^2 times the integral of v . u. At the edge
+   !> of that part the slope of the pressure is zero and no surface slides, so that all of it leaves at the ends.
+   pure real(wp) function squeezed_out(grid)
+      type(reynolds_grid_t), intent(in) :: grid  !! a half length, solved for a journal that does not turn
+
+      real(wp) :: closing
+      integer :: j, k
+
+      squeezed_out = 0.0_wp
+      do k = 1, size(grid%theta) - 1
+         associate (theta => grid%theta(k - 1:k), v => grid%state%v)
+            closing = v(1)*(sin(theta(2)) - sin(theta(1))) - v(2)*(cos(theta(2)) - cos(theta(1)))
+         end associate
+         do j = 1, size(grid%y) - 1
+            if (grid%film%p(j, k) > 0.0_wp) squeezed_out = squeezed_out + (grid%y(j) - grid%y(j - 1))*closing
+         end do
+      end do
+      squeezed_out = 12.0_wp*grid%ratio**2*squeezed_out
+   end function squeezed_out
 
    !> Where the two-groove bearing carries its load, and its eight coefficients. The printed ones are of a film with p = 0 along
    !> the widest gap too, that line held where it is while the journal moves a little.
