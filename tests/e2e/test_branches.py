@@ -92,6 +92,8 @@ SWEEPS = {
     "cylindrical": (AXES, 0, "0 0 1", "0 0 7", lambda R, r: np.hstack([r[:, :2], R[:, :2, 2]])),
     "screw": (("i j axis_i axis_j pitch[mm]", 'o p "0 0 1" "0 0 1" 20'), 0, f"0 0 {0.14 / (2 * np.pi)!r}", "0 0 7", lambda R, r: np.hstack(
         [r[:, :2], R[:, :2, 2], (r[:, 2:] - 0.02 / (2 * np.pi) * np.unwrap(np.arctan2(R[:, 1, 0], R[:, 0, 0]))[:, None])])),
+    "screw of a fine pitch": (("i j axis_i axis_j pitch[um]", 'o p "0 0 1" "0 0 1" 0.1'), 0, f"0 0 {7e-7 / (2 * np.pi)!r}", "0 0 7", lambda R, r: np.hstack(
+        [r[:, :2], R[:, :2, 2], (r[:, 2:]*1e5 - 0.01 / (2 * np.pi) * np.unwrap(np.arctan2(R[:, 1, 0], R[:, 0, 0]))[:, None])])),
     "universal": (("i j axis_i axis_j", 'o p "1 0 0" "0 1 0"'), 0, "0 0 0", "6 5 0", lambda R, r: np.hstack([r, R[:, :1, 1]])),
     "perpendicular": (("i j axis_i axis_j", 'o p "1 0 0" "0 1 0"'), 0, "1 2 3", "6 5 0", lambda R, r: R[:, :1, 1]),
     "parallel_axes": (AXES, 0, "1 2 3", "0 0 7", lambda R, r: R[:, :2, 2]),
@@ -109,7 +111,7 @@ SWEEPS = {
 def test_whole_range(gudgeon, kind):
     """A body that nothing drives, through turns and more of what its joint leaves: its rows hold as geometry says, and the energy stays."""
     columns, x, v, w, left = SWEEPS[kind]
-    text = HEAD.format(iyy=3, x=x, xi=0, v=v, w=w) + f"[joint.{kind}]\nname {columns[0]}\njoint {columns[1]}\n" + TAIL.format(end=3)
+    text = HEAD.format(iyy=3, x=x, xi=0, v=v, w=w) + f"[joint.{kind.split()[0]}]\nname {columns[0]}\njoint {columns[1]}\n" + TAIL.format(end=3)
     run = run_with(gudgeon, text)
     assert run.summary["status"] == "complete" and run.summary["warnings"] == []
     turns, r = rotations(run.item("bodies/orientation", "b")), run.item("bodies/position", "b")
@@ -118,6 +120,51 @@ def test_whole_range(gudgeon, kind):
     assert_close(kinetic, kinetic[0] + 0 * kinetic, relative=1e-8, what="energy")
     if kind != "orientation":
         assert np.trace(turns, axis1=1, axis2=2).min() < -0.9, "half a turn at least"
+
+
+PLANE = """deck = 1
+[bodies]
+name   mass[kg]  inertia[kg.m^2]  x[m]  angle[deg]  omega[rad/s]  vy[m/s]
+sun    1         0.3              0     0           2             0
+arm    1         0.1              0     0           5             0
+wheel  1         0.2              0.3   0           {spin}        1.5
+[points]
+name   body    xi[m]
+o      ground  0
+s      sun     0
+a      arm     0
+tip    arm     0.3
+w      wheel   0
+[joint.revolute]
+name   i    j
+post   o    s
+hinge  o    a
+spin   tip  w
+"""
+# kind, columns, row; the wheel's speed at which the row holds with 2 rad/s of the sun and 5 rad/s of the arm; the row's angle of sun, arm and wheel
+PLANAR_SWEEPS = {
+    "gear": (("i j radius_i[m] radius_j[m]", "s w 0.1 0.2"), 6.5, (0.1, -0.3, 0.2)),
+    "gear with a ring": (("i j radius_i[m] radius_j[m]", "s w 0.5 -0.2"), -2.5, (0.5, -0.3, -0.2)),
+    "gear in a ring": (("i j radius_i[m] radius_j[m]", "s w -2.7 3"), 2.3, (-2.7, -0.3, 3)),
+    "belt": (("i j radius_i[m] radius_j[m]", "s w 0.1 0.05"), -1, (0.1, -0.05, -0.05)),
+    "belt with a cross": (("i j radius_i[m] radius_j[m] belt", "s w 0.1 0.05 crossed"), 11, (0.1, -0.15, 0.05)),
+    "parallel": (("i j", "sun wheel"), 2, (1, 0, -1)),
+}
+
+
+@pytest.mark.parametrize("kind", PLANAR_SWEEPS)
+def test_whole_turns_in_the_plane(gudgeon, kind):
+    """A sun, an arm and a wheel at its end, which nothing drives, through several turns: angles hold the row without a turn gained or lost,
+    and energy and moment of momentum stay."""
+    columns, spin, row = PLANAR_SWEEPS[kind]
+    text = PLANE.format(spin=spin) + f"[joint.{kind.split()[0]}]\nname {columns[0]}\njoint {columns[1]}\n" + TAIL.format(end=6)
+    run = run_with(gudgeon, text)
+    assert run.summary["status"] == "complete" and run.summary["warnings"] == []
+    angle = np.stack([run.item("bodies/angle", name).ravel() for name in ("sun", "arm", "wheel")], 1)
+    assert abs(angle[-1]).max() > 4 * np.pi, "turns"
+    assert_close(angle @ row / np.linalg.norm(row), 0 * run.time, absolute=1e-8, what="what the joint holds")
+    kinetic = run.read("energy/kinetic").ravel()
+    assert_close(kinetic, kinetic[0] + 0 * kinetic, relative=1e-8, what="energy")
 
 
 def ended(gudgeon, text, code=5):
