@@ -25,7 +25,7 @@ LIMITS = "Bounds: at most 15 ms and 20 MB for the small run."
 
 def folder_of(name):
     """The folder of a source file, as 'mechanics/joints', or the library of a function without one."""
-    folder = re.match(r"(?:\./)*src/(.+)/", name)
+    folder = re.match(r"(?:\./)*src/([^:]+)/", name)
     if folder:
         return folder[1]
     if re.search(r"\.inc:", name):

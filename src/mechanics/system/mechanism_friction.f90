@@ -145,8 +145,8 @@ contains
       end associate
    end subroutine find_mobilities
 
-   !> Rate at which the sliding velocity of a contact that sticks decays. In space slip ends at a speed of rest, not at round-off:
-   !> what is left of it carries along contacts that slip, so it decays within the time of the contact.
+   !> Rate at which the sliding velocity of a contact that sticks decays: within the time of the contact, for what is left of it, in
+   !> space where slip ends at a speed of rest, in the plane of sliding that corners of one face do not hold, works on its force.
    real(wp) function decay_rate(self, slot, k) result(decay)
       class(mechanism_t), intent(in) :: self   !! the system
       integer, intent(in) :: slot              !! set of the contact
@@ -156,7 +156,6 @@ contains
 
       decay = settling*self%linkage%scales%pace
       associate (set => self%clearance_joints%sets(slot)%set)
-         if (set%stick_slip%n_tangent == 1) return
          call set%gaps(self%linkage%motion, delta, rate)
          time = own_time(self, slot, k, delta(set%before%contacts + k))
          if (time*decay < 1.0_wp .and. time > 0.0_wp) decay = 1.0_wp/time
