@@ -14,12 +14,12 @@ module kinds
 
 contains
 
-   !> A quiet NaN: the value of what was not computed.
+   !> A quiet NaN: the value of what was not computed. By its bits: a procedure that uses ieee_arithmetic itself saves and restores the
+   !> flags of the processor, which takes longer than what it is called for in expressions.
    pure function not_a_number() result(x)
-      use, intrinsic :: ieee_arithmetic, only: ieee_quiet_nan, ieee_value
       real(wp) :: x  !! NaN [1]
 
-      x = ieee_value(1.0_wp, ieee_quiet_nan)
+      x = transfer(int(z"7FF8000000000000", i8), x)
    end function not_a_number
 
 end module kinds
