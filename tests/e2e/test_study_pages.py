@@ -1,6 +1,7 @@
 """Pages of sweeps and ensembles: their numbers are those of the tables, their histories those of sweep.h5, and a browser shows them."""
 
 import functools
+import json
 import sys
 
 import h5py
@@ -9,7 +10,8 @@ import pytest
 import study_pages
 from page_data import numbers, object_of
 from study_pages import csv_of, numbers_of
-from support import ROOT, call, scratch
+from support import ROOT, call, changed, scratch
+from test_report import Page
 
 sys.path.insert(0, str(ROOT / "tests" / "browser"))
 from visit import browser_here, visit, watched  # noqa: E402
@@ -147,3 +149,41 @@ def test_a_page_is_written_when_it_is_asked_for(gudgeon):
     codes = numbers(data["exit"], "<i4")
     assert (codes == 0).sum() == 3 and (codes > 0).sum() == 3
     assert all(data["said"][str(k)] for k in np.flatnonzero(codes))
+
+
+def test_page_of_a_study_of_tolerances(gudgeon):
+    """Its tables have the numbers of summary.json; runs of members are shown as those of a sweep, sampled values with six digits."""
+    directory = scratch()
+    text = (ROOT / "inputs" / "tolerance_slider_crank.deck").read_text(encoding="utf-8")
+    (directory / "still.deck").write_text(changed(text, "output", report="on"), encoding="utf-8")
+    call(gudgeon, "tolerance", directory / "still.deck", "--out", directory / "still", "--quiet")
+    page = Page((directory / "still" / "report.html").read_text(encoding="utf-8"))
+    summary = json.loads((directory / "still" / "summary.json").read_text(encoding="utf-8"))
+    rows = page.tables["requests"]
+    assert rows[0][:2] == ["channel", "unit"] and len(rows) == 1 + len(summary["tolerance"])
+    factor = {"mm": 1e3, "m": 1.0, "µm": 1e6}
+    for row in rows[1:]:
+        channel = summary["tolerance"][row[0]]
+        for column, wanted in ((3, channel["nominal"]["value"][0]), (4, channel["band"]["low"][0]), (6, channel["sigma"]["value"][0])):
+            assert abs(float(row[column]) / factor[row[1]] - wanted) <= 1e-5 * abs(wanted), (row, column, wanted)
+    (directory / "moving.deck").write_text(f'''deck = 1
+include "{ROOT / "inputs" / "studies" / "tolerance_study.deck"}"
+[tolerance.study]
+requests = motor.moment.rms
+members = 6
+{study_pages.FEW.replace("runs = 3", "runs = 2")}
+[statistics]
+after = 0.2 turns of motor
+[analysis.dynamic]
+end = 0.6 turns of motor
+[output]
+report = on
+''', encoding="utf-8")
+    call(gudgeon, "tolerance", directory / "moving.deck", "--out", directory / "moving", "--quiet")
+    data, runs = object_of(directory / "moving" / "report.html"), csv_of(directory / "moving" / "sweep.csv")
+    found = {result["n"]: numbers(result["v"], "<f8") for result in data["results"]}
+    np.testing.assert_array_equal(found["motor.moment.rms"], numbers_of(runs["motor.moment.rms"]))
+    for parameter in data["parameters"]:
+        x = numbers(parameter["x"], "<f8")[numbers(parameter["at"], "<i4")].repeat(data["members"])
+        np.testing.assert_array_equal(x, numbers_of(runs[parameter["n"]]))
+        assert max(map(len, parameter["texts"])) < 16, parameter["texts"]

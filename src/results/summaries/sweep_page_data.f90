@@ -13,7 +13,7 @@ module sweep_page_data
    use kinds, only: not_a_number, wp
    use sweep_axes, only: axis_of_parameter, sweep_axis_t
    use sweep_results, only: case_numbers, n_spread, sweep_results_t
-   use text, only: exact_text, text_t, to_text
+   use text, only: exact_text, real_text, to_text
    use text_buffer, only: buffer_t
    implicit none (type, external)
    private
@@ -92,27 +92,36 @@ contains
       end if
    end subroutine choose_results
 
-   !> Parameters: name, unit, values as in the deck and as numbers, and which of them a case has.
+   !> Parameters: name, unit, values as in the deck and as numbers, and which of them a case has. Values with many digits, as
+   !> those that are sampled, are shown with six.
    subroutine add_parameters(data, results, n_case)
       type(buffer_t), intent(inout) :: data               !! grown
       type(sweep_results_t), intent(in) :: results        !! what the runs gave
       integer, intent(in) :: n_case                       !! cases of the page
 
+      integer, parameter :: longest = 14     ! letters of a value that is shown as it stands
       type(sweep_axis_t) :: axis
       type(display_unit_t) :: unit
       integer :: i, k
+      logical :: is_long
 
       call data%add("parameters:[")
       if (allocated(results%sweep%parameters)) then
          do k = 1, size(results%sweep%parameters)
             associate (parameter => results%sweep%parameters(k))
                axis = axis_of_parameter(parameter)
+               is_long = maxval([(len(parameter%texts(i)%s), i=1, size(parameter%texts))]) > longest .and. parameter%unit /= ""
                unit = axis%unit_shown()
+               if (is_long) unit = choose_unit(parameter%unit, maxval(abs(parameter%numbers)))
                call data%add("{n:"""//escaped(parameter%name, .false.)//""",u:"""//escaped(unit%symbol, .false.)//""",f:"// &
                              exact_text(unit%factor)//",log:"//trim(merge("true ", "false", axis%is_log))//",words:"// &
                              trim(merge("true ", "false", size(axis%categories) > 0))//",texts:[")
                do i = 1, size(parameter%texts)
-                  call data%add(""""//escaped(parameter%texts(i)%s, .false.)//""",")
+                  if (is_long) then
+                     call data%add(""""//trim(real_text(unit%factor*parameter%numbers(i), 6)//" "//unit%symbol)//""",")
+                  else
+                     call data%add(""""//escaped(parameter%texts(i)%s, .false.)//""",")
+                  end if
                end do
                call data%line("],x:"""//doubles_in_base_64(axis%x)//""",at:"""// &
                               integers_in_base_64([(results%sweep%value_number(k, i) - 1, i=1, n_case)])//"""},")

@@ -45,7 +45,7 @@ function cloud(x, y, c, box) {
   });
   const lines = over.map(list => {
     const k = colours.of(list[0] * D.members),
-      isOne = !c || (c.parameter >= 0 && c.parameter !== x.parameter);
+      isOne = (!c || (c.parameter >= 0 && !together(c.parameter, x.parameter))) && isSeries(list);
     const p = list.map(m => [ax.place(x.of(m * D.members)), ay.place(meanOf(y.result, m)), m]).filter(q => q[1] === q[1]);
     const bars = !D.ensemble
       ? ''

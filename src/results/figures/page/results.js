@@ -80,12 +80,14 @@ function marksOf(x, y) {
 }
 
 // Cases that differ in nothing but a parameter and those that change together with it, by increasing values
+const together = (j, p) => j === p || (j < D.together && p < D.together);
 function curvesOver(p) {
-  const together = j => j === p || (j < D.together && p < D.together),
-    curves = new Map();
+  const curves = new Map();
   for (let m = 0; m < nCase; m++) {
-    const key = P.map((q, j) => (together(j) ? '' : q.at[m])).join();
+    const key = P.map((q, j) => (together(j, p) ? '' : q.at[m])).join();
     curves.set(key, (curves.get(key) || []).concat(m));
   }
   return [...curves.values()].map(list => list.sort((a, b) => P[p].x[P[p].at[a]] - P[p].x[P[p].at[b]]));
 }
+// Whether cases that change together make a curve: in the order of the sweep, not sampled ones
+const isSeries = list => D.together < 2 || [1, -1].some(s => list.every((m, k) => k === 0 || s * (m - list[k - 1]) > 0));
