@@ -4,8 +4,8 @@
 !> values at its ends, linear between two rows. Channels are taken in the order of the file, as many as a page has space for.
 module kept_histories
    use errors, only: error_t, exit_file, set_error
-   use hdf5, only: h5f_acc_rdonly_f, h5fclose_f, h5fopen_f, h5gclose_f, h5gopen_f, h5lexists_f, hid_t
-   use hdf5_calls, only: open_library
+   use hdf5, only: h5fclose_f, h5gclose_f, h5gopen_f, h5lexists_f, hid_t
+   use hdf5_calls, only: open_file
    use, intrinsic :: ieee_arithmetic, only: ieee_is_nan
    use kinds, only: not_a_number, wp
    use run_history, only: read_histories
@@ -55,12 +55,9 @@ contains
 
       call no_histories(list)
       status = 0
-      call open_library(status)
-      if (status >= 0) call h5fopen_f(path, h5f_acc_rdonly_f, file, status)
-      if (status < 0) then
-         call set_error(error, exit_file, "cannot read '"//path//"'")
-         return
-      end if
+      call open_file(path, file, status)
+      if (status < 0) call set_error(error, exit_file, "cannot read '"//path//"'")
+      if (allocated(error)) return
       call find_runs(file, n_run, owners)
       n = 0
       do k = 1, size(owners)

@@ -121,13 +121,13 @@ function cells(x, y, c, box) {
     ey.forEach(([v, v0, v1]) => {
       const cell = found.get(u + ';' + v);
       if (!cell) return;
-      const r = `x="${ax.place(u0).toFixed(1)}" y="${ay.place(v1).toFixed(1)}" width="${(ax.place(u1) - ax.place(u0)).toFixed(1)}" height="${(ay.place(v0) - ay.place(v1)).toFixed(1)}"`,
+      const r = `x="${ax.place(u0).toFixed(1)}" y="${ay.place(v1).toFixed(1)}" width="${(ax.place(u1) - ax.place(u0) + 0.5).toFixed(1)}" height="${(ay.place(v0) - ay.place(v1) + 0.5).toFixed(1)}"`,
         w = cell.n ? cell.sum / cell.n : NaN;
       const share = hi > lo ? (w - lo) / (hi - lo) : 0.5;
       marks.push([ax.place(u), ay.place(v), cell.k]);
       parts.push(
         cell.n
-          ? `<rect ${r} fill="${shade(share)}"/>` +
+          ? `<rect ${r} fill="${shade(share)}" shape-rendering="crispEdges"/>` +
               (found.size <= 36 ? text(ax.place(u).toFixed(1), (ay.place(v) + 4).toFixed(1), tidy(w), 'middle', share > 0.6 ? '#111' : '#fff') : '')
           : `<rect ${r} fill="#eee" stroke="#aaa"/>` + text(ax.place(u).toFixed(1), (ay.place(v) + 4).toFixed(1), 'no value', 'middle', '#777'),
       );

@@ -199,11 +199,14 @@ function start() {
   P.forEach((p, i) => option('c', p.n, 'p' + i));
   byName.forEach(([r, i]) => option('c', r.n, 'r' + i));
   if (P.length > 1 && D.together < P.length) $('c').value = 'p' + (D.together > 1 ? D.together : 1);
+  if (P.length === 2 && D.together < 2 && P[1].texts.length > 8) $('y').value = 'p1';
   option('rows', 'table of the runs', 'runs');
   if (D.ensemble) option('rows', 'table of the cases', 'cases');
   $('rows').hidden = !D.ensemble;
   $('for-all').hidden = R.length <= 8 && !R.some(r => r.drawn);
   const redraw = () => {
+    // a map shows a result
+    if ([$('x'), $('y')].every(s => s.value[0] === 'p') && $('c').value[0] !== 'r') $('c').value = 'r' + firstDrawn;
     drawChart();
     buildSide();
   };
