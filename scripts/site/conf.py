@@ -11,6 +11,7 @@ from pygments.lexer import RegexLexer
 from pygments.lexers import TextLexer
 from pygments.token import Comment, Keyword, String, Text
 from sphinx.highlighting import lexers
+from sphinx.search.en import SearchEnglish
 
 sys.path.insert(0, str(pathlib.Path(__file__).resolve().parent))
 from notebook import page_of  # noqa: E402
@@ -41,6 +42,9 @@ class DeckLexer(RegexLexer):
 
 
 lexers["deck"], lexers["csv"] = DeckLexer(), TextLexer()
+
+# Options and keys that the search of other sites leaves out as everyday words
+SearchEnglish.stopwords = SearchEnglish.stopwords - {"above", "after", "at", "each", "from", "my", "out", "until"}
 
 PARTS = ("tutorials", "how-to", "reference", "theory", "developer")
 

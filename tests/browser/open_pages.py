@@ -2,7 +2,7 @@
 that of a run shows its pictures, its tables and the animation in its frame.
 
 open_pages.py PROGRAM DIRECTORY [--rate]: runs the decks of inputs/ there with the program; exits with 1 if something is wrong.
---rate: pictures per second while each page plays. Chromium: apt-get install chromium.
+--rate: pictures per second while each page plays, and while the pointer moves over the page of a sweep. Chromium: apt-get install chromium.
 """
 
 import concurrent.futures
@@ -15,6 +15,9 @@ import sys
 import h5py
 import numpy as np
 from visit import browser_here, visit, watched
+
+sys.path.insert(0, str(pathlib.Path(__file__).resolve().parent.parent / "e2e"))
+import study_pages  # noqa: E402
 
 ROOT = pathlib.Path(__file__).resolve().parent.parent.parent
 LIMIT = 5_000_000  # bytes of a page
@@ -151,6 +154,10 @@ def main(program, directory, rate):
     if browser_here() is None:
         print("browser-test: no Chromium; on Debian: apt-get install chromium", file=sys.stderr)
         return 1
+    if rate:
+        pages = study_pages.make_studies(program, directory)
+        for name, found in seen_in(pages, study_pages.RATE.replace("SPAN", "3000")).items():
+            print(f"{name}: {found['rate']:.1f} pictures per second, {found['cost']:.1f} ms each, {pages[name].stat().st_size // 1000} kB")
     names = sorted(path.stem for path in (ROOT / "inputs").glob("*.deck"))
     paths = make_pages(program, directory, names)
     found = seen_in(paths, RATE if rate else DO)

@@ -12,11 +12,16 @@ def numbers(text, kind="<f4"):
     return np.frombuffer(base64.b64decode(text), kind)
 
 
-def page_data(path):
-    """Everything in `D`: lists and texts as they are, arrays of positions with an axis for frames, bodies or joints, components."""
+def object_of(path):
+    """The object `D` of a page as it is written."""
     literal = re.search(r'const D=(\{.*?\nnote:"[^"]*"\});', path.read_text(encoding="utf-8"), re.DOTALL).group(1)
     literal = re.sub(r",(\s*[\]}])", r"\1", re.sub(r"([{,]\s*)(\w+):", r'\1"\2":', literal))
-    data = json.loads(literal)
+    return json.loads(literal)
+
+
+def page_data(path):
+    """Everything in `D`: lists and texts as they are, arrays of positions with an axis for frames, bodies or joints, components."""
+    data = object_of(path)
     data["t"] = numbers(data["t"], "<f8")
     n = len(data["t"])
     for key, width in (("r", 3), ("q", 4), ("g", 3)):

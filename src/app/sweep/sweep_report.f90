@@ -5,9 +5,10 @@ module sweep_report
    use errors, only: error_t, exit_sweep, set_error
    use figure_binding, only: bind_figure
    use figure_phrase, only: mistake_t
-   use figure_words, only: figure_contour, figure_t, is_of_run
+   use figure_words, only: figure_contour, figure_statistics, figure_t, is_of_run
    use gnuplot_runs, only: draw_figures, make_folder
    use json_text, only: json_object_t
+   use kept_histories, only: kept_histories_t, no_histories, read_kept
    use kinds, only: i8, wp
    use load, only: loaded_t
    use mechanism_catalogue, only: build_catalogue
@@ -15,10 +16,13 @@ module sweep_report
    use options, only: options_t
    use plot_table, only: plot_table_t, tell_empty, write_plot
    use recorder, only: status_complete, status_failed, status_stopped
+   use report_page, only: report_name
+   use result_table, only: result_table_t
    use sweep_map, only: write_sweep_map
    use sweep_plots, only: sweep_table
    use sweep_tables, only: shown_cases
    use sweep_work, only: failure_text, sweep_work_t
+   use study_page, only: study_page_text
    use study_summary, only: add_output
    use text, only: append_text, counted, real_text, text_t, to_text
    use text_buffer, only: buffer_t
@@ -76,18 +80,19 @@ contains
       call draw_figures(folder, names, pictures, warnings)
    end subroutine make_sweep_figures
 
-   !> Numbers that figures of the sweep draw over its cases, each between commas: `statistics(NUMBER,...)`.
+   !> Numbers that figures of the sweep draw over its cases, each between commas: of `statistics(NUMBER,...)` and `contour(NUMBER)`.
    function drawn_numbers(loaded) result(list)
       type(loaded_t), intent(in) :: loaded     !! the deck
       character(:), allocatable :: list        !! as `,motor.moment.peak,motor.moment.rms,`
 
-      integer :: k
+      integer :: i, k
 
       list = ","
       do k = 1, size(loaded%figures)
-         associate (word => loaded%figures(k)%word)
-            if (index(word, "statistics(") == 1) list = list//word(index(word, "(") + 1:len(word) - 1)//","
-         end associate
+         if (all(loaded%figures(k)%kind /= [figure_statistics, figure_contour])) cycle
+         do i = 1, size(loaded%figures(k)%arguments)
+            list = list//loaded%figures(k)%arguments(i)%s//","
+         end do
       end do
    end function drawn_numbers
 
@@ -112,10 +117,7 @@ contains
       if (work%n_failed() > 0) state = status_failed
       if (work%n_missing() > 0) state = status_stopped
       call lines%line(loaded%scene%title)
-      call lines%line(counted(loaded%sweep%n_cases(), "case", "cases")//" of "// &
-                      counted(work%results%n_member, "run", "runs")//": "// &
-                      to_text(count(work%results%runs%exit_code == 0))//" done, "//to_text(work%n_failed())//" failed"// &
-                      missing_text())
+      call lines%line(headline())
       if (work%shard > 0) call lines%line("part "//to_text(work%shard)//" of "//to_text(work%n_shards)//": "// &
                                           counted(work%n_mine(), "run", "runs"))
       if (work%n_made > 0) then
@@ -132,9 +134,10 @@ contains
                          work%results%runs(k)%message)
       end do
       if (work%shard == 0 .and. loaded%sweep%n_cases() > 1) call add_table(lines, shown_cases(work%results, drawn_numbers(loaded)))
-      call add_output(lines, work%plan%directory, files(:merge(len(files), 0, work%shard == 0)), pictures, warnings)
+      call add_output(lines, work%plan%directory, files(:merge(len(files), 0, work%shard == 0))//page_name(), pictures, warnings)
       call fill_json()
       call write_summaries(lines%get(), json%get()//new_line("a"))
+      if (.not. allocated(error) .and. len(page_name()) > 0) call write_page(loaded, work, state, headline(), warnings, error)
       if (state == status_complete .or. allocated(error)) return
       call set_error(error, exit_sweep, failure_text(work)//where_text())
 
@@ -159,6 +162,22 @@ contains
          call json%put_list("figures", pictures)
          call json%put_list("warnings", warnings)
       end subroutine fill_json
+
+      !> How many cases and runs.
+      function headline() result(words)
+         character(:), allocatable :: words     !! one line
+
+         words = counted(loaded%sweep%n_cases(), "case", "cases")//" of "//counted(work%results%n_member, "run", "runs")//": "// &
+                 to_text(count(work%results%runs%exit_code == 0))//" done, "//to_text(work%n_failed())//" failed"//missing_text()
+      end function headline
+
+      !> The page of the sweep, if it is requested.
+      function page_name() result(words)
+         character(:), allocatable :: words     !! with a comma before it
+
+         words = ""
+         if (work%shard == 0 .and. loaded%scene%settings%output%flag("report")) words = ", "//report_name
+      end function page_name
 
       !> How many runs are missing, if any.
       function missing_text() result(words)
@@ -195,5 +214,28 @@ contains
       end subroutine write_summaries
 
    end subroutine report_sweep
+
+   !> The page.
+   subroutine write_page(loaded, work, state, headline, warnings, error)
+      type(loaded_t), intent(in) :: loaded                 !! the deck
+      type(sweep_work_t), intent(in) :: work               !! the sweep
+      character(*), intent(in) :: state                    !! of the sweep
+      character(*), intent(in) :: headline                 !! how many cases and runs
+      type(text_t), intent(in) :: warnings(:)              !! (m) what was noticed
+      type(error_t), allocatable, intent(out) :: error     !! a file cannot be read or written
+
+      type(kept_histories_t) :: histories
+      type(result_table_t) :: no_tables(0)
+      type(text_t) :: no_pictures(0)
+
+      call no_histories(histories)
+      if (loaded%sweep%keeps_channels) then
+         call read_kept(work%plan%directory//"/sweep.h5", size(work%results%runs), histories, error)
+         if (allocated(error)) return
+      end if
+      call replace_file(work%plan%directory//"/"//report_name, &
+                        study_page_text(work%plan, state, headline, warnings, no_tables, no_pictures, work%results, &
+                                        drawn_numbers(loaded), histories), error)
+   end subroutine write_page
 
 end module sweep_report

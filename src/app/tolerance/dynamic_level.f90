@@ -103,7 +103,8 @@ contains
       call note_runs(study, warnings)
       plan = work%plan
       call write_study(loaded, plan, study, pictures, warnings, error)
-      if (.not. allocated(error)) call report_tolerances(options, loaded, plan, study, pictures, warnings, error)
+      if (.not. allocated(error)) call report_tolerances(options, loaded, plan, study, pictures, warnings, error, &
+                                                         work%results)
    end subroutine conclude
 
 end module dynamic_level

@@ -2,14 +2,20 @@
 module tolerance_report
    use errors, only: error_t
    use json_text, only: json_object_t
+   use kept_histories, only: kept_histories_t, no_histories
    use kinds, only: wp
    use load, only: loaded_t
    use options, only: options_t
    use output_plan, only: output_plan_t
    use recorder, only: status_complete
+   use report_page, only: report_name
+   use result_table, only: result_table_t
+   use study_page, only: study_page_text
    use study_summary, only: add_output, show_summaries, start_summary
+   use sweep_results, only: sweep_results_t
    use text, only: append_text, counted, real_text, text_t, to_text
    use text_buffer, only: buffer_t
+   use text_file, only: replace_file
    use text_of_table, only: add_table
    use tolerance_object, only: put_tolerances
    use tolerance_plan, only: level_dynamic
@@ -64,8 +70,8 @@ contains
       end if
    end subroutine note_runs
 
-   !> Write and show the summaries.
-   subroutine report_tolerances(options, loaded, plan, study, pictures, warnings, error)
+   !> Write and show the summaries, and write the page if the deck asks for it.
+   subroutine report_tolerances(options, loaded, plan, study, pictures, warnings, error, results)
       type(options_t), intent(in) :: options                 !! the command line
       type(loaded_t), intent(in) :: loaded                   !! the deck
       type(output_plan_t), intent(in) :: plan                !! what files say
@@ -73,33 +79,83 @@ contains
       type(text_t), intent(in) :: pictures(:)                !! (n) pictures made
       type(text_t), intent(in) :: warnings(:)                !! (m) what was noticed
       type(error_t), allocatable, intent(out) :: error       !! a file cannot be written
+      type(sweep_results_t), intent(in), optional :: results !! of the runs, where there are some
 
-      character(:), allocatable :: object, text
+      character(:), allocatable :: files, object, page, text
+      type(kept_histories_t) :: histories
 
-      text = text_of(plan, study, pictures, warnings)
+      files = "tolerance.h5, tolerance.csv, tolerance_derivatives.csv"
+      if (study%plan%level == level_dynamic) files = files//", sweep.csv (runs)"
+      if (loaded%scene%settings%output%flag("report")) then
+         files = files//", "//report_name
+         if (present(results)) then
+            call no_histories(histories)
+            page = study_page_text(plan, status_complete, headline(study), warnings, tables_of(study), pictures, results, &
+                                   requested(study), histories)
+         else
+            page = study_page_text(plan, status_complete, headline(study), warnings, tables_of(study), pictures)
+         end if
+         call replace_file(plan%directory//"/"//report_name, page, error)
+         if (allocated(error)) return
+      end if
+      text = text_of(plan, study, files, pictures, warnings)
       object = object_of(loaded, plan, study, pictures, warnings)
       call show_summaries(options, plan%directory, text, object, error)
    end subroutine report_tolerances
 
+   !> Numbers that are studied, each between commas.
+   function requested(study) result(list)
+      type(tolerance_study_t), intent(in) :: study           !! the study
+      character(:), allocatable :: list                      !! as `,motor.moment.rms,`
+
+      integer :: k
+
+      list = ","
+      do k = 1, size(study%requests)
+         list = list//study%requests(k)%name//","
+      end do
+   end function requested
+
+   !> The tables for people.
+   function tables_of(study) result(tables)
+      type(tolerance_study_t), intent(in) :: study           !! the study
+      type(result_table_t), allocatable :: tables(:)         !! (2 or more) in their order
+
+      tables = [table_of_requests(study)]
+      if (allocated(study%splits)) tables = [tables, table_of_splits(study)]
+      tables = [tables, table_of_contributors(study)]
+      if (allocated(study%allocations)) tables = [tables, table_of_widths(study)]
+   end function tables_of
+
+   !> What was studied.
+   function headline(study) result(words)
+      type(tolerance_study_t), intent(in) :: study           !! the study
+      character(:), allocatable :: words                     !! one line
+
+      words = "complete: "//counted(size(study%plan%parameters), "toleranced parameter", "toleranced parameters")
+      if (study%plan%level == level_dynamic) then
+         words = words//", simulated"
+      else
+         words = words//", "//counted(size(study%pins), "joint with clearance", "joints with clearance")//", "// &
+                 counted(size(study%derivatives%instants), "output time", "output times")
+      end if
+   end function headline
+
    !> The summary for people.
-   function text_of(plan, study, pictures, warnings) result(text)
+   function text_of(plan, study, files, pictures, warnings) result(text)
       type(output_plan_t), intent(in) :: plan                !! what files say
       type(tolerance_study_t), intent(in) :: study           !! the study
+      character(*), intent(in) :: files                      !! written beside the summaries
       type(text_t), intent(in) :: pictures(:)                !! (n) pictures made
       type(text_t), intent(in) :: warnings(:)                !! (m) what was noticed
       character(:), allocatable :: text                      !! whole lines
 
       type(buffer_t) :: lines
+      type(result_table_t), allocatable :: tables(:)
+      integer :: k
 
       call lines%line(plan%title)
-      if (study%plan%level == level_dynamic) then
-         call lines%line("complete: "//counted(size(study%plan%parameters), "toleranced parameter", "toleranced parameters")// &
-                         ", simulated")
-      else
-         call lines%line("complete: "//counted(size(study%plan%parameters), "toleranced parameter", "toleranced parameters")// &
-                         ", "//counted(size(study%pins), "joint with clearance", "joints with clearance")//", "// &
-                         counted(size(study%derivatives%instants), "output time", "output times"))
-      end if
+      call lines%line(headline(study))
       associate (members => study%members)
          if (study%plan%level == level_dynamic) then
             call lines%line("members    "//to_text(members%n)//" run, "//to_text(members%open)//" failed")
@@ -115,14 +171,12 @@ contains
             end associate
          end if
       end associate
-      call add_table(lines, table_of_requests(study))
-      if (allocated(study%splits)) call add_table(lines, table_of_splits(study))
-      call add_table(lines, table_of_contributors(study))
-      if (allocated(study%allocations)) call add_table(lines, table_of_widths(study))
+      tables = tables_of(study)
+      do k = 1, size(tables)
+         call add_table(lines, tables(k))
+      end do
       call lines%line("")
-      call add_output(lines, plan%directory, "tolerance.h5, tolerance.csv, tolerance_derivatives.csv"// &
-                      trim(merge(", sweep.csv (runs)", "                  ", study%plan%level == level_dynamic)), pictures, &
-                      warnings)
+      call add_output(lines, plan%directory, files, pictures, warnings)
       text = lines%get()
    end function text_of
 

@@ -235,7 +235,7 @@ contains
       call add_number(info, "worn_stl", dim_none, "write worn bearings and journals as solids (JOINT.bearing.stl, in mm), with " &
                       //"depths magnified by this factor; 0: none", default="0", lower=0.0_wp)
       call add_flag(info, "report", "write report.html, a single page: the deck with all defaults, figures, extremes, impacts, " &
-                    //"cost and error, warnings; it works offline", default="off")
+                    //"cost and error, warnings; of a sweep its runs as plots and a table; it works offline", default="off")
    end function output_info
 
 end module section_info

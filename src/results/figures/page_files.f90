@@ -1,16 +1,20 @@
-!> Files that an animation page holds, as they were when the program was built: three.js, its licence, and our own of page/.
+!> Files that pages hold, as they were when the program was built: three.js, its licence, and our own of page/.
 module page_files
    use, intrinsic :: iso_c_binding, only: c_char, c_f_pointer, c_int, c_ptr, c_size_t
    implicit none (type, external)
    private
-   public :: page_file, page_body, page_head, page_licence, page_orbit, page_scripts, page_three
+   public :: page_file, page_body, page_head, page_licence, page_orbit, page_scripts, page_study, page_three, &
+      study_scripts, study_style
 
    integer, parameter :: page_head = 0      !! style, to the start of the body
-   integer, parameter :: page_body = 1      !! elements
+   integer, parameter :: page_body = 1      !! elements of an animation
    integer, parameter :: page_licence = 2   !! of three.js
    integer, parameter :: page_three = 3     !! three.js
    integer, parameter :: page_orbit = 4     !! OrbitControls of three.js
-   integer, parameter :: page_scripts(6) = [5, 6, 7, 8, 9, 10]  !! our own, in the order in which they are read
+   integer, parameter :: page_study = 5     !! elements of the page of a sweep
+   integer, parameter :: study_style = 17   !! style of the page of a study, before the other
+   integer, parameter :: page_scripts(8) = [6, 7, 8, 9, 10, 11, 12, 13]  !! our own of an animation, in the order of reading
+   integer, parameter :: study_scripts(7) = [6, 7, 14, 15, 18, 19, 16]   !! the same of a sweep
 
    interface
       type(c_ptr) function c_page_file(number, n) bind(c, name="gudgeon_page_file")

@@ -17,7 +17,7 @@ module report_page
    use text_buffer, only: buffer_t
    implicit none (type, external)
    private
-   public :: report_name, report_text
+   public :: add_deck_text, add_figures, add_list, add_origin, name_of, report_name, report_text
 
    character(*), parameter :: report_name = "report.html"       !! the file
    integer(i8), parameter :: largest_picture = 100000000_i8     !! bytes of a picture that is taken in
@@ -56,12 +56,11 @@ contains
       call lines%line("<details><summary>summary.txt</summary><pre>")
       call add_text(lines, more)
       call lines%line("</pre></details>")
-      call add_origin(lines, plan)
+      call add_origin(lines, plan, .false.)
       call head(lines, "deck", "The deck with all defaults, in SI units")
       if (allocated(plan%origin%deck_echo)) call deck_tables(lines, plan%origin%deck_echo)
-      call lines%line("<details><summary>the original deck</summary><pre>")
-      call add_text(lines, plan%origin%deck_text)
-      call lines%line("</pre></details></body></html>")
+      call add_deck_text(lines, plan)
+      call lines%line("</body></html>")
       page = lines%get()
    end function report_text
 
@@ -157,10 +156,11 @@ contains
       s = path(index(path, ".", back=.true.) + 1:)
    end function ending
 
-   !> Which deck, program and command the run is of.
-   subroutine add_origin(lines, plan)
+   !> Which deck, program and command the run or study is of.
+   subroutine add_origin(lines, plan, is_study)
       type(buffer_t), intent(inout) :: lines       !! the page
       type(output_plan_t), intent(in) :: plan      !! what is known of the run
+      logical, intent(in) :: is_study              !! many runs, whose parameters differ
 
       integer :: k
 
@@ -171,12 +171,22 @@ contains
       call row(lines, "program", "gudgeon "//plan%origin%program_version//" ("//plan%origin%git_sha1//")")
       call row(lines, "libraries", plan%origin%libraries)
       call row(lines, "written", utc_time())
-      call row(lines, "degrees of freedom", to_text(plan%n_freedom))
-      do k = 1, size(plan%origin%parameter_names)
+      if (.not. is_study) call row(lines, "degrees of freedom", to_text(plan%n_freedom))
+      do k = 1, merge(0, size(plan%origin%parameter_names), is_study)
          call row(lines, "parameter "//plan%origin%parameter_names(k)%s, plan%origin%parameter_texts(k)%s)
       end do
       call lines%line("</table>")
    end subroutine add_origin
+
+   !> The deck as it was read, folded.
+   subroutine add_deck_text(lines, plan)
+      type(buffer_t), intent(inout) :: lines       !! the page
+      type(output_plan_t), intent(in) :: plan      !! what is known of the run
+
+      call lines%line("<details><summary>the original deck</summary><pre>")
+      call add_text(lines, plan%origin%deck_text)
+      call lines%line("</pre></details>")
+   end subroutine add_deck_text
 
    !> A row of two cells of text.
    subroutine row(lines, name, words)

@@ -1,6 +1,5 @@
 !> Reading a run.h5 back: every number that it holds as a time history by its name, and its impacts.
-!>
-!> Limits: as many rows as /time has, so that a run that continues, or was killed, can be read.
+!> Limits: as many rows as /time has, so that a run that continues or was killed can be read.
 module run_history
    use checksum, only: seal_none, seal_state, seal_wrong, survives
    use errors, only: error_t, exit_file, set_error
@@ -21,7 +20,7 @@ module run_history
    use text, only: append_text, starts_with, text_t
    implicit none (type, external)
    private
-   public :: read_run
+   public :: read_histories, read_run
 
    character(10), parameter :: names(10) = [character(10) :: "bodies", "joints", "drivers", "clearances", "forces", "energy", &
                                              "points", "motions", "reactions", "requests"]
@@ -104,8 +103,7 @@ contains
       type(error_t), allocatable, intent(out) :: error    !! it is no run, or cannot be read
 
       integer(hid_t) :: file
-      integer :: closed, k, status
-      real(wp), allocatable :: kinds(:)
+      integer :: closed, status
 
       has_lost_it = .false.
       status = 0
@@ -115,24 +113,36 @@ contains
          call set_error(error, exit_file, "cannot read '"//path//"': not an HDF5 file, or not readable")
          return
       end if
-      history%path = path
       has_lost_it = should_have_checksum(file)
-      allocate (history%list(0), history%impacts(0))
       if (.not. has_top(file, "time")) then
          call set_error(error, exit_file, "'"//path//"' is not the run.h5 of a run with time histories: it has no /time")
       else
-         call read_reals(file, "time", history%time, status)
-         call read_reals(file, "row_kind", kinds, status)
-         history%is_output = kinds(:size(history%time)) < 0.5_wp
-         do k = 1, size(names)
-            if (has_top(file, trim(names(k)))) call read_channel_group(file, trim(names(k)), history, status)
-         end do
+         call read_histories(file, history, status)
          if (has_top(file, "extremes")) call read_extremes(file, history, status)
          if (has_top(file, "events")) call read_impacts(file, history, status)
          if (status < 0) call set_error(error, exit_file, "cannot read '"//path//"': the file is corrupt, or has another format")
       end if
+      history%path = path
       call h5fclose_f(file, closed)
    end subroutine take_run
+
+   !> The time histories of a run, which is a whole file or a group of the file of a sweep.
+   subroutine read_histories(place, history, status)
+      integer(hid_t), intent(in) :: place              !! the file or group
+      type(history_t), intent(out) :: history          !! times and numbers; no impacts
+      integer, intent(inout) :: status                 !! negative: failed
+
+      real(wp), allocatable :: kinds(:)
+      integer :: k
+
+      allocate (history%list(0), history%impacts(0))
+      call read_reals(place, "time", history%time, status)
+      call read_reals(place, "row_kind", kinds, status)
+      history%is_output = kinds(:size(history%time)) < 0.5_wp
+      do k = 1, size(names)
+         if (has_top(place, trim(names(k)))) call read_channel_group(place, trim(names(k)), history, status)
+      end do
+   end subroutine read_histories
 
    !> Whether the file has something of some name at its top.
    logical function has_top(file, name)

@@ -1,9 +1,4 @@
-// What the run wrote (D): arrays in base 64, little-endian, and the pose of each body at any time between two positions.
-'use strict';
-const $ = id => document.getElementById(id);
-const bytes = s => Uint8Array.from(atob(s), c => c.charCodeAt(0)).buffer;
-const f32 = s => new Float32Array(bytes(s)), f64 = s => new Float64Array(bytes(s)), i32 = s => new Int32Array(bytes(s));
-
+// What the run wrote (D), and the pose of each body at any time between two positions.
 const S = D.size;                      // size of the symbols [m]
 const times = f64(D.t), N = times.length;
 const places = f32(D.r), turns = f32(D.q);               // (frame, body, 3) [m], (frame, body, 4) quaternions x y z w
@@ -24,13 +19,6 @@ function vectorAt(list, count, item) {
   return [0, 1, 2].map(c => list[i + c] * (1 - w) + list[j + c] * w);
 }
 
-// Where a time is among increasing ones: the last that is not later, and the part of the way to the next
-function placeOf(x, t) {
-  let a = 0, b = x.length - 1;
-  while (b - a > 1) { const m = (a + b) >> 1; if (x[m] <= t) a = m; else b = m; }
-  return [a, b > a && x[b] > x[a] ? Math.min(1, Math.max(0, (t - x[a]) / (x[b] - x[a]))) : 0];
-}
-
 // Eccentricity or force of a joint with clearance, linear between two rows of the run: impacts are shorter than a position lasts
 function rowVector(list) {
   if (!track.t.length) return [0, 0, 0];
@@ -46,12 +34,4 @@ function poseAt(b) {
   const q = [0, 1, 2, 3].map(c => turns[i + c] * (1 - w) + turns[j + c] * (near < 0 ? -w : w));
   const l = Math.hypot(...q);
   return {r: vectorAt(places, nBody, b), q: q.map(v => v / l)};
-}
-
-// A number with a prefix that makes it short
-function unit(x, u) {
-  const a = Math.abs(x);
-  const [n, f] = a >= 1e6 ? ['M', 1e-6] : a >= 1e4 ? ['k', 1e-3] : a >= 1 || a === 0 ? ['', 1] : a >= 1e-3 ? ['m', 1e3]
-    : a >= 1e-6 ? ['\u00b5', 1e6] : ['n', 1e9];
-  return +(x * f).toPrecision(4) + ' ' + n + u;
 }
