@@ -2,8 +2,9 @@
 !>
 !> The expressions of loads and drivers are searched as the motion continues (`root_scan`, `rate_scan`). An instant ends a step
 !> exactly; up to it the system evaluates all functions on their left side, then on their right one, and the integrator
-!> restarts (`smooth_segment`). Between instants a step is not longer than the functions' characteristic rate, nor than a quarter of
-!> a turn of any body that a contact may touch, unless the user has set a maximum or fixed step. A body whose motion is known has no
+!> restarts (`smooth_segment`). Samples of state equations are such instants too. Between instants a step is not longer than the
+!> functions' characteristic rate, nor than a quarter of a turn of any body that a contact may touch, unless the user has set a
+!> maximum or fixed step. A body whose motion is known has no
 !> error that would keep steps short where it does work on what cannot move: in a step it turns by 8 tolerance^(1/7) rad at most
 !> (unless the method has a history that ends of steps disturb), and by 5 tolerance^(1/6) rad, as an integral over the angle allows,
 !> where nothing else can move.
@@ -16,12 +17,13 @@ module output_times
    use expression_switches, only: find_switches, switch_t, time_parts
    use integrator, only: integrator_t
    use kind_info, only: cell_expression, dim_angle, same_dimension
-   use kinds, only: eps, pi, wp
+   use kinds, only: eps, i8, pi, wp
    use rate_scan, only: new_rate_scan, rate_scan_t
    use mechanism, only: mechanism_t
    use root_scan, only: new_root_scan, place_t, root_scan_t
    use scene, only: scene_t, table_t
    use smooth_segment, only: smooth_segment_t
+   use state_equations, only: sampled, state_prefix
    implicit none (type, external)
    private
    public :: output_times_t, new_output_times, watched_t
@@ -40,10 +42,19 @@ module output_times
       type(rate_scan_t) :: pace                !! how long a step may be
    end type watched_t
 
+   !> Samples of state equations with one period.
+   type :: samples_t
+      real(wp) :: every = 1.0_wp       !! period [s]
+      integer(i8) :: number = 1        !! the next sample, 0 at t = 0
+   contains
+      procedure :: at => samples_at
+   end type samples_t
+
    !> All of them, and where the motion is.
    type :: output_times_t
       type(watched_t), allocatable :: cells(:)   !! (cells or more) what is monitored
       integer :: n = 0                           !! cells
+      type(samples_t), allocatable :: samples(:) !! (periods) of the state equations; unallocated: none
       type(place_t) :: next                      !! the next instant
       real(wp) :: end = 0.0_wp                   !! end of the motion [s]
       logical :: paces = .false.                 !! some function limits the step
@@ -75,7 +86,8 @@ contains
       output_times%end = end
       if (.not. end > 0.0_wp) return
       allocate (output_times%cells(sum([(functions_of_time(scene%joints(k)), k=1, size(scene%joints))]) &
-                               + sum([(functions_of_time(scene%forces(k)), k=1, size(scene%forces))])))
+                               + sum([(functions_of_time(scene%forces(k)), k=1, size(scene%forces))]) &
+                               + sum([(parts_of_time(scene%states%rows(k)%expression), k=1, scene%states%n)])))
       call ieee_get_status(status)
       call ieee_set_halting_mode(ieee_usual, .false.)
       do k = 1, size(scene%joints)
@@ -83,6 +95,12 @@ contains
       end do
       do k = 1, size(scene%forces)
          call monitor_table(scene%forces(k), .false., output_times)
+      end do
+      do k = 1, scene%states%n
+         associate (row => scene%states%rows(k))
+            call monitor_expression(row%expression, state_prefix//row%name, .false., output_times)
+            if (row%sort == sampled) call add_period(row%every, output_times)
+         end associate
       end do
       call ieee_set_status(status)
    end subroutine new_output_times
@@ -93,44 +111,88 @@ contains
       logical, intent(in) :: turns_count              !! whether angles must not turn by much in a step
       type(output_times_t), intent(inout) :: output_times     !! cells are added
 
-      type(expression_t), allocatable :: parts(:)
-      type(watched_t) :: cell
-      integer :: c, i, k
+      integer :: c, i
 
       do c = 1, size(table%info%columns)
          do i = 1, size(table%items)
             if (.not. is_function_of_time(table, c, i)) cycle
             associate (expression => table%items(i)%values(c)%expression)
-               cell%name = table%items(i)%name//"."//table%info%columns(c)%name
-               call time_parts(expression, parts)
-               do k = 1, size(parts)
-                  call monitor(parts(k), output_times%end, turns_count .and. same_dimension(expression%dimension, dim_angle), cell)
-                  if (size(cell%scans) == 0 .and. cell%pace%is_calm) cycle
-                  output_times%n = output_times%n + 1
-                  output_times%cells(output_times%n) = cell
-                  output_times%paces = output_times%paces .or. .not. cell%pace%is_calm
-               end do
+               call monitor_expression(expression, table%items(i)%name//"."//table%info%columns(c)%name, &
+                                       turns_count .and. same_dimension(expression%dimension, dim_angle), output_times)
             end associate
          end do
       end do
    end subroutine monitor_table
 
+   !> Monitor the parts of an expression that are functions of the time.
+   subroutine monitor_expression(expression, name, is_turning, output_times)
+      type(expression_t), intent(in) :: expression            !! the expression
+      character(*), intent(in) :: name                        !! of its cell
+      logical, intent(in) :: is_turning                       !! it is an angle that must not turn by much in a step
+      type(output_times_t), intent(inout) :: output_times     !! cells are added
+
+      type(expression_t), allocatable :: parts(:)
+      type(watched_t) :: cell
+      integer :: k
+
+      if (parts_of_time(expression) == 0) return
+      cell%name = name
+      call time_parts(expression, parts)
+      do k = 1, size(parts)
+         call monitor(parts(k), output_times%end, is_turning, cell)
+         if (size(cell%scans) == 0 .and. cell%pace%is_calm) cycle
+         output_times%n = output_times%n + 1
+         output_times%cells(output_times%n) = cell
+         output_times%paces = output_times%paces .or. .not. cell%pace%is_calm
+      end do
+   end subroutine monitor_expression
+
+   !> Note a sampling period, each once.
+   subroutine add_period(every, output_times)
+      real(wp), intent(in) :: every                           !! the period [s]
+      type(output_times_t), intent(inout) :: output_times     !! samples are added
+
+      integer :: k
+
+      if (.not. allocated(output_times%samples)) allocate (output_times%samples(0))
+      do k = 1, size(output_times%samples)
+         if (.not. abs(output_times%samples(k)%every - every) > 0.0_wp) return
+      end do
+      output_times%samples = [output_times%samples, samples_t(every)]
+   end subroutine add_period
+
+   !> Time of the next sample.
+   elemental real(wp) function samples_at(self) result(t)
+      class(samples_t), intent(in) :: self   !! the samples
+
+      t = real(self%number, wp)*self%every
+   end function samples_at
+
    !> Functions of time in the cells of a table.
    integer function functions_of_time(table) result(n)
       type(table_t), intent(in) :: table   !! rows of a kind
 
-      type(expression_t), allocatable :: parts(:)
       integer :: c, i
 
       n = 0
       do c = 1, size(table%info%columns)
          do i = 1, size(table%items)
-            if (.not. is_function_of_time(table, c, i)) cycle
-            call time_parts(table%items(i)%values(c)%expression, parts)
-            n = n + size(parts)
+            if (is_function_of_time(table, c, i)) n = n + parts_of_time(table%items(i)%values(c)%expression)
          end do
       end do
    end function functions_of_time
+
+   !> Parts of an expression that are functions of the time.
+   integer function parts_of_time(expression) result(n)
+      type(expression_t), intent(in) :: expression   !! the expression
+
+      type(expression_t), allocatable :: parts(:)
+
+      n = 0
+      if (expression%is_constant .or. .not. allocated(expression%code)) return
+      call time_parts(expression, parts)
+      n = size(parts)
+   end function parts_of_time
 
    !> Whether a cell is a function of time, and no constant.
    pure logical function is_function_of_time(table, c, i) result(is_one)
@@ -209,6 +271,11 @@ contains
       call ieee_get_status(status)
       call ieee_set_halting_mode(ieee_usual, .false.)
       segment%low = self%next%high
+      if (allocated(self%samples)) then
+         do i = 1, size(self%samples)
+            if (self%samples(i)%at() <= self%next%at) self%samples(i)%number = self%samples(i)%number + 1
+         end do
+      end if
       do i = 1, self%n
          associate (cell => self%cells(i))
             do k = 1, size(cell%scans)
@@ -236,6 +303,7 @@ contains
       do i = 1, self%n
          if (size(self%cells(i)%next) > 0) first = min(first, minval(self%cells(i)%next%at))
       end do
+      if (allocated(self%samples)) first = min(first, minval(self%samples%at()))
       if (.not. first < huge(1.0_wp)) return
       self%next = place_t(first, first, first)
       do i = 1, self%n
@@ -245,6 +313,13 @@ contains
                self%next = place_t(min(self%next%low, next%low), max(self%next%at, next%at), max(self%next%high, next%high))
             end associate
          end do
+      end do
+      if (.not. allocated(self%samples)) return
+      do k = 1, size(self%samples)
+         associate (at => self%samples(k)%at())
+            if (at <= first + one*abs(first)) self%next = place_t(min(self%next%low, at), max(self%next%at, at), &
+                                                                  max(self%next%high, at))
+         end associate
       end do
    end subroutine find_next
 

@@ -45,6 +45,7 @@ module readings
       type(readings_t) :: points                   !! of points, point by point
       type(readings_t) :: motions                  !! of points as observed from elsewhere, one by one
       type(readings_t) :: reactions                !! of reactions at points, one by one
+      type(readings_t) :: states                   !! of the state equations, one by one
    end type reading_offer_t
 
    !> Those that are read.

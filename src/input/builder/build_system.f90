@@ -73,6 +73,7 @@ contains
       end associate
       call system%set_step(huge(1.0_wp))  ! gains and penalties that do not wait for a step
       call add_loads(scene, system%linkage%coordinates%n_v, system%clearance_joints%n, system%linkage%motion, system%loading)
+      if (scene%states%n > 0) call add_states(scene, system)
       system%loading%counts_turns = system%loading%counts_turns &
                                     .or. any([(scene%joints(k)%info%counts_turns .and. size(scene%joints(k)%items) > 0, &
                                                k=1, n_joint_kinds())])
@@ -81,7 +82,7 @@ contains
       system%n_quadrature = merge(place_of_film_loss(system%clearance_joints%n_contact, system%friction%rubbing%n > 0) &
                                   - merge(0, 1, system%clearance_joints%has_films), 0, &
                                   system%ledger%is_kept) + system%n_wear + system%n_impulse
-      system%n = system%linkage%n_position + system%linkage%n_rate + system%n_quadrature
+      system%n = system%linkage%n_position + system%linkage%n_rate + system%loading%states%n_state + system%n_quadrature
       call count_stick_slips(system)
       call add_event_functions(system)
       system%is_large = is_large(scene) .and. system%linkage%reduced%one_dof%n == 0 .and. system%friction%rubbing%n == 0 &
@@ -187,6 +188,17 @@ contains
          loading%counts_turns = loading%counts_turns .or. scene%forces(k)%info%counts_turns
       end do
    end subroutine add_loads
+
+   !> State equations of the deck, with their values at the start.
+   subroutine add_states(scene, system)
+      type(scene_t), intent(in) :: scene          !! the scene
+      type(mechanism_t), intent(inout) :: system  !! they are set
+
+      integer :: k
+
+      system%loading%states = scene%states
+      system%linkage%motion%states = [(scene%states%rows(k)%start, k=1, scene%states%n)]
+   end subroutine add_states
 
    !> The stabilisation method that is asked for, or the one that suits the system.
    subroutine set_stabilisation(scene, system)
