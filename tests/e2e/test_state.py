@@ -59,7 +59,7 @@ def columns(run):
 @pytest.mark.parametrize("method", ["verner", "dop853", "radau", "auto", "rk4", "rock4", "adams", "bdf", "ida"])
 def test_step_response(gudgeon, method):
     """A PI-controlled motor against the exact solution of its linear equations."""
-    settings = {"fixed_step": "20 us"} if method == "rk4" else {}
+    settings = {"step": "20 us"} if method == "rk4" else {}
     run = run_with(gudgeon, MOTOR, method=method, **settings)
     right = exact(run.time)
     allowed = {"adams": 1e-7, "bdf": 1e-7, "ida": 1e-7}.get(method, 1e-9)
@@ -72,7 +72,7 @@ def test_order(gudgeon):
     """The classical Runge-Kutta method keeps its order, states and motion alike."""
     errors = []
     for step in ("0.4 ms", "0.2 ms", "0.1 ms"):
-        run = run_with(gudgeon, MOTOR, method="rk4", fixed_step=step)
+        run = run_with(gudgeon, MOTOR, method="rk4", step=step)
         errors.append(np.abs(columns(run) - exact(run.time)).max(axis=0))
     orders = np.log2(np.array(errors[:-1]) / errors[1:])
     assert orders.min() > 3.8 and orders.max() < 4.5, orders
@@ -154,7 +154,7 @@ def test_sensitivity(gudgeon):
         return (rest - expm(a * 0.05) @ rest)[0]
 
     derivative = (speed(KP + 1e-4) - speed(KP - 1e-4)) / 2e-4
-    assert_close(found["derivatives"][0]["derivative"], derivative, relative=1e-6, what=str(found["derivatives"][0]))
+    assert_close(found["sensitivity"]["at(rotor.angular_velocity,50ms)"]["kp"]["value"], derivative, relative=1e-6, what="by kp")
     refused = call(gudgeon, "modes", written(scratch(), SAMPLED), "--out", scratch() / "out", expect=2)
     assert "'state.z' is sampled" in refused.stderr
 
