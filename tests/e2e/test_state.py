@@ -1,5 +1,8 @@
 """State equations: motors with controllers against exact solutions, samples against difference equations, restarts, modes, refusals."""
 
+import json
+
+import h5py
 import numpy as np
 import pytest
 from scipy.linalg import expm
@@ -142,7 +145,6 @@ def test_restart(gudgeon, method, text):
 def test_sensitivity(gudgeon):
     """The derivative of the speed by a gain against a difference of exact solutions; sampled states are refused."""
     text = MOTOR + "[sensitivity]\nparameters = kp\nresults = at(rotor.angular_velocity,50ms)\n"
-    import json
     out = scratch() / "out"
     call(gudgeon, "sensitivity", written(scratch(), text), "--out", out, "--quiet")
     found = json.loads((out / "summary.json").read_text())
@@ -159,7 +161,18 @@ def test_sensitivity(gudgeon):
     assert "'state.z' is sampled" in refused.stderr
 
 
-def test_limits_and_sweeps(gudgeon):
+def test_a_sweep_changes_the_equations(gudgeon):
+    """Each case has the numbers of a run with its gain."""
+    out = scratch() / "out"
+    deck = written(scratch(), changed(MOTOR, "analysis.dynamic", tolerance="1e-8") + "[sweep]\nkp = 0.4 0.8 1.6 V.s/rad\nkeep = channels\n")
+    call(gudgeon, "sweep", deck, "--out", out, "--quiet", "--jobs", 1)
+    with h5py.File(out / "sweep.h5") as file:
+        for k, value in enumerate(("0.4", "0.8", "1.6")):
+            call(gudgeon, "run", deck, "--out", scratch_run := scratch() / "out", "--quiet", "--write", "channels", "--set", f"kp={value}V.s/rad")
+            assert file[f"channels/{k + 1}/states/u"][()].tobytes() == Run(scratch_run).rows("states/u").tobytes()
+
+
+def test_limits(gudgeon):
     """The example deck: current and voltage stay within their limits, the speed comes to its set point, the ledger closes."""
     text = changed(text_of(ROOT / "inputs" / "controlled_motor.deck"), "output", figures=None)
     run = run_with(gudgeon, text)

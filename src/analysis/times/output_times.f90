@@ -17,13 +17,14 @@ module output_times
    use expression_switches, only: find_switches, switch_t, time_parts
    use integrator, only: integrator_t
    use kind_info, only: cell_expression, dim_angle, same_dimension
-   use kinds, only: eps, i8, pi, wp
+   use kinds, only: eps, pi, wp
    use rate_scan, only: new_rate_scan, rate_scan_t
    use mechanism, only: mechanism_t
    use root_scan, only: new_root_scan, place_t, root_scan_t
    use scene, only: scene_t, table_t
    use smooth_segment, only: smooth_segment_t
-   use state_equations, only: sampled, state_prefix
+   use state_equations, only: state_prefix
+   use state_samples, only: samples_t
    implicit none (type, external)
    private
    public :: output_times_t, new_output_times, watched_t
@@ -42,19 +43,11 @@ module output_times
       type(rate_scan_t) :: pace                !! how long a step may be
    end type watched_t
 
-   !> Samples of state equations with one period.
-   type :: samples_t
-      real(wp) :: every = 1.0_wp       !! period [s]
-      integer(i8) :: number = 1        !! the next sample, 0 at t = 0
-   contains
-      procedure :: at => samples_at
-   end type samples_t
-
    !> All of them, and where the motion is.
    type :: output_times_t
       type(watched_t), allocatable :: cells(:)   !! (cells or more) what is monitored
       integer :: n = 0                           !! cells
-      type(samples_t), allocatable :: samples(:) !! (periods) of the state equations; unallocated: none
+      type(samples_t) :: samples                 !! of the state equations
       type(place_t) :: next                      !! the next instant
       real(wp) :: end = 0.0_wp                   !! end of the motion [s]
       logical :: paces = .false.                 !! some function limits the step
@@ -99,9 +92,9 @@ contains
       do k = 1, scene%states%n
          associate (row => scene%states%rows(k))
             call monitor_expression(row%expression, state_prefix//row%name, .false., output_times)
-            if (row%sort == sampled) call add_period(row%every, output_times)
          end associate
       end do
+      call output_times%samples%start(scene%states)
       call ieee_set_status(status)
    end subroutine new_output_times
 
@@ -146,27 +139,6 @@ contains
          output_times%paces = output_times%paces .or. .not. cell%pace%is_calm
       end do
    end subroutine monitor_expression
-
-   !> Note a sampling period, each once.
-   subroutine add_period(every, output_times)
-      real(wp), intent(in) :: every                           !! the period [s]
-      type(output_times_t), intent(inout) :: output_times     !! samples are added
-
-      integer :: k
-
-      if (.not. allocated(output_times%samples)) allocate (output_times%samples(0))
-      do k = 1, size(output_times%samples)
-         if (.not. abs(output_times%samples(k)%every - every) > 0.0_wp) return
-      end do
-      output_times%samples = [output_times%samples, samples_t(every)]
-   end subroutine add_period
-
-   !> Time of the next sample.
-   elemental real(wp) function samples_at(self) result(t)
-      class(samples_t), intent(in) :: self   !! the samples
-
-      t = real(self%number, wp)*self%every
-   end function samples_at
 
    !> Functions of time in the cells of a table.
    integer function functions_of_time(table) result(n)
@@ -271,11 +243,7 @@ contains
       call ieee_get_status(status)
       call ieee_set_halting_mode(ieee_usual, .false.)
       segment%low = self%next%high
-      if (allocated(self%samples)) then
-         do i = 1, size(self%samples)
-            if (self%samples(i)%at() <= self%next%at) self%samples(i)%number = self%samples(i)%number + 1
-         end do
-      end if
+      call self%samples%pass(self%next%at)
       do i = 1, self%n
          associate (cell => self%cells(i))
             do k = 1, size(cell%scans)
@@ -295,7 +263,7 @@ contains
    subroutine find_next(self)
       class(output_times_t), intent(inout) :: self  !! the instants
 
-      real(wp) :: first
+      real(wp) :: first, last_sample, sample
       integer :: i, k
 
       self%next = place_t()
@@ -303,7 +271,8 @@ contains
       do i = 1, self%n
          if (size(self%cells(i)%next) > 0) first = min(first, minval(self%cells(i)%next%at))
       end do
-      if (allocated(self%samples)) first = min(first, minval(self%samples%at()))
+      call self%samples%next(huge(1.0_wp), sample, last_sample)
+      first = min(first, sample)
       if (.not. first < huge(1.0_wp)) return
       self%next = place_t(first, first, first)
       do i = 1, self%n
@@ -314,13 +283,9 @@ contains
             end associate
          end do
       end do
-      if (.not. allocated(self%samples)) return
-      do k = 1, size(self%samples)
-         associate (at => self%samples(k)%at())
-            if (at <= first + one*abs(first)) self%next = place_t(min(self%next%low, at), max(self%next%at, at), &
-                                                                  max(self%next%high, at))
-         end associate
-      end do
+      call self%samples%next(first + one*abs(first), sample, last_sample)
+      if (last_sample < first) return
+      self%next = place_t(min(self%next%low, sample), max(self%next%at, last_sample), max(self%next%high, last_sample))
    end subroutine find_next
 
    !> Note how fast the bodies of contacts turn, and those of known motion: it limits the next step.

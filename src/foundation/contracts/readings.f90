@@ -49,6 +49,7 @@ module readings
    end type reading_offer_t
 
    !> Those that are read.
+   !> Components: a list for each sort of item.
    type, extends(reading_offer_t) :: reading_plan_t
       type(wanted_rows_t) :: rows                  !! what they need of rows that are not solved for
       type(balance_plan_t) :: balance              !! what follows from the balance of bodies, where it does

@@ -73,7 +73,6 @@ contains
       end associate
       call system%set_step(huge(1.0_wp))  ! gains and penalties that do not wait for a step
       call add_loads(scene, system%linkage%coordinates%n_v, system%clearance_joints%n, system%linkage%motion, system%loading)
-      if (scene%states%n > 0) call add_states(scene, system)
       system%loading%counts_turns = system%loading%counts_turns &
                                     .or. any([(scene%joints(k)%info%counts_turns .and. size(scene%joints(k)%items) > 0, &
                                                k=1, n_joint_kinds())])
@@ -169,6 +168,7 @@ contains
 
       n = scene%bodies%n
       loading%gravity = scene%gravity
+      loading%states = scene%states
       allocate (loading%weight(3, 0:n), loading%g(n_v, 0:n), source=0.0_wp)
       do k = 1, n
          loading%weight(:, k) = scene%bodies%mass(k)*scene%gravity
@@ -188,17 +188,6 @@ contains
          loading%counts_turns = loading%counts_turns .or. scene%forces(k)%info%counts_turns
       end do
    end subroutine add_loads
-
-   !> State equations of the deck, with their values at the start.
-   subroutine add_states(scene, system)
-      type(scene_t), intent(in) :: scene          !! the scene
-      type(mechanism_t), intent(inout) :: system  !! they are set
-
-      integer :: k
-
-      system%loading%states = scene%states
-      system%linkage%motion%states = [(scene%states%rows(k)%start, k=1, scene%states%n)]
-   end subroutine add_states
 
    !> The stabilisation method that is asked for, or the one that suits the system.
    subroutine set_stabilisation(scene, system)
