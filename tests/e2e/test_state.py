@@ -187,3 +187,27 @@ def test_kinematics_has_no_states(gudgeon):
     both = MOTOR + "[analysis.static]\n"
     done = call(gudgeon, "run", written(scratch(), both), "--analysis", "static", "--out", scratch() / "out", expect=2)
     assert "[state] needs [analysis.dynamic]" in done.stderr
+
+
+@pytest.mark.parametrize("row, said", [
+    ("rate\nx {sqrt(0.01 s - t)/1 s^1.5}", "t = 0.01 s"),
+    ("next every\nx {state.x + sqrt(0.0105 s - t)/1 s^0.5} 1ms", "the sample of state 'x' is not finite at t = 0.011 s"),
+    ("next every\nx {1/(0*state.x)} 1ms", "the sample of state 'x' is not finite at t = 0 s"),
+    ("value\nx {log(0.01 - t/1 s)}", "t = 0.01 s"),
+])
+def test_what_is_not_finite(gudgeon_debug, row, said):
+    """States that stop being numbers end the run with a message, in the build that traps what is no number."""
+    text = ROTOR + f"[state]\nname {row}\n[force.torque]\nname body moment\nm rotor {{1 N.m*state.x}}\n[analysis.dynamic]\nend = 0.1 s\n"
+    done = call(gudgeon_debug, "run", written(scratch(), text), "--out", scratch() / "out", "--quiet", expect=5)
+    assert said in done.stderr, done.stderr
+
+
+def test_in_space(gudgeon):
+    """The same motor about the z axis of a spatial scene has the motion of the plane."""
+    flat = run_with(gudgeon, MOTOR, method="dop853")
+    text = (MOTOR.replace("[parameters]", "space = spatial\n[parameters]").replace("inertia[kg.m^2]", "ixx[kg.m^2] iyy[kg.m^2] izz[kg.m^2]")
+            .replace("rotor   1          2e-3", "rotor 1 2e-3 2e-3 2e-3").replace("name    i   j\nshaft   o   a", 'name i j axis_i\nshaft o a "0 0 1"')
+            .replace("rotor.angular_velocity -", "rotor.angular_velocity.z -").replace("rotor.angular_velocity)", "rotor.angular_velocity.z)")
+            .replace("rotor.angular_velocity}", "rotor.angular_velocity.z}").replace("body    moment\nmotor   rotor   {", "body mz\nmotor rotor {"))
+    space = run_with(gudgeon, text, method="dop853")
+    assert_close(space.read("states/i"), flat.read("states/i"), absolute=1e-9, what="current")

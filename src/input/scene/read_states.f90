@@ -5,7 +5,8 @@ module read_states
    use deck_types, only: deck_t
    use diagnostics, only: diagnostics_t
    use dimension_text, only: dimension_name, unit_text
-   use expression_compile, only: compile_expression, dimension_agrees, fault_t, name_length, symbol_broken, symbol_state, symbol_t
+   use expression_compile, only: dimension_agrees, name_length, symbol_broken, symbol_state, symbol_t
+   use formula_cell, only: compile_formula
    use item, only: item_t, location_t, place_of
    use kind_info, only: dim_t, same_dimension
    use kind_list, only: kind_named
@@ -16,7 +17,7 @@ module read_states
    use scene, only: analysis_dynamic, scene_t
    use state_equations, only: algebraic, continuous, sampled, state_equations_t, state_prefix, state_row_t
    use tables, only: read_items
-   use units, only: parse_unit, unit_t
+   use units, only: parse_unit, unit_factor, unit_t
    implicit none (type, external)
    private
    public :: make_states, place_states, states_from_deck
@@ -114,6 +115,9 @@ contains
       integer :: k
 
       row%name = item%name
+      k = deck%symbols%find(state_prefix//item%name)
+      if (k == 0) return
+      if (deck%symbols%list(k)%kind == symbol_broken) return  ! reported already
       do k = 1, size(columns)
          is_given(k) = item%is_given(trim(columns(k)))
       end do
@@ -135,7 +139,7 @@ contains
       if (row%scale < 0.0_wp) call diagnostics%add(item%values(place_of(item, "scale"))%location, &
                                                    "the scale of a state must not be negative", "negative")
       if (.not. row%scale > 0.0_wp) row%scale = abs(row%start)
-      if (.not. row%scale > 0.0_wp) row%scale = unit_size(unit)
+      if (.not. row%scale > 0.0_wp) row%scale = unit_factor(unit)
       row%every = item%number("every")
       associate (every => item%values(place_of(item, "every")))
          if (row%sort == sampled .and. .not. row%every > 0.0_wp) then
@@ -145,13 +149,6 @@ contains
          end if
       end associate
    end subroutine make_row
-
-   !> One of a unit.
-   pure real(wp) function unit_size(unit) result(x)
-      type(unit_t), intent(in) :: unit   !! the unit
-
-      x = unit%numerator/unit%denominator*10.0_wp**unit%power
-   end function unit_size
 
    !> A number of the dimension of a row; zero needs no unit.
    subroutine take_number(item, column, dimension, x, diagnostics)
@@ -164,10 +161,20 @@ contains
       associate (value => item%values(place_of(item, column)))
          x = value%number
          if (.not. abs(x) > 0.0_wp .or. same_dimension(value%dimensions(1), dimension)) return
-         call diagnostics%add(value%location, "wrong dimension in column "//column//" of state", "this is "// &
-                              dimension_name(value%dimensions(1))//", "//dimension_name(dimension)//" expected")
+         call report_dimension_of(value%location, column, value%dimensions(1), dimension, diagnostics)
       end associate
    end subroutine take_number
+
+   !> A cell of another dimension than that of its row.
+   subroutine report_dimension_of(location, column, dimension, wanted, diagnostics)
+      type(location_t), intent(in) :: location           !! of the cell
+      character(*), intent(in) :: column                 !! its column
+      type(dim_t), intent(in) :: dimension, wanted       !! what it has, and what it should have
+      type(diagnostics_t), intent(inout) :: diagnostics  !! receives the error
+
+      call diagnostics%add(location, "wrong dimension in column "//column//" of state", "this is "// &
+                           dimension_name(dimension)//", "//dimension_name(wanted)//" expected")
+   end subroutine report_dimension_of
 
    !> The expression of a row.
    subroutine compile_cell(deck, item, column, wanted, row, diagnostics)
@@ -178,24 +185,15 @@ contains
       type(state_row_t), intent(inout) :: row            !! its equation
       type(diagnostics_t), intent(inout) :: diagnostics  !! errors found
 
-      type(fault_t), allocatable :: fault
-      type(location_t) :: at
+      logical :: is_good
 
       associate (value => item%values(place_of(item, column)))
          row%location = value%location
-         call compile_expression(value%text, deck%symbols, .true., row%expression, fault, finder=observable_words_t())
-         if (allocated(fault)) then
-            if (len(fault%message) == 0) return
-            at = value%location
-            if (at%last - at%first + 1 > len(value%text)) then  ! in braces
-               at%first = value%location%first + fault%first
-               at%last = value%location%first + fault%last
-            end if
-            call diagnostics%add(at, "invalid expression in column "//column//" of state", fault%message, fault%help)
-         else if (.not. dimension_agrees(row%expression%dimension, row%expression%is_soft, wanted)) then
-            call diagnostics%add(value%location, "wrong dimension in column "//column//" of state", "this is "// &
-                                 dimension_name(row%expression%dimension)//", "//dimension_name(wanted)//" expected")
-         end if
+         call compile_formula(value, "in column "//column//" of state", deck%symbols, observable_words_t(), row%expression, &
+                              is_good, diagnostics)
+         if (.not. is_good) return
+         if (dimension_agrees(row%expression%dimension, row%expression%is_soft, wanted)) return
+         call report_dimension_of(value%location, column, row%expression%dimension, wanted, diagnostics)
       end associate
    end subroutine compile_cell
 

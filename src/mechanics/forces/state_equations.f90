@@ -9,6 +9,7 @@
 !> Signs: those of the deck. Source: Franklin, Powell and Workman, Digital Control of Dynamic Systems (1998), chapters 2 and 4.
 !> Limits: the functions see time, positions, velocities and one another, no accelerations and no forces.
 module state_equations
+   use, intrinsic :: ieee_arithmetic, only: ieee_is_finite
    use errors, only: error_t, exit_usage, set_error
    use expression, only: expression_t
    use item, only: location_t
@@ -167,19 +168,22 @@ contains
    end subroutine states_weights
 
    !> Take the samples that are due at an instant, all from the values before.
-   pure subroutine states_sample(self, t, motion, y)
+   pure subroutine states_sample(self, t, motion, y, bad)
       class(state_equations_t), intent(in) :: self   !! the equations
       real(wp), intent(in) :: t                      !! time of the instant [s]
       type(motion_t), intent(in) :: motion           !! positions, velocities and values of the rows before
       real(wp), intent(inout) :: y(:)                !! (n_state) entries of the state [any]
+      integer, intent(out) :: bad                    !! a row whose sample is not finite; 0: none
 
       integer :: k
 
+      bad = 0
       do k = 1, self%n_state
          associate (row => self%rows(self%integrated(k)))
             if (row%sort /= sampled) cycle
             if (abs(t - anint(t/row%every)*row%every) > same_time*abs(t)) cycle
             y(k) = value_of(row%expression, t, motion)
+            if (.not. ieee_is_finite(y(k))) bad = self%integrated(k)
          end associate
       end do
    end subroutine states_sample

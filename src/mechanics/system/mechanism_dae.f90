@@ -57,7 +57,7 @@ contains
          a = -a
          call linkage%coordinates%add_rates(rows%n_unknown, rows%unknown, linkage%motion, a, r_y)
          if (self%friction%stick_slips%n_bristle > 0) call self%bristle_rates(r_y)
-         if (self%loading%states%n > 0) call self%state_rates(t, r_y)
+         if (self%loading%states%n > 0) call self%state_rates(t, r_y, status)
          if (self%ledger%is_kept) then
             linkage%solution%lambda(:m) = lambda
             call self%ledger_rates(r_y(n_state + 1:))

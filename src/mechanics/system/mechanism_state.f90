@@ -10,6 +10,7 @@
 module mechanism_state
    use archive, only: archive_t
    use dae_system, only: dae_system_t
+   use errors, only: error_t
    use stabilisation, only: stabilisation_t
    use kinds, only: i8, wp
    use linkage, only: linkage_t
@@ -159,10 +160,11 @@ module mechanism_state
       end function mechanism_before_states
 
       !> Values of the state equations at t = 0 into a state whose bodies are there, the first samples taken.
-      module subroutine mechanism_begin_states(self, y)
+      module subroutine mechanism_begin_states(self, y, error)
          implicit none (type, external)
-         class(mechanism_state_t), intent(inout) :: self  !! the system
-         real(wp), intent(inout) :: y(:)                  !! (n) state [any]
+         class(mechanism_state_t), intent(inout) :: self   !! the system
+         real(wp), intent(inout) :: y(:)                   !! (n) state [any]
+         type(error_t), allocatable, intent(out) :: error  !! a sample is not finite
       end subroutine mechanism_begin_states
 
       !> Values of the states of state equations, for the loads.
@@ -173,11 +175,12 @@ module mechanism_state
       end subroutine mechanism_take_states
 
       !> Rates of the state equations, as of the last evaluation.
-      module subroutine mechanism_state_rates(self, t, ydot)
+      module subroutine mechanism_state_rates(self, t, ydot, status)
          implicit none (type, external)
          class(mechanism_state_t), intent(in) :: self  !! the system
          real(wp), intent(in) :: t                     !! time [s]
          real(wp), intent(inout) :: ydot(:)            !! (n) derivative of the state [any]
+         integer, intent(out) :: status                !! 0: all are finite
       end subroutine mechanism_state_rates
 
       !> Error scales of the state equations.
@@ -189,11 +192,12 @@ module mechanism_state
       end subroutine mechanism_state_weights
 
       !> Take the samples of state equations that are due.
-      module subroutine mechanism_sample_states(self, t, y)
+      module subroutine mechanism_sample_states(self, t, y, error)
          implicit none (type, external)
-         class(mechanism_state_t), intent(inout) :: self  !! the system
-         real(wp), intent(in) :: t                        !! time of the instant [s]
-         real(wp), intent(inout) :: y(:)                  !! (n) state [any]
+         class(mechanism_state_t), intent(inout) :: self   !! the system
+         real(wp), intent(in) :: t                         !! time of the instant [s]
+         real(wp), intent(inout) :: y(:)                   !! (n) state [any]
+         type(error_t), allocatable, intent(out) :: error  !! a sample is not finite
       end subroutine mechanism_sample_states
 
       !> Set of a contact and its place there by the number of any of its event functions, of which the first are as the contacts.

@@ -137,7 +137,8 @@ contains
       end if
       allocate (state%y(system%n), source=0.0_wp)
       call system%linkage%take_state(q, v, state%y)
-      call system%begin_states(state%y)
+      call system%begin_states(state%y, error)
+      if (allocated(error)) return
       state%words = trim(merge("the steady state on films", "the static equilibrium   ", system%clearance_joints%has_films)) &
                     //": "//equilibrium%words
       if (equilibrium%warning /= "") call append_text(state%warnings, equilibrium%warning)
