@@ -262,6 +262,8 @@ contains
             call describe_failure(system, method, advance_failed_evaluation, error)
             return
          end if
+         call system%sample_states(method%t, method%step%y1, error)
+         if (allocated(error)) return
          call decide_slips(part, method%t, method%step%y1, .true., recorder, error)
          if (allocated(error)) return
          call method%restart(system, 0.0_wp, status)

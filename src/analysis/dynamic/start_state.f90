@@ -95,6 +95,8 @@ contains
       if (allocated(error)) return
       allocate (y(system%n), source=0.0_wp)
       call system%linkage%take_state(q, v, y)
+      call system%begin_states(y, error)
+      if (allocated(error)) return
       call look_at_overlap(system, y, scene%settings%integration%allows_overlap, error)
    end subroutine find_start
 

@@ -1,7 +1,8 @@
 !> The matrices of a mechanism linearised at a state: z' = A z + B u, y = C z + D u, of the whole right-hand side.
 !>
-!> z has the free displacements x, their rates x', and states of friction with bristles: no more, so that constraints and Euler
-!> parameters add no eigenvalues. With the derivatives J of the accelerations along the directions of `motion_frame`
+!> z has the free displacements x, their rates, states of friction with bristles and of state equations: no more, so that
+!> constraints and Euler parameters add no eigenvalues. With the derivatives J of the accelerations along the directions of
+!> `motion_frame`
 !>
 !> $$ \ddot x = D^T M (J_q D + J_v E + \dot\omega\ \mathrm{terms})\, x + D^T M E' x + D^T M J_v D\, \dot x $$
 !>
@@ -16,8 +17,9 @@ module linear_model
    use modes_results, only: input_driver, input_force, linear_model_t, modes_input_t
    use motion_frame, only: motion_frame_t
    use state_slopes, only: slopes_t
+   use state_equations, only: state_prefix
    use static_problem, only: load_scale, position_scale
-   use text, only: append_text
+   use text, only: append_text, text_t, to_text
    implicit none (type, external)
    private
    public :: linearise
@@ -47,6 +49,7 @@ contains
       n_other = system%n - system%n_quadrature - system%linkage%n_position - system%linkage%n_rate
       model%n_free = frame%n_free
       model%n_state = 2*frame%n_free + n_other
+      call name_others(system, n_other, model%others)
       model%direction = frame%direction(:, :frame%n_free)
       model%mass = reshape(system%linkage%mass(:, system%linkage%rows%unknown), [frame%n_rate])
       model%unsteady = frame%unsteady
@@ -58,6 +61,26 @@ contains
       if (axes > 0) call turn_axes(frame, model)
    end subroutine linearise
 
+   !> Names of the other states: deflections of bristles, then the deck's state equations.
+   subroutine name_others(system, n_other, names)
+      type(mechanism_t), intent(in) :: system               !! the system
+      integer, intent(in) :: n_other                        !! other states
+      type(text_t), allocatable, intent(out) :: names(:)    !! (other states) their names
+
+      integer :: k
+
+      allocate (names(n_other))
+      associate (states => system%loading%states)
+         do k = 1, n_other
+            if (k > n_other - states%n_state) then
+               names(k)%s = state_prefix//states%rows(states%integrated(k - n_other + states%n_state))%name
+            else
+               names(k)%s = "bristle"//to_text(k)
+            end if
+         end do
+      end associate
+   end subroutine name_others
+
    !> Accelerations that are left at the state beside those of the axes; their loads over the forces that act, as in statics.
    subroutine find_rest(system, slopes, frame, axes, catalogue, model, status)
       type(mechanism_t), intent(inout) :: system      !! the system
@@ -68,7 +91,8 @@ contains
       type(linear_model_t), intent(inout) :: model    !! residual and rest are set
       integer, intent(out) :: status                  !! 0: done
 
-      real(wp), dimension(size(slopes%y)) :: local, ydot
+      real(wp), parameter :: at_rest = 1.0e-6_wp   ! rate of a state that is none, of its scale over a radian's time [1]
+      real(wp), dimension(size(slopes%y)) :: local, weights, ydot
       real(wp) :: accelerations(frame%n_rate), outputs(size(slopes%place))
       integer :: last
 
@@ -76,6 +100,11 @@ contains
       call slopes%evaluate(system, catalogue, slopes%y, ydot, outputs, status)
       if (status /= 0) return
       last = system%n - system%n_quadrature
+      associate (n => size(model%others))
+         call system%weights(slopes%y, weights)
+         weights(last - n + 1:last) = abs(ydot(last - n + 1:last))/(slopes%rate*weights(last - n + 1:last))
+         if (any(weights(last - n + 1:last) > at_rest)) model%moving = maxloc(weights(last - n + 1:last), dim=1)
+      end associate
       call system%to_local(slopes%y, ydot(:last), local(:last - system%traits%n_turning))
       associate (n => frame%n_rate)
          accelerations = local(n + 1:2*n)

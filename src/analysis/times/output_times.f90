@@ -2,8 +2,9 @@
 !>
 !> The expressions of loads and drivers are searched as the motion continues (`root_scan`, `rate_scan`). An instant ends a step
 !> exactly; up to it the system evaluates all functions on their left side, then on their right one, and the integrator
-!> restarts (`smooth_segment`). Between instants a step is not longer than the functions' characteristic rate, nor than a quarter of
-!> a turn of any body that a contact may touch, unless the user has set a maximum or fixed step. A body whose motion is known has no
+!> restarts (`smooth_segment`). Samples of state equations are such instants too. Between instants a step is not longer than the
+!> functions' characteristic rate, nor than a quarter of a turn of any body that a contact may touch, unless the user has set a
+!> maximum or fixed step. A body whose motion is known has no
 !> error that would keep steps short where it does work on what cannot move: in a step it turns by 8 tolerance^(1/7) rad at most
 !> (unless the method has a history that ends of steps disturb), and by 5 tolerance^(1/6) rad, as an integral over the angle allows,
 !> where nothing else can move.
@@ -22,6 +23,8 @@ module output_times
    use root_scan, only: new_root_scan, place_t, root_scan_t
    use scene, only: scene_t, table_t
    use smooth_segment, only: smooth_segment_t
+   use state_equations, only: state_prefix
+   use state_samples, only: samples_t
    implicit none (type, external)
    private
    public :: output_times_t, new_output_times, watched_t
@@ -44,6 +47,7 @@ module output_times
    type :: output_times_t
       type(watched_t), allocatable :: cells(:)   !! (cells or more) what is monitored
       integer :: n = 0                           !! cells
+      type(samples_t) :: samples                 !! of the state equations
       type(place_t) :: next                      !! the next instant
       real(wp) :: end = 0.0_wp                   !! end of the motion [s]
       logical :: paces = .false.                 !! some function limits the step
@@ -75,7 +79,8 @@ contains
       output_times%end = end
       if (.not. end > 0.0_wp) return
       allocate (output_times%cells(sum([(functions_of_time(scene%joints(k)), k=1, size(scene%joints))]) &
-                               + sum([(functions_of_time(scene%forces(k)), k=1, size(scene%forces))])))
+                               + sum([(functions_of_time(scene%forces(k)), k=1, size(scene%forces))]) &
+                               + sum([(parts_of_time(scene%states%rows(k)%expression), k=1, scene%states%n)])))
       call ieee_get_status(status)
       call ieee_set_halting_mode(ieee_usual, .false.)
       do k = 1, size(scene%joints)
@@ -84,6 +89,12 @@ contains
       do k = 1, size(scene%forces)
          call monitor_table(scene%forces(k), .false., output_times)
       end do
+      do k = 1, scene%states%n
+         associate (row => scene%states%rows(k))
+            call monitor_expression(row%expression, state_prefix//row%name, .false., output_times)
+         end associate
+      end do
+      call output_times%samples%start(scene%states)
       call ieee_set_status(status)
    end subroutine new_output_times
 
@@ -93,44 +104,67 @@ contains
       logical, intent(in) :: turns_count              !! whether angles must not turn by much in a step
       type(output_times_t), intent(inout) :: output_times     !! cells are added
 
-      type(expression_t), allocatable :: parts(:)
-      type(watched_t) :: cell
-      integer :: c, i, k
+      integer :: c, i
 
       do c = 1, size(table%info%columns)
          do i = 1, size(table%items)
             if (.not. is_function_of_time(table, c, i)) cycle
             associate (expression => table%items(i)%values(c)%expression)
-               cell%name = table%items(i)%name//"."//table%info%columns(c)%name
-               call time_parts(expression, parts)
-               do k = 1, size(parts)
-                  call monitor(parts(k), output_times%end, turns_count .and. same_dimension(expression%dimension, dim_angle), cell)
-                  if (size(cell%scans) == 0 .and. cell%pace%is_calm) cycle
-                  output_times%n = output_times%n + 1
-                  output_times%cells(output_times%n) = cell
-                  output_times%paces = output_times%paces .or. .not. cell%pace%is_calm
-               end do
+               call monitor_expression(expression, table%items(i)%name//"."//table%info%columns(c)%name, &
+                                       turns_count .and. same_dimension(expression%dimension, dim_angle), output_times)
             end associate
          end do
       end do
    end subroutine monitor_table
 
+   !> Monitor the parts of an expression that are functions of the time.
+   subroutine monitor_expression(expression, name, is_turning, output_times)
+      type(expression_t), intent(in) :: expression            !! the expression
+      character(*), intent(in) :: name                        !! of its cell
+      logical, intent(in) :: is_turning                       !! it is an angle that must not turn by much in a step
+      type(output_times_t), intent(inout) :: output_times     !! cells are added
+
+      type(expression_t), allocatable :: parts(:)
+      type(watched_t) :: cell
+      integer :: k
+
+      if (parts_of_time(expression) == 0) return
+      cell%name = name
+      call time_parts(expression, parts)
+      do k = 1, size(parts)
+         call monitor(parts(k), output_times%end, is_turning, cell)
+         if (size(cell%scans) == 0 .and. cell%pace%is_calm) cycle
+         output_times%n = output_times%n + 1
+         output_times%cells(output_times%n) = cell
+         output_times%paces = output_times%paces .or. .not. cell%pace%is_calm
+      end do
+   end subroutine monitor_expression
+
    !> Functions of time in the cells of a table.
    integer function functions_of_time(table) result(n)
       type(table_t), intent(in) :: table   !! rows of a kind
 
-      type(expression_t), allocatable :: parts(:)
       integer :: c, i
 
       n = 0
       do c = 1, size(table%info%columns)
          do i = 1, size(table%items)
-            if (.not. is_function_of_time(table, c, i)) cycle
-            call time_parts(table%items(i)%values(c)%expression, parts)
-            n = n + size(parts)
+            if (is_function_of_time(table, c, i)) n = n + parts_of_time(table%items(i)%values(c)%expression)
          end do
       end do
    end function functions_of_time
+
+   !> Parts of an expression that are functions of the time.
+   integer function parts_of_time(expression) result(n)
+      type(expression_t), intent(in) :: expression   !! the expression
+
+      type(expression_t), allocatable :: parts(:)
+
+      n = 0
+      if (expression%is_constant .or. .not. allocated(expression%code)) return
+      call time_parts(expression, parts)
+      n = size(parts)
+   end function parts_of_time
 
    !> Whether a cell is a function of time, and no constant.
    pure logical function is_function_of_time(table, c, i) result(is_one)
@@ -209,6 +243,7 @@ contains
       call ieee_get_status(status)
       call ieee_set_halting_mode(ieee_usual, .false.)
       segment%low = self%next%high
+      call self%samples%pass(self%next%at)
       do i = 1, self%n
          associate (cell => self%cells(i))
             do k = 1, size(cell%scans)
@@ -228,7 +263,7 @@ contains
    subroutine find_next(self)
       class(output_times_t), intent(inout) :: self  !! the instants
 
-      real(wp) :: first
+      real(wp) :: first, last_sample, sample
       integer :: i, k
 
       self%next = place_t()
@@ -236,6 +271,8 @@ contains
       do i = 1, self%n
          if (size(self%cells(i)%next) > 0) first = min(first, minval(self%cells(i)%next%at))
       end do
+      call self%samples%next(huge(1.0_wp), sample, last_sample)
+      first = min(first, sample)
       if (.not. first < huge(1.0_wp)) return
       self%next = place_t(first, first, first)
       do i = 1, self%n
@@ -246,6 +283,9 @@ contains
             end associate
          end do
       end do
+      call self%samples%next(first + one*abs(first), sample, last_sample)
+      if (last_sample < first) return
+      self%next = place_t(min(self%next%low, sample), max(self%next%at, last_sample), max(self%next%high, last_sample))
    end subroutine find_next
 
    !> Note how fast the bodies of contacts turn, and those of known motion: it limits the next step.

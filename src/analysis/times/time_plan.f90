@@ -7,6 +7,7 @@ module time_plan
    use mechanism, only: mechanism_t
    use scene, only: analysis_dynamic, analysis_kinematic, analysis_static, scene_t
    use spelling, only: nearest_word
+   use state_equations, only: sampled
    use text, only: join, to_text
    use text_list, only: text_list_t
    implicit none (type, external)
@@ -16,6 +17,8 @@ module time_plan
    real(wp), parameter :: intervals = 1000.0_wp  !! output intervals of a motion if the deck gives none [1]
 
    real(wp), parameter :: most_checkpoints = 1.0e5_wp  !! of a motion [1]
+
+   real(wp), parameter :: most_samples = 1.0e7_wp      !! of a state equation in a motion [1]
 
    !> What a user can do about too many instants.
    character(*), parameter :: most_help = "each takes 8 bytes in run.h5 and up to 25 in a .dat file for every channel; " &
@@ -90,8 +93,26 @@ contains
       if (scene%settings%statistics%is_present .and. scene%analysis /= analysis_kinematic .and. diagnostics%count() == 0) then
          call plan_statistics(scene, system, plan, diagnostics)
       end if
+      if (diagnostics%count() == 0) call check_samples(scene, plan%end, diagnostics)
       if (diagnostics%count() == 0) call new_output_times(scene, plan%end, system%clearance_joints%n > 0, plan%output_times)
    end subroutine new_time_plan
+
+   !> State equations must not be sampled too often: each sample ends a step.
+   subroutine check_samples(scene, end, diagnostics)
+      type(scene_t), intent(in) :: scene                  !! the scene
+      real(wp), intent(in) :: end                         !! end of the motion [s]
+      type(diagnostics_t), intent(inout) :: diagnostics   !! errors found
+
+      integer :: k
+
+      do k = 1, scene%states%n
+         associate (row => scene%states%rows(k))
+            if (row%sort /= sampled .or. end <= most_samples*row%every) cycle
+            call diagnostics%add(row%location, "state '"//row%name//"' would have "//count_text(end/row%every)// &
+                                 " samples, the limit is "//count_text(most_samples), "sampled too often", "raise 'every'")
+         end associate
+      end do
+   end subroutine check_samples
 
    !> A number of instants, all its digits where a real has them.
    pure function count_text(n) result(s)

@@ -53,6 +53,7 @@ contains
       do k = 1, size(scene%forces)
          call count_kind(scene%forces(k)%info, scene%forces(k)%items)
       end do
+      call count_kind(scene%tables%states%info, scene%tables%states%items)
       do k = 1, size(scene%tables%functions)
          call count_kind(scene%tables%functions(k)%info, scene%tables%functions(k)%items)
       end do

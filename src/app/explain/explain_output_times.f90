@@ -47,6 +47,10 @@ contains
       do k = 1, size(loaded%scene%forces)
          call explain_observables(loaded%scene%forces(k))
       end do
+      do k = 1, loaded%plan%output_times%samples%n
+         call say("state equations are sampled every "//real_text(loaded%plan%output_times%samples%every(k), 6)// &
+                  " s, where steps end", 2)
+      end do
       if (all([(size(loaded%plan%output_times%cells(k)%scans) == 0, k=1, loaded%plan%output_times%n)])) then
          call say("all functions of time are smooth", 2)
       else

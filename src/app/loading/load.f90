@@ -310,6 +310,7 @@ contains
          known = known//" "//trim(analysis_names(k))
          if (analysis_names(k) /= options%change%analysis) cycle
          scene%analysis = k
+         if (scene%states%n > 0 .and. k /= analysis_dynamic) call set_error(error, exit_usage, "[state] needs [analysis.dynamic]")
          return
       end do
       call set_error(error, exit_usage, "the deck has no section [analysis."//options%change%analysis//"]"//new_line("a")// &

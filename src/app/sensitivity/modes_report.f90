@@ -11,7 +11,7 @@ module modes_report
    use output_plan, only: output_plan_t
    use recorder, only: status_complete
    use study_summary, only: add_output, show_summaries, start_summary
-   use text, only: counted, real_text, text_t, to_text
+   use text, only: counted, join, real_text, text_t, to_text
    use text_buffer, only: buffer_t
    use text_of_table, only: add_table
    implicit none (type, external)
@@ -55,7 +55,7 @@ contains
          call lines%line("           residual "//real_text(model%residual, 2)//" of the loads; axes "//study%plan%axes_name)
          if (size(study%modes) > 0) call lines%line("stability  "//stability_of(study))
          if (model%n_state > 2*model%n_free) call lines%line("           "//to_text(model%n_state - 2*model%n_free) &
-                                                            //" states of friction with bristles")
+                                                            //" other states: "//join(model%others, ", "))
          if (model%n_state == 0) call lines%line("           no modes: joints and drivers prescribe the motion of all bodies")
       end associate
       if (size(study%modes) > 0) call add_table(lines, table_of_modes(study))

@@ -6,7 +6,7 @@ module groups_of_catalogue
    private
    public :: add_to_group, has_channel, resize_storage, group_paths, item_group_t
    public :: n_groups, group_bodies, group_clearances, group_contacts, group_drivers, group_energy, group_forces, group_joints
-   public :: group_motions, group_points, group_reactions, group_requests
+   public :: group_motions, group_points, group_reactions, group_requests, group_states
 
    integer, parameter :: group_bodies = 1      !! bodies, in deck order, without the ground
    integer, parameter :: group_joints = 2      !! ideal joints
@@ -19,12 +19,13 @@ module groups_of_catalogue
    integer, parameter :: group_motions = 9     !! points as observed from elsewhere
    integer, parameter :: group_reactions = 10  !! reactions at points
    integer, parameter :: group_requests = 11   !! expressions over channels: one item, a group of its own for each
-   integer, parameter :: n_groups = 11         !! number of groups
+   integer, parameter :: group_states = 12     !! state equations: one item, a group of its own for each row
+   integer, parameter :: n_groups = 12         !! number of groups
 
    !> (n_item_groups) groups of the output file, in the order of the groups
    character(*), parameter :: group_paths(n_groups) = [character(19) :: "bodies", "joints", "drivers", "clearances", &
                                                      "clearances/contacts", "forces", "energy", "points", "motions", &
-                                                     "reactions", "requests"]
+                                                     "reactions", "requests", "states"]
 
    !> The items of one sort.
    type :: item_group_t

@@ -61,11 +61,13 @@ module modes_results
       real(wp), allocatable :: c(:, :), d(:, :)       !! (outputs, states or inputs) C and D [any]
       real(wp), allocatable :: direction(:, :)        !! (rates, freedoms) local displacements of the first states [any]
       real(wp), allocatable :: mass(:)                !! (rates) [kg or kg.m^2]
+      type(text_t), allocatable :: others(:)          !! (any) names of the states after displacements and speeds
       type(text_t), allocatable :: inputs(:)          !! (inputs) their names, of drivers three each
       type(text_t), allocatable :: input_units(:)     !! (inputs) SI
       real(wp) :: residual = 0.0_wp                   !! free acceleration over that of the loads alone [1]
       real(wp), allocatable :: rest(:)                !! (freedoms) free accelerations, in the metric of the masses [any]
       real(wp) :: unsteady = 0.0_wp                   !! as of `motion_frame` [1]
+      integer :: moving = 0                           !! of `others` that whose rate is the greatest; 0: all are at rest
    end type linear_model_t
 
    !> A mode.

@@ -45,9 +45,11 @@ module readings
       type(readings_t) :: points                   !! of points, point by point
       type(readings_t) :: motions                  !! of points as observed from elsewhere, one by one
       type(readings_t) :: reactions                !! of reactions at points, one by one
+      type(readings_t) :: states                   !! of the state equations, one by one
    end type reading_offer_t
 
    !> Those that are read.
+   !> Components: a list for each sort of item.
    type, extends(reading_offer_t) :: reading_plan_t
       type(wanted_rows_t) :: rows                  !! what they need of rows that are not solved for
       type(balance_plan_t) :: balance              !! what follows from the balance of bodies, where it does

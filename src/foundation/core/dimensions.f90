@@ -9,7 +9,7 @@ module dimensions
    public :: dim_pressure, dim_speed, dim_stiffness, dim_t, dim_temperature, dim_time, dim_viscosity
    public :: same_dimension
 
-   !> Physical dimension as exponents of kg, m, s, rad and K.
+   !> Physical dimension as exponents of kg, m, s, rad, K and A.
    !> They are real because a contact stiffness is N/m^1.5, or N/m^n with any n.
    !> An angle is a dimension of its own, so that `5 s^-1` and `5 rad/s` are not confused; a moment
    !> is N.m, and radians are dropped where mechanics drops them (arc length is radius times angle).
@@ -19,6 +19,7 @@ module dimensions
       real(wp) :: s = 0.0_wp    !! exponent of time [1]
       real(wp) :: rad = 0.0_wp  !! exponent of plane angle [1]
       real(wp) :: k = 0.0_wp    !! exponent of temperature [1]
+      real(wp) :: a = 0.0_wp    !! exponent of electric current [1]
    end type dim_t
 
    type(dim_t), parameter :: dim_none = dim_t()
@@ -57,7 +58,8 @@ contains
       real(wp), parameter :: close = 1.0e-9_wp  !! exponents nearer than this are the same [1]
 
       same_dimension = abs(a%kg - b%kg) < close .and. abs(a%m - b%m) < close .and. abs(a%s - b%s) < close &
-                     & .and. abs(a%rad - b%rad) < close .and. abs(a%k - b%k) < close
+                     & .and. abs(a%rad - b%rad) < close .and. abs(a%k - b%k) < close &
+                     & .and. abs(a%a - b%a) < close
    end function same_dimension
 
 end module dimensions

@@ -263,14 +263,15 @@ contains
    end subroutine add_reference
 
    !> Append a column that holds an expression over channels.
-   subroutine add_formula(info, name, help)
+   subroutine add_formula(info, name, help, default)
       type(kind_info_t), intent(inout) :: info       !! the kind
       character(*), intent(in) :: name               !! as written in the deck
       character(*), intent(in) :: help               !! one line
+      character(*), intent(in), optional :: default  !! blank: may be left open; absent: required
 
       type(column_t) :: column
 
-      call start_column(column, name, cell_formula, help)
+      call start_column(column, name, cell_formula, help, default)
       call add_column(info, column)
    end subroutine add_formula
 

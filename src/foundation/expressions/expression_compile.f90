@@ -14,7 +14,7 @@ module expression_compile
    use expression_parser, only: parse_whole
    use expression_reader, only: fail, fault_t, name_length
    use expression_state, only: channel_finder_t, emit, new_parser, parser_t
-   use expression_symbols, only: symbol_broken, symbol_function, symbol_number, symbol_t, symbol_word, symbols_t
+   use expression_symbols, only: symbol_broken, symbol_function, symbol_number, symbol_state, symbol_t, symbol_word, symbols_t
    use expression_words, only: parse_word
    use kind_info, only: dim_none, dim_t, dim_time, same_dimension
    use kinds, only: wp
@@ -23,7 +23,7 @@ module expression_compile
    private
    public :: channel_finder_t, compile_expression, dimension_agrees, evaluate_safely, fault_t, function_names, is_reserved
    public :: name_length
-   public :: symbol_broken, symbol_function, symbol_number, symbol_t, symbol_word, symbols_t
+   public :: symbol_broken, symbol_function, symbol_number, symbol_state, symbol_t, symbol_word, symbols_t
 
    !> The dialect of decks: a postfix program.
    type, extends(parser_t) :: compiler_t

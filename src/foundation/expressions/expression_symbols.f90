@@ -1,4 +1,4 @@
-!> What the expressions of a deck may name: parameters and functions, each found by its name in constant time.
+!> What the expressions of a deck may name: parameters, functions and states, each found by its name in constant time.
 module expression_symbols
    use curve, only: curve_t
    use kind_info, only: dim_none, dim_t
@@ -8,12 +8,13 @@ module expression_symbols
    use text_list, only: text_list_t
    implicit none (type, external)
    private
-   public :: symbol_broken, symbol_function, symbol_number, symbol_t, symbol_word, symbols_t
+   public :: symbol_broken, symbol_function, symbol_number, symbol_state, symbol_t, symbol_word, symbols_t
 
    integer, parameter :: symbol_number = 1    !! a parameter with a value and a dimension
    integer, parameter :: symbol_word = 2      !! a parameter that is a word
    integer, parameter :: symbol_broken = 3    !! one whose error was reported already
    integer, parameter :: symbol_function = 4  !! a named function
+   integer, parameter :: symbol_state = 5     !! a row of the state equations: a channel, by its whole name
 
    !> A parameter, or a named function.
    type :: symbol_t
@@ -89,6 +90,7 @@ contains
       integer :: k
 
       do k = 1, self%n
+         if (self%list(k)%kind == symbol_state) cycle
          if ((self%list(k)%kind == symbol_function) .eqv. functions) call found%add(self%list(k)%name)
       end do
       names = found%get()

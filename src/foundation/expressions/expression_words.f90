@@ -13,10 +13,12 @@ module expression_words
    use expression_parser, only: close_parenthesis, parse_sum
    use expression_reader, only: advance, descend, digits, fail, letters, name_length, peek
    use expression_state, only: call_function, emit, find_function, function_list, parser_t, suggestion
-   use expression_symbols, only: symbol_broken
+   use expression_symbols, only: symbol_broken, symbol_state
+   use kind_info, only: dim_t
    use kinds, only: wp
    use rise_laws, only: number_of_rise
-   use text, only: split_blank, to_text
+   use text, only: split_blank, starts_with, to_text
+   use text_list, only: text_list_t
    implicit none (type, external)
    private
    public :: parse_word
@@ -192,7 +194,7 @@ contains
                     & "split it into requests")
             return
          end if
-         call parser%finder%find(word, parser%observed_dimensions(k), message, help)
+         call find_channel(parser, word, parser%observed_dimensions(k), message, help)
          if (.not. allocated(message)) then
             call fail(parser, term%first, parser%last, "")
          else if (len(message) > 0) then
@@ -206,6 +208,48 @@ contains
       term%is_constant = .false.
       call emit(parser, op_time, real(1 + k, wp))
    end subroutine parse_channel
+
+   !> The dimension of a channel: of a state that of its row, else what the finder knows.
+   subroutine find_channel(parser, word, dimension, message, help)
+      class(parser_t), intent(in) :: parser                  !! the reader
+      character(*), intent(in) :: word                       !! the channel
+      type(dim_t), intent(out) :: dimension                  !! its dimension
+      character(:), allocatable, intent(out) :: message      !! what is wrong with it; empty: nothing; unallocated: reported already
+      character(:), allocatable, intent(out) :: help         !! what to do, may be empty
+
+      integer :: k
+
+      message = ""
+      help = ""
+      k = parser%symbols%find(word)
+      if (k == 0) then
+         call parser%finder%find(word, dimension, message, help)
+         if (.not. allocated(message)) return
+         if (len(message) > 0) call suggest_state(parser, word, message, help)
+      else if (parser%symbols%list(k)%kind == symbol_state) then
+         dimension = parser%symbols%list(k)%dimension
+      else
+         deallocate (message)
+      end if
+   end subroutine find_channel
+
+   !> What is wrong with a channel that would be a state.
+   subroutine suggest_state(parser, word, message, help)
+      class(parser_t), intent(in) :: parser                       !! the reader
+      character(*), intent(in) :: word                            !! the channel
+      character(:), allocatable, intent(inout) :: message, help   !! what is wrong, and what to do: both are replaced if it is one
+
+      character(*), parameter :: prefix = "state."
+      type(text_list_t) :: states
+      integer :: k
+
+      if (.not. starts_with(word, prefix)) return
+      do k = 1, parser%symbols%n
+         if (parser%symbols%list(k)%kind == symbol_state) call states%add(parser%symbols%list(k)%name)
+      end do
+      message = "there is no state '"//word(len(prefix) + 1:)//"'"
+      help = suggestion(word, states%get(), "states are rows of [state]")
+   end subroutine suggest_state
 
    !> A named function of the deck with its argument.
    recursive subroutine parse_call(parser, name, term)

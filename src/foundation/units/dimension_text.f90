@@ -14,7 +14,7 @@ module dimension_text
       character(24) :: name = ""   !! the quantity
    end type prescribed_t
 
-   integer, parameter :: n_known = 33
+   integer, parameter :: n_known = 38
    type(prescribed_t), parameter :: known(n_known) = [ &
       & prescribed_t(dim_t(), "1", "a dimensionless number"), &
       & prescribed_t(dim_t(kg=1), "kg", "a mass"), &
@@ -48,7 +48,12 @@ module dimension_text
       & prescribed_t(dim_t(m=2, s=-2, k=-1), "J/(kg.K)", "a specific heat"), &
       & prescribed_t(dim_t(k=-1), "K^-1", "an inverse temperature"), &
       & prescribed_t(dim_t(m=-1, s=1), "s/m", "an inverse speed"), &
-      & prescribed_t(dim_t(kg=-1, m=1, s=2), "Pa^-1", "an inverse pressure")]
+      & prescribed_t(dim_t(kg=-1, m=1, s=2), "Pa^-1", "an inverse pressure"), &
+      & prescribed_t(dim_t(a=1), "A", "an electric current"), &
+      & prescribed_t(dim_t(kg=1, m=2, s=-3, a=-1), "V", "a voltage"), &
+      & prescribed_t(dim_t(kg=1, m=2, s=-3, a=-2), "Ohm", "an electric resistance"), &
+      & prescribed_t(dim_t(kg=1, m=2, s=-2, a=-2), "H", "an inductance"), &
+      & prescribed_t(dim_t(kg=1, m=2, s=-2, a=-1), "N.m/A", "a torque constant")]
 
 contains
 
@@ -79,6 +84,7 @@ contains
       call multiply(s, "s", dimension%s)
       call multiply(s, "rad", dimension%rad)
       call multiply(s, "K", dimension%k)
+      call multiply(s, "A", dimension%a)
    end function base_text
 
    !> The quantity that a dimension usually belongs to, with its unit: `a length [m]`.

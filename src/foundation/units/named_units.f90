@@ -27,7 +27,7 @@ module named_units
 
    real(wp), parameter :: kelvin_of_ice = 273.15_wp  !! 0 degC [K]
 
-   integer, parameter :: n_named = 27
+   integer, parameter :: n_named = 31
    type(named_unit_t), parameter :: named(n_named) = [ &
       & named_unit_t("m", "GMkdcmun", unit_t(dimension=dim_t(m=1))), &
       & named_unit_t("g", "Mkmun", unit_t(power=-3, dimension=dim_t(kg=1))), &
@@ -55,12 +55,16 @@ module named_units
       & named_unit_t("slug", "", unit_t(numerator=14.593902937206365_wp, dimension=dim_t(kg=1))), &
       & named_unit_t("psi", "k", unit_t(numerator=6894.7572931683613_wp, dimension=dim_t(kg=1, m=-1, s=-2))), &
       & named_unit_t("hp", "", unit_t(numerator=745.69987158227022_wp, dimension=dim_t(kg=1, m=2, s=-3))), &
-      & named_unit_t("gal", "", unit_t(numerator=3785411784.0_wp, power=-12, dimension=dim_t(m=3)))]
+      & named_unit_t("gal", "", unit_t(numerator=3785411784.0_wp, power=-12, dimension=dim_t(m=3))), &
+      & named_unit_t("A", "kmun", unit_t(dimension=dim_t(a=1))), &
+      & named_unit_t("V", "kmu", unit_t(dimension=dim_t(kg=1, m=2, s=-3, a=-1))), &
+      & named_unit_t("Ohm", "Mkm", unit_t(dimension=dim_t(kg=1, m=2, s=-3, a=-2))), &
+      & named_unit_t("H", "mun", unit_t(dimension=dim_t(kg=1, m=2, s=-2, a=-2)))]
 
    character(*), parameter :: spelt_out = "sec:s second:s seconds:s meter:m metre:m newton:N degree:deg degrees:deg " &
       & //"radian:rad radians:rad celsius:degC C:degC kelvin:K kilogram:kg gram:g minute:min hour:h hr:h turn:rev " &
       & //"turns:rev revolution:rev pascal:Pa joule:J watt:W hertz:Hz msec:ms poise:P micron:um " &
       & //"rps:rev/s rads:rad/s degs:deg/s mps:m/s mms:mm/s kmh:km/h kph:km/h in:inch inches:inch foot:ft feet:ft lbs:lb " &
-      & //"pound:lb pounds:lb lbm:lb gallon:gal"
+      & //"pound:lb pounds:lb lbm:lb gallon:gal ampere:A volt:V ohm:Ohm henry:H"
 
 end module named_units

@@ -342,7 +342,7 @@ contains
       real(wp), intent(in) :: exponent  !! 1: product; -1: quotient [1]
 
       dimension_product = dim_t(kg=a%kg + exponent*b%kg, m=a%m + exponent*b%m, s=a%s + exponent*b%s, &
-                                & rad=a%rad + exponent*b%rad, k=a%k + exponent*b%k)
+                                & rad=a%rad + exponent*b%rad, k=a%k + exponent*b%k, a=a%a + exponent*b%a)
    end function dimension_product
 
    !> The dimension of a power.

@@ -35,7 +35,7 @@ contains
       type(linkage_t), intent(inout) :: linkage       !! bodies are set
 
       real(wp), allocatable :: q(:), v(:)
-      integer :: n
+      integer :: k, n
 
       n = scene%bodies%n
       linkage%bodies = scene%bodies
@@ -56,6 +56,7 @@ contains
       else
          call new_motion(n, linkage%motion)
       end if
+      if (scene%states%n > 0) linkage%motion%states = [(scene%states%rows(k)%start, k=1, scene%states%n)]
       call linkage%deck_state(q, v)
       call linkage%place_bodies(q, 0.0_wp*v)
    end subroutine begin_linkage

@@ -81,7 +81,7 @@ contains
       system%n_quadrature = merge(place_of_film_loss(system%clearance_joints%n_contact, system%friction%rubbing%n > 0) &
                                   - merge(0, 1, system%clearance_joints%has_films), 0, &
                                   system%ledger%is_kept) + system%n_wear + system%n_impulse
-      system%n = system%linkage%n_position + system%linkage%n_rate + system%n_quadrature
+      system%n = system%linkage%n_position + system%linkage%n_rate + system%loading%states%n_state + system%n_quadrature
       call count_stick_slips(system)
       call add_event_functions(system)
       system%is_large = is_large(scene) .and. system%linkage%reduced%one_dof%n == 0 .and. system%friction%rubbing%n == 0 &
@@ -168,6 +168,7 @@ contains
 
       n = scene%bodies%n
       loading%gravity = scene%gravity
+      loading%states = scene%states
       allocate (loading%weight(3, 0:n), loading%g(n_v, 0:n), source=0.0_wp)
       do k = 1, n
          loading%weight(:, k) = scene%bodies%mass(k)*scene%gravity

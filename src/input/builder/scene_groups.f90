@@ -111,7 +111,7 @@ contains
 
       integer :: c, i, k
 
-      sees = .false.
+      sees = scene%states%n > 0
       do k = 1, size(scene%forces)
          do i = 1, size(scene%forces(k)%items)
             do c = 1, size(scene%forces(k)%items(i)%values)

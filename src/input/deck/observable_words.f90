@@ -11,7 +11,8 @@ module observable_words
 
    character(*), parameter :: known = "position velocity angle angular_velocity distance distance_rate"
    character(*), parameter :: numbers_known = "loads may use position, velocity, angle, angular_velocity of bodies, position and " &
-                              //"velocity of points, position, velocity, distance and distance_rate of rows of [request.motion]"
+                              //"velocity of points, position, velocity, distance and distance_rate of rows of " &
+                              //"[request.motion], and state.NAME; accelerations and forces follow from them: an algebraic loop"
 
    !> Knows them by their quantities.
    type, extends(channel_finder_t) :: observable_words_t

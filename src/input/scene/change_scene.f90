@@ -11,6 +11,7 @@ module change_scene
    use read_films, only: check_lubricants, make_films
    use read_laws, only: make_frictions, make_laws, make_wears
    use read_scene, only: check_space, finish_scene, list_names, resolve_tables
+   use read_states, only: make_states
    use references, only: add_names, directory_t
    use scene, only: n_base, scene_t, table_t
    use tables, only: read_items
@@ -32,7 +33,7 @@ contains
 
       type(diagnostics_t) :: mistakes
       type(directory_t) :: directory
-      logical :: is_read(size(is_touched))
+      logical :: has_changed, is_read(size(is_touched))
       integer :: k
 
       is_read = .not. is_touched
@@ -53,6 +54,8 @@ contains
       do k = 1, n_clearance_kinds()
          call read_again(scene%clearances(k))
       end do
+      call read_again(scene%tables%states, has_changed)
+      if (has_changed) call make_states(deck, scene, mistakes)
       do k = 1, n_worn_kinds()
          call read_again(scene%tables%worn(k))
       end do

@@ -27,6 +27,7 @@ module kind_list
    use modes_info, only: modes_section
    use orbit_info, only: orbit_section
    use sensitivity_info, only: sensitivity_section
+   use state_equations, only: state_info
    use study_info, only: ensemble_info, life_info, statistics_info, sweep_info
    use tolerance_info, only: tolerance_joint_info, tolerance_limit_info, tolerance_study_info, tolerance_table_info
    use wear_law, only: wear_law_t
@@ -179,7 +180,7 @@ contains
       before_films = before_wears + n_wear_kinds() + 1
       before_worn = before_films + n_film_kinds()
       before_settings = before_worn + n_worn_kinds()
-      allocate (known(before_settings + 25))
+      allocate (known(before_settings + 26))
       known(1) = scene_info()
       known(2) = bodies_info()
       known(3) = points_info()
@@ -278,6 +279,7 @@ contains
       known(before_settings + 23) = precision_section()
       known(before_settings + 24) = orbit_section()
       known(before_settings + 25) = modes_section()
+      known(before_settings + 26) = state_info()
    end subroutine ask_settings
 
 end module kind_list

@@ -12,7 +12,8 @@ module read_requests
    use references, only: add_names, directory_t, resolve
    use requests, only: requests_t
    use scene, only: scene_t, table_bodies, table_formulas, table_motions, table_points, table_reactions
-   use observable, only: place_t, sees_angle, sees_angular_velocity, sees_distance, sees_distance_rate, observable_t
+   use observable, only: place_t, sees_angle, sees_angular_velocity, sees_distance, sees_distance_rate, sees_state, observable_t
+   use state_equations, only: state_prefix
    use observable_words, only: read_observable_word
    use spelling, only: nearest_word
    use tables, only: read_items
@@ -20,7 +21,7 @@ module read_requests
    use text_list, only: text_list_t
    implicit none (type, external)
    private
-   public :: make_requests, place_observables, requests_from_deck
+   public :: make_requests, place_observable, place_observables, requests_from_deck
 
 contains
 
@@ -217,6 +218,11 @@ contains
       type(observable_t) :: other
       integer :: body, motion, point
 
+      observable%component = find_state(scene, observable%word)
+      if (observable%component > 0) then
+         observable%quantity = sees_state
+         return
+      end if
       call read_observable_word(observable%word, item, quantity, observable%component, observable%quantity)
       help = ""
       call find_item(scene, item, body, motion, point, help)
@@ -246,6 +252,17 @@ contains
       at%last = at%first + len(observable%word) - 1
       call diagnostics%add(at, "invalid channel '"//observable%word//"' in an expression", message, help)
    end subroutine place_observable
+
+   !> Row of the state equations that a channel is; 0: it is none.
+   pure integer function find_state(scene, word) result(row)
+      type(scene_t), intent(in) :: scene   !! the scene
+      character(*), intent(in) :: word     !! the channel
+
+      do row = 1, scene%states%n
+         if (word == state_prefix//scene%states%rows(row)%name) return
+      end do
+      row = 0
+   end function find_state
 
    !> The body, the row of [request.motion] or the point of a name.
    subroutine find_item(scene, item, body, motion, point, near)

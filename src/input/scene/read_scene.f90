@@ -24,6 +24,7 @@ module read_scene
    use read_laws, only: laws_from_deck
    use read_functions, only: functions_from_deck
    use read_worn, only: make_worn_surfaces, worn_from_deck
+   use read_states, only: place_states, states_from_deck
    use read_requests, only: make_requests, place_observables, requests_from_deck
    use references, only: add_names, directory_t, resolve
    use scene, only: analysis_dynamic, analysis_kinematic, analysis_names, n_analysis, n_base, &
@@ -64,6 +65,7 @@ contains
       call check_sections(deck, known, scene%settings%is_spatial, diagnostics)
       call functions_from_deck(deck, scene, diagnostics)
       call read_analyses(deck, scene%settings, diagnostics)
+      call states_from_deck(deck, scene, diagnostics)
       call read_section(deck, kind_named("guards", .false.), scene%settings%guards, diagnostics)
       call read_section(deck, kind_named("output", .false.), scene%settings%output, diagnostics)
       call join_figures(scene%settings%output%values(place_of(scene%settings%output, "figures")), diagnostics)
@@ -111,6 +113,7 @@ contains
       end associate
       call make_requests(scene, diagnostics)
       call place_observables(scene, diagnostics)
+      call place_states(scene, diagnostics)
       call check_meaning(deck, scene, diagnostics)
       if (diagnostics%count() == 0) call make_worn_surfaces(scene, diagnostics)
    end subroutine finish_scene

@@ -10,6 +10,7 @@ module scene
    use lubricant, only: oil_t
    use normal_law, only: normal_law_t
    use requests, only: requests_t
+   use state_equations, only: state_equations_t
    use wear_law, only: wear_slot_t
    use worn_surface, only: worn_surface_t
    implicit none (type, external)
@@ -84,6 +85,7 @@ module scene
       type(table_t), allocatable :: films(:)           !! (kinds) films
       type(table_t), allocatable :: worn(:)            !! (kinds) surfaces that are worn at the start
       type(table_t) :: requests(n_requests)            !! (kinds) requests
+      type(table_t) :: states                          !! state equations
    end type tables_t
 
    !> What lubricates joints.
@@ -110,6 +112,7 @@ module scene
       type(table_t), allocatable :: clearances(:)            !! (kinds) joints with clearance
       type(tables_t) :: tables                               !! the other tables
       type(requests_t) :: requests                           !! what is asked of the motion
+      type(state_equations_t) :: states                      !! own equations of the deck
       integer :: analysis = analysis_dynamic                 !! which analysis runs
       type(settings_t) :: settings                           !! of it, of the output and of studies
       real(wp) :: size_of_whole = 0.0_wp                     !! size of the bodies of what this is a group of; 0: all is here [m]

@@ -69,7 +69,7 @@ contains
       call look(scene%tables%requests(table_reactions)%items)
       associate (points => scene%tables%base(table_points)%items)
          do k = 1, size(points)
-            if (points(k)%name == "none") call report_reserved(points(k))
+            if (points(k)%name == "none" .or. is_state(points(k))) call report_reserved(points(k))
          end do
       end associate
 
@@ -83,10 +83,17 @@ contains
 
          call report_doubled(items, names, diagnostics)
          do i = 1, size(items)
-            if (index(reserved, " "//items(i)%name//" ") > 0) call report_reserved(items(i))
+            if (index(reserved, " "//items(i)%name//" ") > 0 .or. is_state(items(i))) call report_reserved(items(i))
          end do
          call add_names(items, names)
       end subroutine look
+
+      !> Whether an item has the name that is that of the state equations, where there are some.
+      pure logical function is_state(item)
+         type(item_t), intent(in) :: item  !! the row
+
+         is_state = item%name == "state" .and. scene%states%n > 0
+      end function is_state
 
       !> A reserved word was taken as a name.
       subroutine report_reserved(item)

@@ -29,6 +29,7 @@ contains
       call add(scene%tables%wears)
       call add(scene%tables%films)
       call add(scene%tables%worn)
+      if (scene%states%n > 0) text = text//echo_items(scene%tables%states%info, scene%tables%states%items)
       call add(scene%tables%requests)
       dynamic = scene%settings%dynamic
       call scene%settings%integration%write(dynamic%item_t)

@@ -29,6 +29,7 @@ module motion
       real(wp), allocatable :: a(:, :)        !! (3, 0:n) acceleration of the centre of mass, if set [m/s^2]
       real(wp), allocatable :: alpha(:, :)    !! (3, 0:n) angular acceleration, world frame, if set [rad/s^2]
       type(spatial_motion_t) :: spatial       !! of a spatial scene, else empty
+      real(wp), allocatable :: states(:)      !! (rows) values of the deck's state equations; none: unallocated [any]
    end type motion_t
 
    !> Applied loads on all bodies.

@@ -13,7 +13,7 @@ module observed_motion
    use kinds, only: wp
    use motion, only: cross, motion_t, point_position, point_velocity
    use observable, only: place_t, sees_acceleration, sees_angle, sees_angular_velocity, sees_distance, sees_distance_rate, &
-      sees_position, sees_velocity, observable_t
+      sees_position, sees_state, sees_velocity, observable_t
    implicit none (type, external)
    private
    public :: place_values, value_of
@@ -52,6 +52,8 @@ contains
          value = motion%angle(observable%place%body)
       case (sees_angular_velocity)
          value = motion%omega(observable%component, observable%place%body)
+      case (sees_state)
+         value = motion%states(observable%component)
       case default
          x = place_values(observable%place, observable%quantity, motion)
          value = x(observable%component)

@@ -1,8 +1,10 @@
-!> Loads on the bodies: gravity, force elements and what contacts add, gathered on the coordinates.
+!> Loads on the bodies: gravity, force elements, the state equations that drive them, and what contacts add, gathered on the
+!> coordinates.
 module loading
    use force_set, only: force_slot_t
    use kinds, only: wp
    use motion, only: loads_t
+   use state_equations, only: state_equations_t
    implicit none (type, external)
    private
    public :: loading_t, start_loads
@@ -14,6 +16,7 @@ module loading
       type(force_slot_t), allocatable :: forces(:)   !! force elements, one set per kind
       integer :: n_set = 0                           !! how many sets
       logical :: counts_turns = .false.              !! whether some of them count turns, see `step_follower`
+      type(state_equations_t) :: states              !! state equations of the deck, which drive them
       ! of the last evaluation
       type(loads_t) :: loads                         !! applied and contact loads
       real(wp), allocatable :: g(:, :)               !! (n_v, 0:bodies) loads on the rates [N or N.m]

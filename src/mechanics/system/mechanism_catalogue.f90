@@ -6,7 +6,7 @@ module mechanism_catalogue
    use balanced_report, only: bind_balance
    use catalogue, only: catalogue_t, names_of_channels
    use groups_of_catalogue, only: group_bodies, group_clearances, group_contacts, group_drivers, group_energy, group_forces, &
-        group_joints
+        group_joints, group_states
    use joint_friction, only: friction_channels
    use joint_set, only: joint_set_t, of_coordinate
    use kind_info, only: add_channel, channel_t, kind_info_t
@@ -121,6 +121,12 @@ contains
          call catalogue%add_kind(group_energy, info)
          call catalogue%list(group_energy, info, catalogue%offer%energy)
       end if
+      if (system%loading%states%n > 0) then
+         call catalogue%add_item(group_states, "state")
+         info = system%loading%states%info()
+         call catalogue%add_kind(group_states, info)
+         call catalogue%list(group_states, info, catalogue%offer%states)
+      end if
       call add_requests(system%requests, catalogue)
       call catalogue%allocate_data()
       call bind_channels(system, catalogue)
@@ -139,6 +145,7 @@ contains
       associate (plan => catalogue%readings, offer => catalogue%offer)
          call catalogue%bind(offer%bodies, plan%bodies, [(k, k=1, system%linkage%bodies%n)])
          call catalogue%bind(offer%energy, plan%energy)
+         call catalogue%bind(offer%states, plan%states)
          if (allocated(plan%joints)) deallocate (plan%joints, plan%ideal, plan%clearance_joints, plan%forces)
          allocate (plan%joints(size(offer%joints)), plan%ideal(size(offer%ideal)))
          allocate (plan%clearance_joints(size(offer%clearance_joints)), plan%forces(size(offer%forces)))

@@ -35,6 +35,7 @@ contains
       self%n_evaluations = self%n_evaluations + 1
       if (self%friction%stick_slips%n_bristle > 0) call self%take_bristles(y)
       call self%linkage%set_motion(t, y)
+      if (self%loading%states%n > 0) call self%take_states(y)
       call self%evaluate_terms(t, status)
       if (status /= 0) return
       if (self%friction%rubbing%n > 0) then  ! friction in joints, into g
@@ -56,6 +57,7 @@ contains
          a = -a
          call linkage%coordinates%add_rates(rows%n_unknown, rows%unknown, linkage%motion, a, r_y)
          if (self%friction%stick_slips%n_bristle > 0) call self%bristle_rates(r_y)
+         if (self%loading%states%n > 0) call self%state_rates(t, r_y, status)
          if (self%ledger%is_kept) then
             linkage%solution%lambda(:m) = lambda
             call self%ledger_rates(r_y(n_state + 1:))

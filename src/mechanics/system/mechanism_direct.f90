@@ -36,7 +36,7 @@ contains
          end select
          self%is_direct = is_plane .and. linkage%rows%n_unknown == 0 .and. linkage%rows%n_solve == 0 &
                           .and. .not. self%stabiliser%at_stages .and. friction%stick_slips%n_slip == 0 &
-                          .and. friction%stick_slips%n_bristle == 0 .and. friction%rubbing%n == 0
+                          .and. friction%stick_slips%n_bristle == 0 .and. friction%rubbing%n == 0 .and. self%loading%states%n == 0
          self%traits%sees_diverged = self%is_direct
       end associate
    end procedure mechanism_choose_form

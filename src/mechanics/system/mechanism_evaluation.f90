@@ -17,6 +17,7 @@ contains
       else
          call self%linkage%move(inside, y)
       end if
+      if (self%loading%states%n > 0) call self%take_states(y)
       call evaluate_terms(self, inside, status)
       if (status /= 0) return
       if (self%linkage%rows%n_unknown > 0 .or. self%friction%stick_slips%n_slip > 0) then
@@ -42,6 +43,7 @@ contains
          end if
       end associate
       if (self%friction%stick_slips%n_bristle > 0) call self%bristle_rates(ydot)
+      if (self%loading%states%n > 0) call self%state_rates(t, ydot, status)
    end procedure evaluate_any
 
    !> Loads and solved rows at the present motion. Status 1 if a known motion is not finite.
@@ -56,6 +58,7 @@ contains
    !> Loads of gravity, force elements, touching contacts and films at the present motion, on the rates.
    module procedure mechanism_evaluate_loads
       associate (linkage => self%linkage, loading => self%loading)
+         if (loading%states%n > 0) call loading%states%work_out(linkage%segment%inside(t), linkage%motion)
          call sum_loads(min(max(t, linkage%segment%low), linkage%segment%high), linkage%motion, linkage%bodies%n, loading, &
                         self%clearance_joints)
       end associate
@@ -77,6 +80,7 @@ contains
 
       status = 0
       call self%linkage%set_motion(t, y)
+      if (self%loading%states%n > 0) call self%take_states(y)
       call self%evaluate_loads(t)
       associate (linkage => self%linkage, n_v => self%linkage%coordinates%n_v)
          do k = 1, linkage%rows%n_unknown

@@ -121,6 +121,9 @@ contains
          if (size(plan%forces) > 0) call report_forces(system, t, plan%forces, values)
          if (plan%points%n + plan%motions%n + plan%reactions%n > 0) call report_requests(system, t, plan, values)
          if (plan%energy%n > 0) call report_energy(system, y, residual, plan%energy, values)
+         do m = 1, plan%states%n
+            values(plan%states%of(m)%place + 1) = linkage%motion%states(plan%states%of(m)%code)
+         end do
       end associate
       call find_magnitudes(catalogue)
       if (size(catalogue%formulas) > 0) call catalogue%work_out(t)

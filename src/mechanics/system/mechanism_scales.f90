@@ -71,6 +71,7 @@ contains
          end if
       end associate
       if (self%friction%stick_slips%n_bristle > 0) call self%bristle_weights(scale)
+      if (self%loading%states%n > 0) call self%state_weights(y, scale)
 
    contains
 

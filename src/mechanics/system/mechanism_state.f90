@@ -2,13 +2,15 @@
 !>
 !> y = ( q, v, z ): coordinates (x, y, angle) of each body whose motion is unknown, then one of each body with one degree of
 !> freedom; their rates; and the quadratures: those of the energy ledger, then, if surfaces wear, the driving work of each contact's
-!> wear, then the impulse of each contact's normal force. Contacts with bristles have a state each, after the rates.
+!> wear, then the impulse of each contact's normal force. Contacts with bristles have a state each, after the rates;
+!> the deck's state equations follow.
 !>
 !> Here are the places in it, what is small beside it (error scales, the characteristic rate, round-off of event functions), small
 !> changes of it, where its residual has entries, and what of it a checkpoint keeps.
 module mechanism_state
    use archive, only: archive_t
    use dae_system, only: dae_system_t
+   use errors, only: error_t
    use stabilisation, only: stabilisation_t
    use kinds, only: i8, wp
    use linkage, only: linkage_t
@@ -43,6 +45,9 @@ module mechanism_state
       procedure :: take_bristles => mechanism_take_bristles, bristle_rates => mechanism_bristle_rates
       procedure :: bristle_place => mechanism_bristle_place, rubbing_place => mechanism_rubbing_place
       procedure :: bristle_weights => mechanism_bristle_weights
+      procedure :: before_states => mechanism_before_states, begin_states => mechanism_begin_states
+      procedure :: take_states => mechanism_take_states, state_rates => mechanism_state_rates
+      procedure :: state_weights => mechanism_state_weights, sample_states => mechanism_sample_states
       procedure :: dae_pattern => mechanism_dae_pattern, dae_spread => mechanism_dae_spread
       procedure :: save => mechanism_save, load => mechanism_load
    end type mechanism_state_t
@@ -147,6 +152,53 @@ module mechanism_state
          class(mechanism_state_t), intent(in) :: self  !! the system
          real(wp), intent(inout) :: scale(:)           !! (n) scales [any]
       end subroutine mechanism_bristle_weights
+
+      !> Entries of the state before those of the state equations.
+      pure module integer function mechanism_before_states(self) result(place)
+         implicit none (type, external)
+         class(mechanism_state_t), intent(in) :: self  !! the system
+      end function mechanism_before_states
+
+      !> Values of the state equations at t = 0 into a state whose bodies are there, the first samples taken.
+      module subroutine mechanism_begin_states(self, y, error)
+         implicit none (type, external)
+         class(mechanism_state_t), intent(inout) :: self   !! the system
+         real(wp), intent(inout) :: y(:)                   !! (n) state [any]
+         type(error_t), allocatable, intent(out) :: error  !! a sample is not finite
+      end subroutine mechanism_begin_states
+
+      !> Values of the states of state equations, for the loads.
+      module subroutine mechanism_take_states(self, y)
+         implicit none (type, external)
+         class(mechanism_state_t), intent(inout) :: self  !! the system
+         real(wp), intent(in) :: y(:)                     !! (n) state [any]
+      end subroutine mechanism_take_states
+
+      !> Rates of the state equations, as of the last evaluation.
+      module subroutine mechanism_state_rates(self, t, ydot, status)
+         implicit none (type, external)
+         class(mechanism_state_t), intent(in) :: self  !! the system
+         real(wp), intent(in) :: t                     !! time [s]
+         real(wp), intent(inout) :: ydot(:)            !! (n) derivative of the state [any]
+         integer, intent(out) :: status                !! 0: all are finite
+      end subroutine mechanism_state_rates
+
+      !> Error scales of the state equations.
+      module subroutine mechanism_state_weights(self, y, scale)
+         implicit none (type, external)
+         class(mechanism_state_t), intent(in) :: self  !! the system
+         real(wp), intent(in) :: y(:)                  !! (n) state [any]
+         real(wp), intent(inout) :: scale(:)           !! (n) scales [any]
+      end subroutine mechanism_state_weights
+
+      !> Take the samples of state equations that are due.
+      module subroutine mechanism_sample_states(self, t, y, error)
+         implicit none (type, external)
+         class(mechanism_state_t), intent(inout) :: self   !! the system
+         real(wp), intent(in) :: t                         !! time of the instant [s]
+         real(wp), intent(inout) :: y(:)                   !! (n) state [any]
+         type(error_t), allocatable, intent(out) :: error  !! a sample is not finite
+      end subroutine mechanism_sample_states
 
       !> Set of a contact and its place there by the number of any of its event functions, of which the first are as the contacts.
       module subroutine mechanism_find_contact(self, number, slot, contact)

@@ -9,7 +9,8 @@ module formula_words
    use dimension_text, only: dimension_name, unit_text
    use dimensions, only: same_dimension
    use expression, only: expression_t
-   use expression_compile, only: channel_finder_t, compile_expression, dimension_agrees, fault_t
+   use expression_compile, only: channel_finder_t, dimension_agrees
+   use formula_cell, only: compile_formula
    use item, only: item_t, location_t, place_of
    use kind_info, only: dim_none, dim_t
    use kinds, only: wp
@@ -81,25 +82,15 @@ contains
       type(dim_t), intent(inout) :: dimension          !! of its value
       type(diagnostics_t), intent(inout) :: mistakes   !! errors found
 
-      character(*), parameter :: place = "in column value of request"
-      type(fault_t), allocatable :: fault
       type(location_t) :: at
       integer :: k
+      logical :: is_good
 
       formula%name = item%name
       associate (value => item%values(place_of(item, "value")))
          formula%text = value%text
-         call compile_expression(value%text, deck%symbols, .true., formula%expression, fault, finder=words)
-         if (allocated(fault)) then
-            if (len(fault%message) == 0) return
-            at = value%location
-            if (at%last - at%first + 1 > len(value%text)) then  ! in braces
-               at%first = value%location%first + fault%first
-               at%last = value%location%first + fault%last
-            end if
-            call mistakes%add(at, "invalid expression "//place, fault%message, fault%help)
-            return
-         end if
+         call compile_formula(value, "in column value of request", deck%symbols, words, formula%expression, is_good, mistakes)
+         if (.not. is_good) return
       end associate
       if (.not. allocated(formula%expression%observables)) allocate (formula%expression%observables(0))
       dimension = formula%expression%dimension

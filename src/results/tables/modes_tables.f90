@@ -130,11 +130,12 @@ contains
                names(k)%s = trim(merge("x    ", "speed", k <= model%n_free))//to_text(modulo(k - 1, max(1, model%n_free)) + 1)
                moved(:, k) = model%direction(:, modulo(k - 1, model%n_free) + 1)
             else
-               names(k)%s = "bristle"//to_text(k - 2*model%n_free)
+               names(k) = model%others(k - 2*model%n_free)
             end if
          end do
          call states%start("states", "states", model%n_state)
-         call states%put("name", "1", "x: displacements, speed: their rates, bristle: states of friction", texts=names)
+         call states%put("name", "1", "x: displacements, speed: their rates, bristle: states of friction, state: of the "// &
+                         "deck", texts=names)
          if (model%n_state > 0) then
             call states%put("a", "1", "matrix A, a row for each state, SI", [transpose(model%a)], shape=[model%n_state])
             if (size(model%inputs) > 0) call states%put("b", "1", "matrix B, a row for each state, SI", [transpose(model%b)], &

@@ -4,7 +4,8 @@
 !> if it is chosen for some item, and its dataset then holds all items of the group that appear.
 module hdf5_layout
    use catalogue, only: catalogue_t
-   use groups_of_catalogue, only: n_groups, group_clearances, group_contacts, group_energy, group_requests
+   use groups_of_catalogue, only: n_groups, group_clearances, group_contacts, group_energy, group_requests, &
+      group_states
    use channels, only: selection_t
    use hdf5, only: h5dclose_f, h5dwrite_f, h5gclose_f, h5t_ieee_f64le, h5t_native_double, h5t_std_i8le
    use hdf5, only: hid_t, hsize_t
@@ -195,7 +196,7 @@ contains
          if (status < 0) return
          call h5gclose_f(group, closed)
          select case (item_group)
-         case (group_energy, group_requests)
+         case (group_energy, group_requests, group_states)
             continue
          case (group_contacts)
             call text_dataset(file, "clearances/contact_joint", picked(this%names, items), .false., &
@@ -206,7 +207,7 @@ contains
             call text_dataset(file, this%name//"/names", picked(this%names, items), .false., &
                               "name of each item", status)
          end select
-         if (all(item_group /= [group_energy, group_requests])) &
+         if (all(item_group /= [group_energy, group_requests, group_states])) &
             call add_scale(scales, file, scale_of(catalogue, item_group), status)
          if (item_group == group_contacts) call take_scales_of_path(scales, file, "clearances/contact_joint", &
                                                                     [scale_of(catalogue, item_group)], status)
@@ -289,7 +290,7 @@ contains
          dataset%place = [((catalogue%place(group, c, items(i)), c=1, components), i=1, size(items))]
          dataset%is_state = item_group == group_contacts .and. this%channel%name == "state"
          allocate (dataset%rows(size(dataset%place), block))
-         if (item_group == group_energy .or. item_group == group_requests) then
+         if (any(item_group == [group_energy, group_requests, group_states])) then
             allocate (dataset%shape(0))
          else if (components == 1) then
             dataset%shape = [size(items, kind=hsize_t)]

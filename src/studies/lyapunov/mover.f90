@@ -16,6 +16,7 @@ module mover
    use moving_part, only: advance_part, begin_part, handle_part_events, moving_part_t, new_part, pass_part_instant
    use precision_info, only: setting_t
    use run_tally, only: run_tally_t
+   use state_equations, only: refuse_sampled
    use tangent, only: tangent_t
    use text, only: real_text
    use tangent_events, only: cross_events, cross_instant
@@ -54,6 +55,8 @@ contains
       type(integration_t) :: settings
       type(started_t) :: begin
 
+      call refuse_sampled(job%scene%states, error)
+      if (allocated(error)) return
       call self%budget%begin(job%limits%cpu, clock=job%limits%clock)
       settings = job%scene%settings%integration
       call setting%apply(asked, job%scene%settings%integration)

@@ -16,6 +16,7 @@ module linear_state
    use scene, only: analysis_dynamic, analysis_kinematic, analysis_static, scene_t
    use sensitivity_motion, only: setting_of
    use start_state, only: find_start
+   use state_equations, only: refuse_sampled
    use static, only: equilibrium_t, find_equilibrium
    use steady_motion, only: find_steady
    use text, only: append_text, real_text, text_t
@@ -47,6 +48,8 @@ contains
 
       type(job_t) :: all
 
+      call refuse_sampled(job%scene%states, error)
+      if (allocated(error)) return
       all = job
       all%scene%settings%integration%is_reduced = .false.
       call all%scene%settings%integration%stabilisation%take(chosen)
@@ -134,6 +137,8 @@ contains
       end if
       allocate (state%y(system%n), source=0.0_wp)
       call system%linkage%take_state(q, v, state%y)
+      call system%begin_states(state%y, error)
+      if (allocated(error)) return
       state%words = trim(merge("the steady state on films", "the static equilibrium   ", system%clearance_joints%has_films)) &
                     //": "//equilibrium%words
       if (equilibrium%warning /= "") call append_text(state%warnings, equilibrium%warning)

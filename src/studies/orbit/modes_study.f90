@@ -122,6 +122,8 @@ contains
       associate (model => study%model)
          if (model%residual > at_rest) call append_text(study%warnings, "the state is not an equilibrium: loads of " &
             //real_text(model%residual, 3)//" of the forces that act are not balanced; the eigenvalues are those of the instant")
+         if (model%moving > 0) call append_text(study%warnings, model%others(model%moving)%s//" changes at the state; the "// &
+                                                "eigenvalues are those of the instant")
          if (model%unsteady > steady .and. model%n_free > 0) call append_text(study%warnings, "the motion is not steady in axes " &
             //study%plan%axes_name//": directions turn by "//real_text(model%unsteady, 3)//" of the speeds; the eigenvalues are " &
             //"those of the instant")
