@@ -88,8 +88,8 @@ contains
       end do
    end subroutine test_squeeze
 
-   !> Volume per time that the gap loses where there is pressure, over c R^3/(3 L): 12 (L/D)^2 times the integral of v . u. No surface
-   !> slides: what does not leave at the ends goes into empty cells beside, which take at most what their own gap wins.
+   !> Volume per time that the gap loses where there is pressure, over c R^3/(3 L): 12 (L/D)^2 times the integral of v . u. No
+   !> surface slides: what does not leave at the ends goes into empty cells beside, which take at most what their own gap wins.
    pure real(wp) function squeezed_out(grid, with_neighbours)
       type(reynolds_grid_t), intent(in) :: grid   !! a half length, solved for a journal that does not turn
       logical, intent(in) :: with_neighbours      !! count the empty cells beside those with pressure too

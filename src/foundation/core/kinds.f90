@@ -14,8 +14,8 @@ module kinds
 
 contains
 
-   !> A quiet NaN: the value of what was not computed. By its bits: a procedure that uses ieee_arithmetic itself saves and restores the
-   !> flags of the processor, which takes longer than what it is called for in expressions.
+   !> A quiet NaN: the value of what was not computed. By its bits: a procedure that uses ieee_arithmetic itself saves and restores
+   !> the flags of the processor, which takes longer than what it is called for in expressions.
    pure function not_a_number() result(x)
       real(wp) :: x  !! NaN [1]
 
