@@ -23,7 +23,7 @@ module output_times
    use root_scan, only: new_root_scan, place_t, root_scan_t
    use scene, only: scene_t, table_t
    use smooth_segment, only: smooth_segment_t
-   use state_equations, only: state_prefix
+   use state_equations, only: sampled, state_prefix
    use state_samples, only: samples_t
    implicit none (type, external)
    private
@@ -91,7 +91,7 @@ contains
       end do
       do k = 1, scene%states%n
          associate (row => scene%states%rows(k))
-            call monitor_expression(row%expression, state_prefix//row%name, .false., output_times)
+            if (row%sort /= sampled) call monitor_expression(row%expression, state_prefix//row%name, .false., output_times)
          end associate
       end do
       call output_times%samples%start(scene%states)
