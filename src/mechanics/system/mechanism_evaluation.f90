@@ -43,7 +43,7 @@ contains
          end if
       end associate
       if (self%friction%stick_slips%n_bristle > 0) call self%bristle_rates(ydot)
-      if (self%loading%states%n > 0) call self%state_rates(t, ydot, status)
+      if (status == 0 .and. self%loading%states%n > 0) call self%state_rates(t, ydot, status)
    end procedure evaluate_any
 
    !> Loads and solved rows at the present motion. Status 1 if a known motion is not finite.
