@@ -82,7 +82,7 @@ contains
               floor_t(widest_band, of_speed, for_sticking, &
                       "tolerated speed of slip against its direction, final; in space also speed of slow slip"), &
               floor_t(settling, of_pace, for_sticking, &
-                      "decay rate of residual sliding while sticking; in space at least sqrt(F_N/(penetration m))"), &
+                      "decay rate of residual sliding while sticking, or sqrt(F_N/(penetration m)) if that is greater"), &
               floor_t(chatter_time, of_contact, for_sticking, &
                       "stick-slip interval that counts as chatter, over sqrt(penetration m/F_N)"), &
               floor_t(look_ahead, of_step, for_sticking, "look-ahead time for the motion that drivers give a contact at rest"), &

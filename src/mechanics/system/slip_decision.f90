@@ -7,6 +7,9 @@
 !> contact that gives way slips, whatever the last digits of the forces say, and so does each other one at its limit. While all
 !> hold, contacts that share a load take the same part of what each can hold (`solve_stick_slips`).
 !>
+!> Contacts that start together have no forces at first but what round-off makes of their gaps: it would choose which of them slip.
+!> Where the sliding accelerations are slight all stick, and give way as soon as their forces say so.
+!>
 !> Contacts that drivers move are decided before, each for itself: see `mechanism_friction`.
 !>
 !> A slip that ends at once again and again ends at a small speed the wrong way, which doubles each time up to a limit, and
@@ -24,6 +27,7 @@ submodule(mechanism:mechanism_friction) slip_decision
    real(wp), parameter :: less_of_speed = 0.5_wp  !! of a slow slip, at which it ends [1]
    real(wp), parameter :: more_of_speed = 1.5_wp  !! of one against its way [1]
    real(wp), parameter :: against_way = 0.1_wp    !! of the widest band: what it may be, for friction gives energy to it [1]
+   real(wp), parameter :: slight = 1.0e-6_wp     !! sliding acceleration that decides nothing, of rate times speed [1]
    real(wp), parameter :: not_held = 1.0e-9_wp   !! sliding acceleration that counts, of the maximum that is asked for [1]
 
 contains
@@ -285,6 +289,7 @@ contains
          if (status /= 0) return
          r = matmul(stick_slips%matrix(:m, :m), force)  ! what no force can change is omitted
          asked = maxval(abs(r))
+         if (asked <= slight*self%linkage%scales%pace*own_speed(self) .and. .not. any(slips)) return
          do pass = 1, n + 1
             do c = 1, n
                limit(c) = limit_of_listed(self, stick_slips%at(n_tangent*c), slips(c))
