@@ -1,16 +1,14 @@
 !> Which contacts stick and which slip, and which way, at an instant: decided for all of them together.
 !>
-!> Candidates are contacts that have just started without sliding, those whose slip ended, those that stick, and, where a slip ended
-!> or a contact started, those that slide slower than its speed of rest. Their friction forces are the solution of one
+!> Candidates are contacts that have just started without sliding, those whose slip ended, those that stick, and, where a slip
+!> ended or a contact started, those that slide slower than its speed of rest. Their friction forces are the solution of one
 !> complementarity problem (`friction_limits`), L_c = c_s F_N: contacts within their limits stick, the others slip against their
 !> forces. These have the force of sliding then, L_c = c_f F_N, and the problem is solved again, until no further contact slips. A
 !> contact that gives way slips, whatever the last digits of the forces say, and so does each other one at its limit. While all
 !> hold, contacts that share a load take the same part of what each can hold (`solve_stick_slips`).
 !>
-!> Contacts that start together have no forces at first but what round-off makes of their gaps: it would choose which of them slip.
-!> Where the sliding accelerations are slight all stick, and give way as soon as their forces say so.
-!>
-!> Contacts that drivers move are decided before, each for itself: see `mechanism_friction`.
+!> Contacts that start together have no forces at first but what round-off makes of their gaps: all stick while the sliding
+!> accelerations are `slight`. Contacts that drivers move are decided before, each for itself: see `mechanism_friction`.
 !>
 !> A slip that ends at once again and again ends at a small speed the wrong way, which doubles each time up to a limit, and
 !> sticking is asked for less by as many parts: so round-off alone cannot make events without end.
@@ -291,9 +289,7 @@ contains
          asked = maxval(abs(r))
          if (asked <= slight*self%linkage%scales%pace*own_speed(self) .and. .not. any(slips)) return
          do pass = 1, n + 1
-            do c = 1, n
-               limit(c) = limit_of_listed(self, stick_slips%at(n_tangent*c), slips(c))
-            end do
+            limit = [(limit_of_listed(self, stick_slips%at(n_tangent*c), slips(c)), c=1, n)]
             call limit_forces(n, n_tangent, size(stick_slips%matrix, 1), stick_slips%matrix(:, :m), r, limit, force, against)
             is_new = .false.
             do c = 1, n
