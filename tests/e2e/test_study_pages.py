@@ -52,7 +52,7 @@ def test_numbers_of_the_page_are_those_of_the_tables(pages):
             else:
                 assert [parameter["texts"][k] for k in at] == cases[parameter["n"]]
         has_samples = "bifurcation" in (path.parent / "deck.echo").read_text(encoding="utf-8")
-        assert bool(data["strobe"]["list"]) == has_samples, name
+        assert bool(data["poincare"]["list"]) == has_samples, name
 
 
 def test_histories_of_the_page_are_those_of_the_file(pages):

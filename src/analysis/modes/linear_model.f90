@@ -91,7 +91,7 @@ contains
       type(linear_model_t), intent(inout) :: model    !! residual and rest are set
       integer, intent(out) :: status                  !! 0: done
 
-      real(wp), parameter :: at_rest = 1.0e-6_wp   ! rate of a state that is none, of its scale over a radian's time [1]
+      real(wp), parameter :: at_rest = 1.0e-6_wp   ! negligible rate of a state, over its scale times the characteristic rate [1]
       real(wp), dimension(size(slopes%y)) :: local, weights, ydot
       real(wp) :: accelerations(frame%n_rate), outputs(size(slopes%place))
       integer :: last

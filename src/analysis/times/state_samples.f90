@@ -40,8 +40,8 @@ contains
    pure subroutine samples_next(self, limit, first, last)
       class(samples_t), intent(in) :: self       !! the samples
       real(wp), intent(in) :: limit              !! the limit [s]
-      real(wp), intent(out) :: first             !! far away if there is none [s]
-      real(wp), intent(out) :: last              !! far before if there is none [s]
+      real(wp), intent(out) :: first             !! huge if no state is sampled [s]
+      real(wp), intent(out) :: last              !! -huge if no sample is up to the limit [s]
 
       integer :: k
 

@@ -253,7 +253,7 @@ contains
       call diagnostics%add(at, "invalid channel '"//observable%word//"' in an expression", message, help)
    end subroutine place_observable
 
-   !> Row of the state equations that a channel is; 0: it is none.
+   !> Number of the row of [state] whose value a channel is; 0: a channel of another kind.
    pure integer function find_state(scene, word) result(row)
       type(scene_t), intent(in) :: scene   !! the scene
       character(*), intent(in) :: word     !! the channel

@@ -30,7 +30,7 @@ contains
       type(text_t), intent(in) :: warnings(:)               !! (m) what was noticed
       type(result_table_t), intent(in) :: tables(:)         !! (any) tables of the summary
       type(text_t), intent(in) :: pictures(:)               !! (any) pictures that the page takes in, paths within the directory
-      type(sweep_results_t), intent(in), optional :: results        !! what the runs gave; else there is none to show
+      type(sweep_results_t), intent(in), optional :: results        !! results of the runs; absent: figures and tables only
       character(*), intent(in), optional :: preferred               !! with it: numbers that figures draw, each between commas
       type(kept_histories_t), intent(in), optional :: histories     !! with it: of runs whose channels were kept
       character(:), allocatable :: page                     !! HTML

@@ -213,7 +213,7 @@ contains
             values(:, n) = samples(:, m)
          end do
       end do
-      call data%line("strobe:{run:"""//integers_in_base_64(owners(:n))//""",list:[")
+      call data%line("poincare:{run:"""//integers_in_base_64(owners(:n))//""",list:[")
       do k = 1, size(results%poincare_names)
          unit = choose_unit(unit_of(results, k), maxval([0.0_wp, pack(abs(values(k, :n)), ieee_is_finite(values(k, :n)))]))
          call data%line("{n:"""//escaped(results%poincare_names(k)%s, .false.)//""",u:"""//escaped(unit%symbol, .false.)// &

@@ -6,7 +6,7 @@ const exit = i32(D.exit),
 const spaced = s => s.replace(/^([-+]?[\d.]+(?:e[-+]?\d+)?)(?=[^\d.\s])/i, '$1 '); // as 5 mm
 const P = D.parameters.map(p => ({...p, x: f64(p.x), at: i32(p.at), texts: p.texts.map(spaced)}));
 const R = D.results.map(r => ({...r, v: f64(r.v), s: r.s ? f64(r.s) : null}));
-const samples = {run: i32(D.strobe.run), list: D.strobe.list.map(s => ({...s, v: f64(s.v)}))};
+const samples = {run: i32(D.poincare.run), list: D.poincare.list.map(s => ({...s, v: f64(s.v)}))};
 const student = f64(D.student);
 const svg = document.querySelector('#chart svg');
 let picked = 0,
