@@ -23,7 +23,7 @@ contains
 
       type(diagnostics_t) :: mistakes
       type(imported_t) :: imported
-      type(loaded_t) :: loaded
+      type(loaded_t), save :: loaded
       type(options_t) :: check
       type(source_t) :: source
       character(:), allocatable :: message, path

@@ -43,7 +43,7 @@ contains
       type(options_t), intent(in) :: options               !! the command line
       type(error_t), allocatable, intent(out) :: error     !! errors, no directory, or no run came to its end
 
-      type(loaded_t) :: loaded
+      type(loaded_t), save :: loaded
       type(output_directory_t) :: directory
       type(output_plan_t) :: plan
       type(precision_t) :: study

@@ -62,7 +62,7 @@ contains
       class(ball_t), intent(inout) :: self                !! the ball
       integer, intent(in) :: parameter                    !! number of the parameter
       real(wp), intent(in) :: value                       !! its value [any]
-      type(job_t), intent(out) :: job                     !! the scene with it
+      type(job_t), intent(inout) :: job                   !! the scene with it
       character(:), allocatable, intent(out) :: reason    !! its bound, if it is beyond
 
       type(error_t), allocatable :: error

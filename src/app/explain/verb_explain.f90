@@ -41,7 +41,7 @@ contains
       type(error_t), allocatable, intent(out) :: error     !! errors of the deck, or no assembly
 
       type(assembly_t) :: assembly
-      type(loaded_t) :: loaded
+      type(loaded_t), save :: loaded
       real(wp), allocatable :: y(:)
 
       call load_deck(options, loaded, error)
@@ -116,7 +116,7 @@ contains
 
       type(assembly_t) :: assembly
       type(error_t), allocatable :: start_error
-      type(loaded_t) :: loaded
+      type(loaded_t), save :: loaded
       type(mechanism_t) :: twin
       type(text_t), allocatable :: defaults(:)
       real(wp), allocatable :: y(:)

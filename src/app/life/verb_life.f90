@@ -46,7 +46,7 @@ contains
       type(deck_rates_t) :: source
       type(error_t), allocatable :: late_error
       type(life_t) :: life
-      type(loaded_t) :: loaded
+      type(loaded_t), save :: loaded
       type(origin_of_sweep_t) :: origin
       type(output_plan_t) :: plan
       type(text_t), allocatable :: pictures(:), warnings(:)

@@ -11,9 +11,9 @@ module changed_deck
 
    !> The deck.
    type :: changed_deck_t
-      type(options_t) :: options              !! its command line, to be set first
-      type(loaded_t) :: loaded                !! the deck as it was loaded last
-      logical, private :: is_loaded = .false. !! it was loaded without errors
+      type(options_t) :: options                    !! its command line, to be set first
+      type(loaded_t), pointer :: loaded => null()   !! the deck as it was loaded last, kept until the program ends
+      logical, private :: is_loaded = .false.       !! it was loaded without errors
    contains
       procedure :: load => load_changed
    end type changed_deck_t
@@ -31,6 +31,7 @@ contains
       member = options
       member%runs%is_member = .true.
       member%runs%has_known_words = .true.
+      if (.not. associated(self%loaded)) allocate (self%loaded)
       if (self%is_loaded) then
          call load_case(member, self%loaded, error)
       else

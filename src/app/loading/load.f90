@@ -5,7 +5,6 @@ module load
    use catalogue, only: catalogue_t
    use channel_names, only: scalar_t
    use change_scene, only: scene_with_changes
-   use columns, only: column_of
    use deck_file, only: read_deck
    use deck_types, only: deck_t
    use diagnostics, only: diagnostics_t
@@ -16,12 +15,9 @@ module load
    use fit_words, only: plan_fit
    use formula_words, only: read_formulas
    use function_range, only: check_function_ranges
-   use item, only: item_t, location_t, place_of
+   use item, only: item_t
    use jobs, only: job_t
-   use joint_level, only: make_ideal
    use life_times, only: check_life
-   use legacy_way, only: take_legacy_way
-   use kind_info, only: kind_info_t
    use kinds, only: wp
    use mechanism, only: mechanism_t
    use mechanism_catalogue, only: build_catalogue
@@ -29,6 +25,7 @@ module load
    use modes_results, only: modes_plan_t
    use modes_words, only: plan_modes
    use name_table, only: name_table_t
+   use option_changes, only: apply_options, choose_analysis
    use options, only: options_t
    use orbit_info, only: orbit_section
    use orbit_results, only: orbit_plan_t
@@ -43,8 +40,7 @@ module load
    use sensitivity_results, only: sensitivity_plan_t
    use sensitivity_words, only: plan_sensitivity
    use settings, only: has_section, read_settings
-   use scene, only: analysis_dynamic, analysis_kinematic, analysis_names, n_analysis, scene_t, table_formulas
-   use spelling, only: nearest_word
+   use scene, only: analysis_dynamic, analysis_kinematic, analysis_names, scene_t, table_formulas
    use step_check, only: check_steps
    use study_info, only: sweep_info
    use sweep_values, only: read_sweep
@@ -90,11 +86,12 @@ contains
    !> Load the deck that is the verb's operand.
    subroutine load_deck(options, loaded, error)
       type(options_t), intent(in) :: options               !! the command line
-      type(loaded_t), intent(out) :: loaded                !! the deck
+      type(loaded_t), intent(inout) :: loaded              !! the deck; what it was before is gone
       type(error_t), allocatable, intent(out) :: error     !! errors of the command line or the deck
 
       type(diagnostics_t) :: mistakes
 
+      call forget(loaded)
       if (size(options%operands) /= 1) then
          call set_error(error, exit_usage, "'gudgeon "//options%verb//"' needs one deck: gudgeon "//options%verb// &
                         " FILE.deck")
@@ -118,6 +115,12 @@ contains
       call mistakes%to_error(loaded%deck%sources, error)
       if (.not. allocated(error)) call prepare(options, loaded, error)
    end subroutine load_deck
+
+   !> Forget a deck. Here alone: whoever calls a procedure with such an `intent(out)` has the code that takes a deck apart.
+   subroutine forget(loaded)
+      type(loaded_t), intent(out) :: loaded   !! new
+
+   end subroutine forget
 
    !> Load the deck once more with other parameters: what they do not stand in is not read again. It is the very same as if all of
    !> it were (`load_deck`), which is done where words or settings change, and where there are errors, to report these in full.
@@ -272,7 +275,7 @@ contains
       type(loaded_t), intent(in) :: loaded                 !! the deck
       type(error_t), allocatable, intent(out) :: error     !! errors of the deck with one of the words
 
-      type(loaded_t) :: other
+      type(loaded_t), save :: other
       type(options_t) :: case
       type(name_table_t) :: table
       integer :: i, k, previous
@@ -293,108 +296,5 @@ contains
          end associate
       end do
    end subroutine check_swept_words
-
-   !> The analysis that the command line names; else the first of the list that the deck has.
-   subroutine choose_analysis(options, scene, error)
-      type(options_t), intent(in) :: options               !! the command line
-      type(scene_t), intent(inout) :: scene                !! the analysis is set
-      type(error_t), allocatable, intent(out) :: error     !! the deck has no such analysis
-
-      character(:), allocatable :: known
-      integer :: k
-
-      if (.not. allocated(options%change%analysis)) return
-      known = ""
-      do k = 1, n_analysis
-         if (.not. scene%settings%has_analysis(k)) cycle
-         known = known//" "//trim(analysis_names(k))
-         if (analysis_names(k) /= options%change%analysis) cycle
-         scene%analysis = k
-         if (scene%states%n > 0 .and. k /= analysis_dynamic) call set_error(error, exit_usage, "[state] needs [analysis.dynamic]")
-         return
-      end do
-      call set_error(error, exit_usage, "the deck has no section [analysis."//options%change%analysis//"]"//new_line("a")// &
-                     "  = a line [analysis."//options%change%analysis//"] is enough; analyses in the deck:"//known)
-   end subroutine choose_analysis
-
-   !> What the command line changes in the deck.
-   subroutine apply_options(options, scene, error)
-      type(options_t), intent(in) :: options               !! the command line
-      type(scene_t), intent(inout) :: scene                !! levels, tolerance and method are changed
-      type(error_t), allocatable, intent(out) :: error     !! an unknown method
-
-      integer :: k
-
-      if (options%change%is_ideal) then
-         do k = 1, size(scene%clearances)
-            call make_ideal(scene%clearances(k)%items)
-         end do
-      end if
-      if (allocated(options%legacy%way)) call take_legacy_way(options%legacy%way, scene, error)
-      if (allocated(error)) return
-      if (options%change%tolerance > 0.0_wp) then
-         select case (scene%analysis)
-         case (analysis_dynamic)
-            scene%settings%integration%controls%tolerance = options%change%tolerance
-            call check_tolerance(scene%settings%dynamic%info)
-         case (analysis_kinematic)
-            call set_tolerance(scene%settings%kinematic%info, scene%settings%kinematic%item_t)
-         case default
-            call set_tolerance(scene%settings%static%info, scene%settings%static%item_t)
-         end select
-         if (allocated(error)) return
-      end if
-      if (allocated(options%change%method)) call set_method(options%change%method, scene, error)
-
-   contains
-
-      !> Give the settings the tolerance of the command line.
-      subroutine set_tolerance(kind, settings)
-         type(kind_info_t), intent(in) :: kind      !! keys
-         type(item_t), intent(inout) :: settings    !! settings
-
-         associate (value => settings%values(place_of(settings, "tolerance")))
-            value%number = options%change%tolerance
-            value%given = .true.
-         end associate
-         call check_tolerance(kind)
-      end subroutine set_tolerance
-
-      !> The tolerance of the command line must be in the bounds of the key.
-      subroutine check_tolerance(kind)
-         type(kind_info_t), intent(in) :: kind      !! keys
-
-         associate (column => kind%columns(column_of(kind, "tolerance")))
-            if (options%change%tolerance >= column%bounds%lower .and. options%change%tolerance <= column%bounds%upper) return
-            call set_error(error, exit_usage, "option --tolerance needs a number from "//to_text(column%bounds%lower)//" to "// &
-                           to_text(column%bounds%upper)//" for ["//kind%name//"], got "//to_text(options%change%tolerance))
-         end associate
-      end subroutine check_tolerance
-
-   end subroutine apply_options
-
-   !> Give the scene the integrator of the command line.
-   subroutine set_method(method, scene, error)
-      character(*), intent(in) :: method                   !! its name
-      type(scene_t), intent(inout) :: scene                !! the method is changed
-      type(error_t), allocatable, intent(out) :: error     !! there is no integration, or no such integrator
-
-      character(:), allocatable :: known, nearest
-
-      if (scene%analysis /= analysis_dynamic) then
-         call set_error(error, exit_usage, "option --method needs [analysis.dynamic], not [analysis."// &
-                        trim(analysis_names(scene%analysis))//"]")
-         return
-      end if
-      known = scene%settings%dynamic%info%columns(column_of(scene%settings%dynamic%info, "method"))%choices
-      if (index(method, " ") > 0 .or. index(" "//known//" ", " "//method//" ") == 0) then
-         nearest = nearest_word(method, known)
-         if (len(nearest) > 0) nearest = "did you mean '"//nearest//"'? "
-         call set_error(error, exit_usage, "unknown method '"//method//"'"//new_line("a")//"  = "//nearest//"methods: "//known)
-         return
-      end if
-      scene%settings%integration%method = method
-      scene%settings%integration%places%method = location_t()
-   end subroutine set_method
 
 end module load

@@ -7,7 +7,7 @@ module accurate_run
    use channels, only: list_scalars, match_word, select_channels, selection_t
    use errors, only: error_t, exit_audit, exit_integration, exit_usage, set_error
    use integration_settings, only: takes_steps
-   use jobs, only: job_t
+   use jobs, only: copy_job, job_t
    use kept_run, only: numbers_of, sort_of
    use kinds, only: wp
    use load, only: loaded_t
@@ -94,7 +94,7 @@ contains
                         "positions, velocities, forces and energies")
          return
       end if
-      job = loaded%job_t
+      call copy_job(loaded%job_t, job)
       asked = reshape([(scalars(k)%group, scalars(k)%component, scalars(k)%item, k=1, size(scalars))], [3, size(scalars)])
       stride = ceiling(real(last_instant(loaded%plan) + 1, wp)*real(count_kept(loaded%catalogue) + 3*size(scalars), wp)/most_kept)
       plan%accuracy%asked = options%digits%accuracy

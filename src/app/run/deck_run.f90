@@ -11,7 +11,7 @@ module deck_run
    use exponent_runs, only: find_horizon, plan_horizon
    use figure_words, only: append_figure, figure_film, figure_t
    use horizon_memory, only: load_horizon
-   use jobs, only: job_t, outcome_t, run_job, run_started, start_job, started_t
+   use jobs, only: copy_job, job_t, outcome_t, run_job, run_started, start_job, started_t
    use kinds, only: wp
    use load, only: loaded_t
    use member_result, only: member_result_t
@@ -159,7 +159,7 @@ contains
 
       type(job_t) :: job
 
-      job = loaded%job_t
+      call copy_job(loaded%job_t, job)
       job%limits%clock = budget_of(options, loaded)
       call plan_horizon(loaded%scene%settings%precision%item_t, loaded%plan%end, horizon)
       associate (controls => loaded%scene%settings%integration%controls)

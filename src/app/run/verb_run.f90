@@ -65,7 +65,7 @@ contains
       type(error_t), allocatable, intent(out) :: error     !! it is another one
 
       integer, parameter :: n_restart = 3
-      type(loaded_t), allocatable :: loaded
+      type(loaded_t), save :: loaded
       type(options_t) :: other
       character(:), allocatable :: directory
       integer :: k, done
@@ -76,13 +76,11 @@ contains
       other%is_json = .false.
       done = 0
       do k = 1, n_restart + 1
-         allocate (loaded)
          call load_deck(other, loaded, error)
          if (allocated(error)) return
          if (k == 1) directory = directory_of(options, loaded)
          other%directory = directory//".restart"
          call run_analysis(other, loaded, merge(end*k/(n_restart + 1), huge(1.0_wp), k <= n_restart), horizon, error)
-         deallocate (loaded)
          if (.not. allocated(error)) exit
          if (error%code /= exit_stopped .or. asked_by() /= 0) return
          deallocate (error)

@@ -4,7 +4,7 @@ module deck_orbits
    use diagnostics, only: diagnostics_t
    use errors, only: error_t
    use item, only: item_t, place_of
-   use jobs, only: first_line, job_t
+   use jobs, only: copy_job, first_line, job_t
    use kinds, only: wp
    use options, only: options_t
    use orbit_info, only: orbit_section
@@ -34,7 +34,7 @@ contains
    subroutine deck_scene_at(self, p, job, period, reason)
       class(deck_orbits_t), intent(inout) :: self         !! the deck
       real(wp), intent(in) :: p                           !! value of the parameter, SI; not used without one [any]
-      type(job_t), intent(out) :: job                     !! the scene with it
+      type(job_t), intent(inout) :: job                   !! the scene with it
       real(wp), intent(out) :: period                     !! of its drivers [s]
       character(:), allocatable, intent(out) :: reason    !! what the deck says of the value; blank: it takes it
 
@@ -67,7 +67,7 @@ contains
          self%p = p
          self%period = period
       end if
-      job = self%deck%loaded%job_t
+      call copy_job(self%deck%loaded%job_t, job)
    end subroutine deck_scene_at
 
 end module deck_orbits

@@ -2,7 +2,7 @@
 module deck_parameters
    use changed_deck, only: change_parameter, changed_deck_t
    use errors, only: error_t
-   use jobs, only: first_line, job_t
+   use jobs, only: copy_job, first_line, job_t
    use kinds, only: wp
    use options, only: options_t
    use parameter_source, only: parameter_source_t
@@ -27,7 +27,7 @@ contains
       class(deck_parameters_t), intent(inout) :: self     !! the deck
       integer, intent(in) :: parameter                    !! number of the parameter
       real(wp), intent(in) :: value                       !! its value, SI [any]
-      type(job_t), intent(out) :: job                     !! the scene with it
+      type(job_t), intent(inout) :: job                   !! the scene with it
       character(:), allocatable, intent(out) :: reason    !! what the deck says of the value; blank: it takes it
 
       type(error_t), allocatable :: error
@@ -40,7 +40,7 @@ contains
       if (allocated(error)) then
          reason = "the deck does not take "//exact_text(value)//" "//self%plan%units(parameter)%s//": "//first_line(error%message)
       else
-         job = self%deck%loaded%job_t
+         call copy_job(self%deck%loaded%job_t, job)
       end if
    end subroutine make_scene
 

@@ -5,7 +5,7 @@ module fit_deck
    use errors, only: error_t
    use fit_plan, only: fit_plan_t
    use fit_source, only: fit_source_t
-   use jobs, only: first_line, job_t
+   use jobs, only: copy_job, first_line, job_t
    use kinds, only: wp
    use options, only: options_t
    use text, only: append_text, exact_text
@@ -28,7 +28,7 @@ contains
       class(fit_deck_t), intent(inout) :: self            !! the deck
       integer, intent(in) :: parameter                    !! number of the parameter that is changed; 0: none
       real(wp), intent(in) :: value                       !! its value, SI [any]
-      type(job_t), intent(out) :: job                     !! the scene with it
+      type(job_t), intent(inout) :: job                   !! the scene with it
       character(:), allocatable, intent(out) :: reason    !! what the deck says of the value; blank: it takes it
 
       type(error_t), allocatable :: error
@@ -50,7 +50,7 @@ contains
       if (allocated(error)) then
          reason = "the deck does not take the values: "//first_line(error%message)
       else
-         job = self%deck%loaded%job_t
+         call copy_job(self%deck%loaded%job_t, job)
       end if
    end subroutine make_scene
 

@@ -44,10 +44,10 @@ contains
       type(options_t), intent(in) :: options               !! the command line
       type(error_t), allocatable, intent(out) :: error     !! errors of the deck or the data, no directory, or no motion
 
-      type(fit_deck_t), target :: source
+      type(fit_deck_t), save, target :: source
       type(fit_model_t) :: model
       type(fit_t) :: fit
-      type(loaded_t) :: loaded
+      type(loaded_t), save :: loaded
       type(options_t) :: alone
       type(output_directory_t) :: directory
       type(output_plan_t) :: plan

@@ -36,9 +36,9 @@ contains
       type(options_t), intent(in) :: options               !! the command line
       type(error_t), allocatable, intent(out) :: error     !! errors of the deck, no directory, or no such state
 
-      type(deck_parameters_t), target :: source
+      type(deck_parameters_t), save, target :: source
       type(diagnostics_t) :: mistakes
-      type(loaded_t) :: loaded
+      type(loaded_t), save :: loaded
       type(output_directory_t) :: directory
       type(output_plan_t) :: plan
       type(modes_study_t) :: study

@@ -37,8 +37,8 @@ contains
       type(options_t), intent(in) :: options               !! the command line
       type(error_t), allocatable, intent(out) :: error     !! errors of the deck, no directory, or no orbit
 
-      type(deck_orbits_t), target :: source
-      type(loaded_t) :: loaded
+      type(deck_orbits_t), save, target :: source
+      type(loaded_t), save :: loaded
       type(output_directory_t) :: directory
       type(output_plan_t) :: plan
       type(orbit_study_t) :: study

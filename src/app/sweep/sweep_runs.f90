@@ -41,7 +41,7 @@ module sweep_runs
       integer :: number = 0                       !! of the case; 0: none
       integer :: loaded_number = 0                !! of the case that is loaded; 0: none
       type(options_t) :: options                  !! its command line
-      type(loaded_t) :: loaded                    !! the deck of the case that is loaded
+      type(loaded_t), pointer :: loaded           !! the deck of the case that is loaded
       type(error_t), allocatable :: error         !! the deck of that case has errors
       real(wp) :: cpu = 0.0_wp                    !! processor time of loading it, until a run has been charged with it [s]
    end type ready_t
@@ -58,6 +58,7 @@ contains
 
       type(progress_t) :: display
       type(ready_t) :: ready
+      type(loaded_t), save, target :: case
       type(text_t) :: none(0)
       character(:), allocatable :: bytes
       integer, allocatable :: due(:), processes(:), run_of(:)
@@ -66,12 +67,12 @@ contains
       real(wp) :: interval
 
       due = pack([(k, k=1, size(work%is_done))], work%is_mine([(k, k=1, size(work%is_done))]) .and. .not. work%is_done)
-      k = options%runs%jobs
-      if (k == 0) k = n_processors()
+      k = merge(options%runs%jobs, n_processors(), options%runs%jobs > 0)
       allocate (processes(k), run_of(k), source=0)
       call display%start(.not. options%is_quiet)
       call system_clock(began, rate)
       interval = 0.0_wp
+      ready%loaded => case
       next = 1
       ended = 0
       do while (ended < size(due))

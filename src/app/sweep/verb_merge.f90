@@ -33,7 +33,7 @@ contains
       type(options_t), intent(in) :: options               !! the command line
       type(error_t), allocatable, intent(out) :: error     !! no parts, or of different models; no directory; failed or missing runs
 
-      type(loaded_t) :: loaded
+      type(loaded_t), save :: loaded
       type(options_t) :: then
       type(output_directory_t) :: directory
       type(part_t), allocatable :: parts(:)

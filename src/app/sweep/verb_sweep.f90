@@ -33,7 +33,7 @@ contains
       type(options_t), intent(in) :: options               !! the command line
       type(error_t), allocatable, intent(out) :: error     !! errors, no directory, or part of the runs failed
 
-      type(loaded_t) :: loaded
+      type(loaded_t), save :: loaded
       type(origin_of_sweep_t) :: origin
       type(output_directory_t) :: directory
       type(text_t), allocatable :: pictures(:), warnings(:)

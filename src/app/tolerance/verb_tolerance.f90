@@ -32,7 +32,7 @@ contains
       type(options_t), intent(in) :: options               !! the command line
       type(error_t), allocatable, intent(out) :: error     !! errors of the deck, no directory, or no derivatives
 
-      type(loaded_t) :: loaded
+      type(loaded_t), save :: loaded
       type(options_t) :: now
       type(tolerance_study_t) :: study
 
@@ -60,7 +60,7 @@ contains
       type(tolerance_study_t), intent(inout) :: study      !! its plan is known
       type(error_t), allocatable, intent(out) :: error     !! nothing is asked, no directory, or no derivatives
 
-      type(deck_mechanisms_t) :: source
+      type(deck_mechanisms_t), save :: source
       type(output_directory_t) :: directory
       type(output_plan_t) :: plan
       type(summary_t) :: summary

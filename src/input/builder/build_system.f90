@@ -35,7 +35,7 @@ contains
    subroutine new_system(scene, levels, system, is_for_start)
       type(scene_t), intent(in) :: scene            !! the scene
       integer, intent(in) :: levels                 !! of joints with clearance, one of the above
-      type(mechanism_t), intent(out) :: system  !! the system
+      type(mechanism_t), intent(inout) :: system    !! the system; what it was before is gone
       logical, intent(in), optional :: is_for_start !! with the rows that hold only at the start; absent: without
 
       type(abilities_t) :: can
@@ -43,12 +43,11 @@ contains
       logical :: is_taken(n_joint_kinds()), with_start_rows
       integer :: k
 
+      call forget(system)
       system%requests = scene%requests
       with_start_rows = .false.
       if (present(is_for_start)) with_start_rows = is_for_start
-      do k = 1, n_joint_kinds()
-         is_taken(k) = with_start_rows .or. .not. scene%joints(k)%info%is_start_only
-      end do
+      is_taken = [(with_start_rows .or. .not. scene%joints(k)%info%is_start_only, k=1, n_joint_kinds())]
       system%ledger%is_kept = scene%settings%integration%has_ledger .and. scene%analysis == analysis_dynamic
       system%ledger%has_energies = system%ledger%is_kept .or. scene%analysis /= analysis_dynamic
       call choose_bodies(scene, levels, with_start_rows, reduction)
@@ -92,6 +91,12 @@ contains
       call bind_reactions(system)
       call system%choose_form()
    end subroutine new_system
+
+   !> Forget a system. Here alone: whoever calls a procedure with such an `intent(out)` has the code that takes a system apart.
+   subroutine forget(system)
+      type(mechanism_t), intent(out) :: system   !! new
+
+   end subroutine forget
 
    !> Contacts whose impulses are integrated, and whose driving work of wear.
    subroutine count_works(system)

@@ -16,7 +16,7 @@
 module accuracy_search
    use accuracy_claim, only: safety, set_claim
    use accuracy_results, only: accuracy_t, claim_reached, claim_window
-   use accuracy_trial, only: agreement, ends_falsely, is_better, make_trial, no_time, same, search_t, trial_t
+   use accuracy_trial, only: agreement, copy_trial, ends_falsely, is_better, make_trial, no_time, same, search_t, trial_t
    use channel_difference, only: channel_scales
    use kept_run, only: n_sort
    use kinds, only: eps, min_tolerance, wp
@@ -82,11 +82,11 @@ contains
       do
          call descend(job, budget, method, first, display, search)
          if (.not. search%coarser%is_there .or. (search%is_false_end .and. search%taken%what%asked > first)) exit
-         before = search%other
-         search%other = fresh
+         call copy_trial(search%other, before)
+         call copy_trial(fresh, search%other)
          search%is_false_end = .false.
          call confirm(job, budget, search)
-         if (.not. search%other%is_there) search%other = before
+         if (.not. search%other%is_there) call copy_trial(before, search%other)
          if (.not. search%is_false_end .or. search%reason == no_time) exit
          if (search%taken%what%asked <= same*min_tolerance) exit
          first = max(min_tolerance, step*search%taken%what%asked)
@@ -122,21 +122,21 @@ contains
          if (search%reason /= "") return
          call make_trial(job, budget, until, setting_t(method, "", ""), tolerance, search, next)
          if (next%is_there) then
-            if (.not. search%taken%is_there) search%taken = next
+            if (.not. search%taken%is_there) call copy_trial(next, search%taken)
             if (last%is_there) then
                search%scale = channel_scales(next%run, size_of(job), job%plan%end)
                now = agreement(next%run, last%run, search)
                if (is_better(now, best)) then
                   futile = merge(0, futile + 1, now(1) > best(1) .or. now(2) < idle*best(2))
                   best = now
-                  search%taken = next
-                  search%coarser = last
+                  call copy_trial(next, search%taken)
+                  call copy_trial(last, search%coarser)
                else
                   futile = futile + 1
                end if
                if (now(2) <= search%limit) return
             end if
-            last = next
+            call copy_trial(next, last)
          end if
          call display%update(0.08_wp*k)
          if (tolerance <= same*min_tolerance .and. search%reason == "") search%reason = no_tighter
@@ -232,7 +232,7 @@ contains
          left = time_left(budget, search%taken)
          if (left <= 0.0_wp .or. (next%is_there .and. rise*next%what%wall > left)) then
             search%reason = no_time
-            next = fresh
+            call copy_trial(fresh, next)
             next%is_late = .true.
             return
          end if
@@ -244,7 +244,7 @@ contains
          now = agreement(search%taken%run, next%run, search)
          if (.not. is_better(now, best)) return
          best = now
-         search%other = next
+         call copy_trial(next, search%other)
       end subroutine take
 
    end subroutine confirm

@@ -11,7 +11,7 @@ module accuracy_trial
    use time_budget, only: time_budget_t
    implicit none (type, external)
    private
-   public :: agreement, ends_falsely, is_better, make_trial, no_time, same, search_t, trial_t
+   public :: agreement, copy_trial, ends_falsely, is_better, make_trial, no_time, same, search_t, trial_t
 
    real(wp), parameter :: same = 3.0_wp  !! ratio below which the difference of two tolerances carries no information [1]
    character(*), parameter :: no_time = "time budget exhausted"  !! why no more was reached
@@ -39,6 +39,14 @@ module accuracy_trial
    end type search_t
 
 contains
+
+   !> Copy a run. Here, since each assignment of one is much code.
+   subroutine copy_trial(from, to)
+      type(trial_t), intent(in) :: from    !! the run
+      type(trial_t), intent(inout) :: to   !! becomes a copy
+
+      to = from
+   end subroutine copy_trial
 
    !> Make a run. One that is late ends the search.
    subroutine make_trial(job, budget, until, setting, tolerance, search, trial)

@@ -7,7 +7,7 @@ module linear_state
    use errors, only: error_t, exit_assembly, exit_usage, set_error
    use integration_settings, only: chosen
    use item, only: place_of
-   use jobs, only: job_t
+   use jobs, only: copy_job, job_t
    use kinds, only: wp
    use mechanism, only: mechanism_t
    use modes_results, only: at_equilibrium, at_time, modes_plan_t
@@ -50,7 +50,7 @@ contains
 
       call refuse_sampled(job%scene%states, error)
       if (allocated(error)) return
-      all = job
+      call copy_job(job, all)
       all%scene%settings%integration%is_reduced = .false.
       call all%scene%settings%integration%stabilisation%take(chosen)
       allocate (state%warnings(0))

@@ -1,6 +1,6 @@
 !> Where scenes with another value of the parameter of a branch come from, and the period that each of them has.
 module orbit_source
-   use jobs, only: job_t
+   use jobs, only: copy_job, job_t
    use kinds, only: wp
    use parameter_source, only: parameter_source_t
    implicit none (type, external)
@@ -23,7 +23,7 @@ module orbit_source
          implicit none (type, external)
          class(orbit_source_t), intent(inout) :: self        !! the deck
          real(wp), intent(in) :: p                           !! value of the parameter, SI; not used without one [any]
-         type(job_t), intent(out) :: job                     !! the scene with it
+         type(job_t), intent(inout) :: job                   !! the scene with it
          real(wp), intent(out) :: period                     !! of its drivers [s]
          character(:), allocatable, intent(out) :: reason    !! what the deck says of the value; blank: it takes it
       end subroutine scene_interface
@@ -46,14 +46,14 @@ contains
       class(branch_source_t), intent(inout) :: self       !! the scenes
       integer, intent(in) :: parameter                    !! one of the above
       real(wp), intent(in) :: value                       !! of the parameter, SI [any]
-      type(job_t), intent(out) :: job                     !! the scene
+      type(job_t), intent(inout) :: job                   !! the scene
       character(:), allocatable, intent(out) :: reason    !! why there is none; blank: there is
 
       real(wp) :: period
 
       reason = ""
       if (parameter == fixed_parameter) then
-         job = self%job
+         call copy_job(self%job, job)
       else
          call self%deck%scene_at(value, job, period, reason)
       end if

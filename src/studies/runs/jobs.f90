@@ -29,7 +29,7 @@ module jobs
    use time_plan, only: time_plan_t
    implicit none (type, external)
    private
-   public :: first_line, job_t, outcome_t, run_job, run_started, start_job, started_t
+   public :: copy_job, first_line, job_t, outcome_t, run_job, run_started, start_job, started_t
 
    !> A change of the start.
    type :: perturbed_t
@@ -68,6 +68,14 @@ module jobs
    end type outcome_t
 
 contains
+
+   !> Copy a job. Here, since each assignment of a scene is much code.
+   subroutine copy_job(from, to)
+      type(job_t), intent(in) :: from    !! the job
+      type(job_t), intent(inout) :: to   !! becomes a copy
+
+      to = from
+   end subroutine copy_job
 
    !> Run a job from its scene: system and start are made anew, so that no run knows of another.
    subroutine run_job(job, recorder, outcome, ideal)

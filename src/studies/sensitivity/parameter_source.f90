@@ -20,7 +20,7 @@ module parameter_source
          class(parameter_source_t), intent(inout) :: self    !! the deck
          integer, intent(in) :: parameter                    !! number of the parameter among those asked for
          real(wp), intent(in) :: value                       !! its value, SI [any]
-         type(job_t), intent(out) :: job                     !! the scene with it
+         type(job_t), intent(inout) :: job                   !! the scene with it
          character(:), allocatable, intent(out) :: reason    !! why no mechanism could be made; blank: one was made
       end subroutine make_interface
    end interface
