@@ -37,6 +37,7 @@ contains
       if (self%friction%stick_slips%n_slip == 0) return
       call open_decisions(self)
       if (only_new .and. .not. any_undecided(self)) return
+      call self%linkage%set_motion(t, y)  ! rows and energies of other times may have been asked for since
       if (.not. choose_candidates(self, t)) return
       call self%evaluate(t, y, self%friction%stick_slips%trial%ydot, status)
       if (status /= 0) return
@@ -367,14 +368,13 @@ contains
       integer, intent(in) :: k                       !! contact of the set
       real(wp), intent(in) :: still                  !! speed taken as zero [m/s]
 
-      real(wp) :: later, now(2), v(2)
+      real(wp) :: later, v(2)
       integer :: status
 
       later = max(look_ahead*self%friction%stick_slips%h, self%time_of_difference(t))
       associate (set => self%clearance_joints%sets(slot)%set)
-         now = set%stick_slip%tangent(k)%v
-         v = now
-         if (size_of(now) < 0.5_wp*still) then
+         v = set%stick_slip%tangent(k)%v
+         if (size_of(v) < 0.5_wp*still) then
             self%friction%stick_slips%trial%y = y + later*self%friction%stick_slips%trial%ydot
             call self%linkage%set_motion(t + later, self%friction%stick_slips%trial%y)
             call set%lay(k, self%linkage%motion)
