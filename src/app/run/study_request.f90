@@ -12,6 +12,7 @@ module study_request
    use kinds, only: wp
    use load, only: loaded_t
    use one_step, only: one_step_t
+   use number_lists, only: file_to_lists
    use options, only: options_t
    use output_directory, only: output_directory_t
    use output_plan, only: output_plan_t
@@ -93,16 +94,21 @@ contains
    end subroutine open_study
 
    !> The rows of a table as a deck; blank without rows. There are no errors: the tables were checked.
-   function echo_of_rows(loaded, info) result(text)
-      type(loaded_t), intent(inout) :: loaded      !! the deck; defaults are noted
-      type(kind_info_t), intent(in) :: info        !! the table
-      character(:), allocatable :: text            !! lines of a deck
+   function echo_of_rows(loaded, info, lists) result(text)
+      type(loaded_t), intent(inout) :: loaded         !! the deck; defaults are noted
+      type(kind_info_t), intent(in) :: info           !! the table
+      character(*), intent(in), optional :: lists(:)  !! lists that a file of a row may have
+      character(:), allocatable :: text               !! lines of a deck
 
       type(diagnostics_t) :: ignored
       type(item_t), allocatable :: items(:)
+      integer :: k, twice
 
       text = ""
       call read_items(loaded%deck, info, items, ignored)
+      do k = 1, merge(size(items), 0, present(lists))
+         call file_to_lists(items(k), lists, twice)
+      end do
       if (size(items) > 0) text = echo_items(info, items)
    end function echo_of_rows
 

@@ -28,6 +28,7 @@ contains
       do k = 1, size(study%plan%parameters)
          call append_text(study%contributors, study%plan%parameters(k)%name)
       end do
+      study%contributors = [study%contributors, study%plan%batches]
       do k = 1, size(study%plan%requests)
          call add_word(study%plan%requests(k)%s, 0)
       end do

@@ -16,6 +16,7 @@ module tolerance_files
    use tolerance_info, only: tolerance_joint_info, tolerance_limit_info, tolerance_study_info, tolerance_table_info
    use tolerance_plots, only: write_tolerance_plots
    use tolerance_results, only: tolerance_study_t
+   use tolerance_rows, only: measured_lists
    use tolerance_tables, only: table_of_contributors, table_of_derivatives, table_of_histograms, table_of_requests, &
       table_of_splits, table_of_times, table_of_widths
    implicit none (type, external)
@@ -64,7 +65,7 @@ contains
       type(loaded_t), intent(inout) :: loaded      !! the deck; defaults are noted
       character(:), allocatable :: text            !! tables of a deck
 
-      text = echo_of_rows(loaded, tolerance_table_info())
+      text = echo_of_rows(loaded, tolerance_table_info(), measured_lists)
       text = text//echo_of_rows(loaded, tolerance_joint_info())
       text = text//echo_of_rows(loaded, tolerance_limit_info())
       text = text//echo_of_section(loaded, tolerance_study_info())

@@ -56,6 +56,7 @@ contains
       do k = 1, size(study%pins)
          call append_text(study%contributors, study%pins(k)%joint)
       end do
+      study%contributors = [study%contributors, study%plan%batches]
       if (size(study%contributors) == 0) then
          call set_error(error, exit_usage, "nothing scatters: no parameter has a tolerance and no revolute joint a clearance"// &
                         new_line("a")//"  = give a row of [tolerance]")

@@ -178,13 +178,18 @@ contains
          return
       end if
       path = plain_path(beside(deck%sources(value%location%file)%place, value%text))
-      call read_source(path, source, message, may_be_stream=.false.)
-      if (len(message) > 0) then
-         call mistakes%add(value%location, "cannot read the file '"//path//"' "//place, message)
-         return
+      do number = deck%n_source, 1, -1  ! a table that is read again has its files already
+         if (deck%sources(number)%name == path) exit
+      end do
+      if (number == 0) then
+         call read_source(path, source, message, may_be_stream=.false.)
+         if (len(message) > 0) then
+            call mistakes%add(value%location, "cannot read the file '"//path//"' "//place, message)
+            return
+         end if
+         source%text = replace(source%text, ",", " ")
+         call add_source(deck, source, number)
       end if
-      source%text = replace(source%text, ",", " ")
-      call add_source(deck, source, number)
       allocate (table(n_line_of(deck%sources(number)), 2), source=0.0_wp)
       allocate (places(size(table, 1)))
       n = 0

@@ -11,10 +11,11 @@ module read_tolerance
    use kinds, only: wp
    use settings, only: has_section, read_settings
    use tables, only: read_items
-   use text, only: split_blank, text_t
+   use text, only: text_t
    use tolerance_info, only: tolerance_joint_info, tolerance_limit_info, tolerance_study_info, tolerance_table_info
    use tolerance_plan, only: limit_t, tolerance_plan_t
-   use tolerated, only: new_fit, new_tolerance, shape_lognormal, shape_normal, shape_truncated, tolerated_t
+   use tolerance_rows, only: number_of, read_batches, refuse, take_measured
+   use tolerated, only: new_fit, new_tolerance, shape_lognormal, shape_measured, shape_normal, shape_truncated, tolerated_t
    implicit none (type, external)
    private
    public :: has_tolerances, read_tolerance_plan
@@ -48,6 +49,7 @@ contains
          plan%costs(k) = items(k)%number("cost")
          if (mistakes%count() == before) call read_parameter(deck, items(k), plan%parameters(k), mistakes)
       end do
+      if (mistakes%count() == before) call read_batches(items, plan, mistakes)
       info = tolerance_joint_info()
       call read_items(deck, info, items, mistakes)
       allocate (plan%pins(size(items)))
@@ -67,7 +69,7 @@ contains
    !> A row of [tolerance].
    subroutine read_parameter(deck, item, parameter, mistakes)
       type(deck_t), intent(in) :: deck                !! the deck
-      type(item_t), intent(in) :: item                !! the row
+      type(item_t), intent(inout) :: item             !! the row; values of a file become lists
       type(tolerated_t), intent(inout) :: parameter   !! what it says
       type(diagnostics_t), intent(inout) :: mistakes  !! errors found
 
@@ -81,9 +83,12 @@ contains
          parameter%dimension = symbol%dimension
          if (item%values(place_of(item, "fit"))%given) then
             call take_fit(item, parameter, mistakes)
+         else if (number_of(tolerance_table_info(), item, "distribution") == shape_measured) then
+            call take_measured(item, symbol%is_soft, parameter, mistakes)
          else
             call take_limits(item, symbol%is_soft, parameter, mistakes)
          end if
+         if (parameter%shape /= shape_measured) call refuse(item, ["value", "count", "file "], "distribution = measured", mistakes)
       end associate
    end subroutine read_parameter
 
@@ -214,21 +219,5 @@ contains
          end if
       end associate
    end subroutine read_sampling
-
-   !> Number of a word among the choices of its column.
-   integer function number_of(info, item, column) result(number)
-      type(kind_info_t), intent(in) :: info   !! the kind
-      type(item_t), intent(in) :: item        !! the row
-      character(*), intent(in) :: column      !! the column
-
-      type(text_t), allocatable :: words(:)
-      integer :: k
-
-      number = 0
-      allocate (words, source=split_blank(info%columns(place_of(item, column))%choices))
-      do k = 1, size(words)
-         if (words(k)%s == item%values(place_of(item, column))%text) number = k
-      end do
-   end function number_of
 
 end module read_tolerance

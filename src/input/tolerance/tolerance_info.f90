@@ -4,9 +4,10 @@
 !> the tolerance, between the limits nominal - T and nominal + T, and
 !> $$ C_p = \frac{T}{3 \sigma} $$
 !> of normal distributions. A `fit` as H7/f7 gives the limits of a radial clearance by the `diameter`; H7 or f7 alone those of a
-!> diameter.
+!> diameter. Measured values scatter as they were counted. Parameters of one batch deviate together.
 module tolerance_info
-   use kind_info, only: add_any_number, add_number, add_word, add_words, dim_length, dim_none, dim_time, kind_info_t
+   use kind_info, only: add_any_number, add_file, add_list, add_number, add_word, add_words, dim_length, dim_none, dim_time, &
+                        kind_info_t
    use kinds, only: wp
    implicit none (type, external)
    private
@@ -24,8 +25,8 @@ contains
       call add_any_number(info, "plus_minus", "half the width of the tolerance, in the unit of the parameter; with a fit: none", &
                           default="")
       call add_word(info, "distribution", "distribution of the parameter: normal without limits, normal truncated at the limits, " &
-                    //"uniform or triangular between them, lognormal, or one of both limits", default="truncated", &
-                    choices="normal truncated uniform triangular lognormal two_point")
+                    //"uniform or triangular between them, lognormal, one of both limits, or measured values", &
+                    default="truncated", choices="normal truncated uniform triangular lognormal two_point measured")
       call add_number(info, "cp", dim_none, "process capability Cp: half the width over three standard deviations, of normal, " &
                       //"truncated and lognormal", default="1", lower=0.0_wp, open_lower=.true.)
       call add_any_number(info, "shift", "mean of the process less the middle of the tolerance, of normal, truncated and " &
@@ -33,6 +34,14 @@ contains
       call add_word(info, "fit", "ISO 286 fit of hole and shaft, as H7/f7: the parameter is their radial clearance; or one " &
                     //"tolerance class, as H7: it is the diameter", default="")
       call add_number(info, "diameter", dim_length, "nominal diameter of the fit", default="0 m", lower=0.0_wp)
+      call add_list(info, "value", "values of the parameter that were measured, of distribution = measured", default="")
+      call add_list(info, "count", "parts that have each of these values; default: 1 each", default="")
+      call add_file(info, "file", "two-column file of value and count, relative to the deck, with names and units in the first " &
+                    //"line; instead of value and count", default="")
+      call add_word(info, "batch", "name of a batch: parameters that name the same one deviate together", default="")
+      call add_number(info, "correlation", dim_none, "part of the variance that the batch has, of normal deviations; of two " &
+                      //"parameters with the same part it is their correlation; default: 1", default="", lower=0.0_wp, &
+                      upper=1.0_wp)
       call add_number(info, "cost", dim_none, "cost of the part with this tolerance, without what is the same with any: it goes " &
                       //"with one over the width; of some rows: the cheapest tolerances for `target` are stated", default="0", &
                       lower=0.0_wp)

@@ -62,6 +62,7 @@ module tolerance_plan
    !> All of it.
    type :: tolerance_plan_t
       type(tolerated_t), allocatable :: parameters(:)  !! (parameters) with their tolerances
+      type(text_t), allocatable :: batches(:)          !! (batches) of parameters that deviate together
       real(wp), allocatable :: costs(:)                !! (parameters) cost of a part that goes with one over the width; 0: none [1]
       type(pin_t), allocatable :: pins(:)              !! (any) rows of [tolerance.joint]
       type(limit_t), allocatable :: limits(:)          !! (any) rows of [tolerance.limit]

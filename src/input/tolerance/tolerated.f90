@@ -4,16 +4,21 @@
 !> distance of the limits. Truncated at the limits, with z = (x - m)/sigma and a, b those of the limits, it has
 !> $$ \mu = m + \sigma\frac{\varphi(a) - \varphi(b)}{\Phi(b) - \Phi(a)}, \quad
 !>    s^2 = \sigma^2\left(1 + \frac{a\varphi(a) - b\varphi(b)}{\Phi(b) - \Phi(a)}\right) - (\mu - m)^2 . $$
-!> The radial clearance of a fit is c = (D - d)/2 of two such diameters.
-!> Source: N. L. Johnson, S. Kotz, N. Balakrishnan, Continuous Univariate Distributions, vol. 1 (1994), section 13.10.1.
+!> The radial clearance of a fit is c = (D - d)/2 of two such diameters. Measured values x_k with the counts w_k have
+!> $$ \mu = \frac{\sum_k w_k x_k}{\sum_k w_k}, \quad s^2 = \frac{\sum_k w_k (x_k - \mu)^2}{\sum_k w_k} . $$
+!> Parameters of one batch deviate together: with standard normal numbers z of the batch and z_i of the parameter, its random number
+!> has the normal number (a Gaussian copula)
+!> $$ \sqrt{r_i} z + \sqrt{1 - r_i} z_i . $$
+!> Sources: N. L. Johnson, S. Kotz, N. Balakrishnan, Continuous Univariate Distributions, vol. 1 (1994), section 13.10.1;
+!> R. B. Nelsen, An Introduction to Copulas (2006), section 2.3.
 module tolerated
    use kind_info, only: dim_none, dim_t
    use kinds, only: wp
    use normal_distribution, only: normal_density, normal_probability, normal_quantile
    implicit none (type, external)
    private
-   public :: most_random, new_fit, new_tolerance, shape_lognormal, shape_normal, shape_triangular, shape_truncated, &
-      shape_two_point, shape_uniform, tolerated_t
+   public :: joint_number, most_random, new_fit, new_measured, new_tolerance, shape_lognormal, shape_measured, shape_normal, &
+      shape_triangular, shape_truncated, shape_two_point, shape_uniform, tolerated_t
 
    integer, parameter :: shape_normal = 1      !! normal, without limits
    integer, parameter :: shape_truncated = 2   !! normal, truncated at the limits
@@ -21,7 +26,8 @@ module tolerated
    integer, parameter :: shape_triangular = 4  !! triangular between the limits
    integer, parameter :: shape_lognormal = 5   !! lognormal, of a positive value
    integer, parameter :: shape_two_point = 6   !! one of the limits
-   integer, parameter :: shape_clearance = 7   !! half the difference of two truncated normal diameters
+   integer, parameter :: shape_measured = 7    !! values as they were measured
+   integer, parameter :: shape_clearance = 8   !! half the difference of two truncated normal diameters
    integer, parameter :: most_random = 2       !! random numbers of a deviation, at most
 
    !> A normal distribution between limits.
@@ -44,6 +50,10 @@ module tolerated
       real(wp) :: mean = 0.0_wp               !! mean less the nominal value [any]
       real(wp) :: sigma = 0.0_wp              !! standard deviation [any]
       integer :: shape = shape_truncated      !! its distribution, one of the above
+      real(wp), allocatable :: values(:)      !! (values) measured deviations, rising; unallocated: none were measured [any]
+      real(wp), allocatable :: upto(:)        !! (values) part of the measured ones up to each [1]
+      integer :: batch = 0                    !! number of its batch; 0: it deviates alone
+      real(wp) :: in_batch = 0.0_wp           !! r: part of the variance of normal deviations that its batch has [1]
       type(part_t) :: parts(2)                !! (2) of normal shapes: the process; of a fit: hole and shaft, diameters
    contains
       procedure :: n_random
@@ -80,6 +90,33 @@ contains
          call find_moments(self%parts(1), self%mean, self%sigma)
       end select
    end subroutine new_tolerance
+
+   !> A parameter as it was measured.
+   pure subroutine new_measured(self, values, counts)
+      type(tolerated_t), intent(inout) :: self   !! name and nominal value are set; the rest is
+      real(wp), intent(in) :: values(:)          !! (values) of the parameter [any]
+      real(wp), intent(in) :: counts(:)          !! (values) parts that have each, positive [1]
+
+      logical :: is_left(size(values))
+      real(wp) :: part(size(values))
+      integer :: at, k
+
+      self%shape = shape_measured
+      allocate (self%values(size(values)), self%upto(size(values)))
+      is_left = .true.
+      do k = 1, size(values)
+         at = minloc(values, dim=1, mask=is_left)
+         is_left(at) = .false.
+         self%values(k) = values(at) - self%nominal
+         part(k) = counts(at)/sum(counts)
+         self%upto(k) = sum(part(:k))
+      end do
+      self%upto(size(values)) = 1.0_wp
+      self%lower = self%values(1)
+      self%upper = self%values(size(values))
+      self%mean = sum(part*self%values)
+      self%sigma = sqrt(sum(part*(self%values - self%mean)**2))
+   end subroutine new_measured
 
    !> The radial clearance of a hole and a shaft.
    pure subroutine new_fit(self, hole, shaft, cp)
@@ -164,10 +201,22 @@ contains
          x = (self%nominal + self%mean)*exp(spread*normal_quantile(u(1)) - 0.5_wp*spread**2) - self%nominal
       case (shape_two_point)
          x = merge(self%lower, self%upper, u(1) < 0.5_wp)
+      case (shape_measured)
+         x = self%values(findloc(u(1) <= self%upto, .true., dim=1))
       case default
          x = 0.5_wp*(truncated(self%parts(1), u(1)) - truncated(self%parts(2), u(2))) - self%nominal
       end select
    end function deviation
+
+   !> Random number of a parameter of a batch.
+   elemental real(wp) function joint_number(own, common, in_batch) result(u)
+      real(wp), intent(in) :: own        !! its own standard normal number [1]
+      real(wp), intent(in) :: common     !! that of the batch [1]
+      real(wp), intent(in) :: in_batch   !! r [1]
+
+      u = normal_probability(sqrt(in_batch)*common + sqrt(1.0_wp - in_batch)*own)
+      u = min(max(u, tiny(u)), 1.0_wp - 0.5_wp*epsilon(u))  ! both ends are excluded
+   end function joint_number
 
    !> A value of a process truncated at its limits.
    pure real(wp) function truncated(part, u) result(x)

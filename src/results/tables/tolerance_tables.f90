@@ -174,7 +174,7 @@ contains
       call table%start("contributors", "tolerance_contributors", m, title="Contributors", elsewhere="tolerance_derivatives.csv")
       call table%put("row", "1", "channel and contributor", texts=shown, heading="contributor", formats=only_shown)
       call table%put("request", "1", "channel", texts=channels, formats=in_files)
-      call table%put("contributor", "1", "parameter or joint", texts=contributors, formats=in_files)
+      call table%put("contributor", "1", "parameter, joint or batch", texts=contributors, formats=in_files)
       call table%put("width", "rows", "what it adds to half the width of the worst case", x(:, 1), heading="worst case", &
                      formats=in_files)
       call table%put("sigma", "rows", "standard deviation that it makes, to first order", x(:, 2), heading="sigma", &
@@ -292,7 +292,7 @@ contains
       call table%start("derivatives", "tolerance_derivatives", m)
       call table%put("request", "1", "channel", texts=channels, formats=in_files)
       call table%put("unit", "1", "its SI unit", texts=table%units, formats=in_csv)
-      call table%put("contributor", "1", "parameter or joint", texts=contributors, formats=in_files)
+      call table%put("contributor", "1", "parameter, joint or batch", texts=contributors, formats=in_files)
       call table%put("contributor_unit", "1", "its SI unit", texts=by, formats=in_files)
       call table%put("time", "s", "output time", x(:, 1), formats=in_files)
       call table%put("derivative", "1", "derivative of the channel by the parameter, in the units of both; NaN: a joint", x(:, 2), &

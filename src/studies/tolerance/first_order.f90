@@ -6,9 +6,11 @@
 !>    E(R) = R_0 + \sum_i S_i\mu_i + \tfrac12\sum_i H_{ii} (s_i^2 + \mu_i^2) + \sum_{j<i} H_{ij}\mu_i\mu_j . $$
 !> w is 1/4 of a pin uniform in its circle and 1/2 of one on it; the mean has w c^2 tr(K)/2 besides. A pin that a force presses
 !> in the direction u shifts the channel by c G u, the mean also by c^2 u K u/2, and its clearance has the derivative G u.
-!> The worst case takes each clearance at its upper limit.
-!> Source: D. H. Evans, J. Qual. Technol. 7 (1975) 1-12. Limits: independent parameters; the mean to second order.
+!> The worst case takes each clearance at its upper limit. Parameters of one batch have covariances (`batch_moments`): what comes
+!> from the batch is a part of its own in s^2, and E(R) has H_ij C_ij besides, for each pair.
+!> Source: D. H. Evans, J. Qual. Technol. 7 (1975) 1-12. Limits: batches are independent; the mean to second order.
 module first_order
+   use batch_moments, only: batch_moments_t
    use kinds, only: wp
    use tolerance_plan, only: pin_circle, pin_disc, pin_force
    use tolerance_results, only: tolerance_study_t
@@ -22,10 +24,11 @@ contains
    subroutine combine_derivatives(study)
       type(tolerance_study_t), intent(inout) :: study   !! slopes, parts, widths, low, high, sigma and mean are set
 
-      integer :: at, n, n_all, r
+      type(batch_moments_t) :: common
+      integer :: at, n_all, r
 
-      n = size(study%plan%parameters)
-      n_all = n + size(study%pins)
+      call common%find(study%plan%parameters)
+      n_all = size(study%plan%parameters) + size(study%pins) + size(study%plan%batches)
       associate (n_request => size(study%requests), n_time => size(study%derivatives%instants))
          allocate (study%parts(n_all, n_request, n_time), study%widths(n_all, n_request, n_time), source=0.0_wp)
          allocate (study%low(n_request, n_time), study%high(n_request, n_time), study%sigma(n_request, n_time), &
@@ -33,15 +36,17 @@ contains
          study%slopes = study%derivatives%slopes
          do at = 1, n_time
             do r = 1, n_request
-               call combine_one(study, r, at)
+               call combine_one(study, common, r, at)
+               call add_batches(study, common, r, at)
             end do
          end do
       end associate
    end subroutine combine_derivatives
 
-   !> The same of one channel at one time.
-   subroutine combine_one(study, r, at)
+   !> The same of one channel at one time, as if no batch had more than one parameter.
+   subroutine combine_one(study, common, r, at)
       type(tolerance_study_t), intent(inout) :: study   !! the study
+      type(batch_moments_t), intent(in) :: common       !! of the parameters
       integer, intent(in) :: r                          !! number of the channel
       integer, intent(in) :: at                         !! number of the time
 
@@ -55,7 +60,7 @@ contains
             if (study%pins(k)%position /= pin_force) cycle
             slopes = slopes + dot_product(found%pins(:, k, r, at), found%directions(:, k, at))*found%clearance_slopes(:, k)
          end do
-         parts(:n) = (slopes*parameters%sigma)**2
+         parts(:n) = slopes**2*common%alone
          widths(:n) = abs(slopes)*0.5_wp*(parameters%upper - parameters%lower)
          centre = found%values(r, at) + dot_product(slopes, 0.5_wp*(parameters%upper + parameters%lower))
          study%mean(r, at) = found%values(r, at) + dot_product(slopes, parameters%mean)
@@ -67,7 +72,7 @@ contains
             associate (c => study%pins(k)%clearance, by => found%clearance_slopes(:, k))
                gain = norm2(found%pins(:, k, r, at))
                mean_clearance = c + dot_product(by, parameters%mean)
-               square = mean_clearance**2 + sum((by*parameters%sigma)**2)
+               square = mean_clearance**2 + common%variance(by)
                bend = sum(found%pin_curvatures(1:2, k, r, at))
                largest = c + dot_product(by, 0.5_wp*(parameters%upper + parameters%lower)) + &
                          dot_product(abs(by), 0.5_wp*(parameters%upper - parameters%lower))
@@ -91,10 +96,31 @@ contains
                end select
             end associate
          end do
-         study%sigma(r, at) = sqrt(sum(parts))
          study%low(r, at) = centre - sum(widths)
          study%high(r, at) = centre + sum(widths)
       end associate
    end subroutine combine_one
+
+   !> What batches add, and the standard deviation.
+   subroutine add_batches(study, common, r, at)
+      type(tolerance_study_t), intent(inout) :: study   !! the study
+      type(batch_moments_t), intent(in) :: common       !! of the parameters
+      integer, intent(in) :: r                          !! number of the channel
+      integer, intent(in) :: at                         !! number of the time
+
+      integer :: i, j, k
+
+      associate (parts => study%parts(:, r, at), curvatures => study%derivatives%curvatures(:, :, r, at))
+         do k = 1, size(study%plan%batches)
+            parts(size(parts) - size(study%plan%batches) + k) = common%from_batch(k, study%slopes(:, r, at))
+         end do
+         do j = 1, size(curvatures, 2)
+            do i = 1, j - 1
+               study%mean(r, at) = study%mean(r, at) + curvatures(i, j)*common%covariance(i, j)
+            end do
+         end do
+         study%sigma(r, at) = sqrt(sum(parts))
+      end associate
+   end subroutine add_batches
 
 end module first_order

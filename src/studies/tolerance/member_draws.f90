@@ -1,15 +1,17 @@
 !> Draws of members: random numbers by counter, and the deviations and places of pins that they make.
 !>
-!> A member has a random number for each parameter (two of a fit), and for each pin one on its circle or two in it. They follow from
+!> A member has a random number for each parameter (two of a fit), for each pin one on its circle or two in it, and for each batch
+!> of parameters. They follow from
 !> the seed, what they are for and the number of the member alone. In a Latin hypercube of n members the numbers of a column are
 !> (o_m - u_m)/n, o a random order of 1 to n.
 !> Source: M. D. McKay, R. J. Beckman, W. J. Conover, Technometrics 21 (1979) 239-245.
 module member_draws
    use counter_random, only: random_order, uniform_at
    use kinds, only: i8, two_pi, wp
+   use normal_distribution, only: normal_quantile
    use tolerance_plan, only: pin_circle, pin_disc, pin_force
    use tolerance_results, only: tolerance_study_t
-   use tolerated, only: most_random
+   use tolerated, only: joint_number, most_random
    implicit none (type, external)
    private
    public :: draw_t, stream_a, stream_b, stream_check, stream_members, stream_resamples
@@ -26,6 +28,7 @@ module member_draws
       integer :: seed = 0                      !! of the random numbers
       integer :: n = 0                         !! random numbers of a member
       integer, allocatable :: first(:)         !! (contributors + 1) first number of each
+      integer :: before_batches = 0            !! contributors before the batches
       integer, allocatable :: orders(:, :)     !! (members, numbers) of a Latin hypercube; unallocated: independent members
    contains
       procedure :: begin => draw_begin
@@ -44,7 +47,7 @@ contains
 
       self%seed = study%plan%sampling%seed
       n = size(study%plan%parameters)
-      allocate (self%first(n + size(study%pins) + 1))
+      allocate (self%first(n + size(study%pins) + size(study%plan%batches) + 1))
       self%first(1) = 1
       do k = 1, n
          self%first(k + 1) = self%first(k) + study%plan%parameters(k)%n_random()
@@ -53,6 +56,10 @@ contains
          self%first(n + k + 1) = self%first(n + k)
          if (study%pins(k)%position == pin_disc) self%first(n + k + 1) = self%first(n + k) + 2
          if (study%pins(k)%position == pin_circle) self%first(n + k + 1) = self%first(n + k) + 1
+      end do
+      self%before_batches = n + size(study%pins)
+      do k = self%before_batches + 1, size(self%first) - 1
+         self%first(k + 1) = self%first(k) + 1
       end do
       self%n = self%first(size(self%first)) - 1
       if (.not. study%plan%sampling%is_hypercube) return
@@ -93,7 +100,14 @@ contains
 
       n = size(deviations)
       do k = 1, n
-         deviations(k) = study%plan%parameters(k)%deviation(u(self%first(k):min(self%first(k) + most_random - 1, size(u))))
+         associate (parameter => study%plan%parameters(k), first => self%first(k))
+            if (parameter%batch > 0) then
+               deviations(k) = parameter%deviation([joint_number(normal_quantile(u(first)), &
+                  normal_quantile(u(self%first(self%before_batches + parameter%batch))), parameter%in_batch)])
+            else
+               deviations(k) = parameter%deviation(u(first:min(first + most_random - 1, size(u))))
+            end if
+         end associate
       end do
       do k = 1, size(study%pins)
          clearances(k) = max(study%pins(k)%clearance + dot_product(study%derivatives%clearance_slopes(:, k), deviations), 0.0_wp)

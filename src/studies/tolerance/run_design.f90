@@ -2,7 +2,8 @@
 !>
 !> The nominal case comes first. Where each case has one run there follow two on both sides of it for each parameter, a standard
 !> deviation away, for derivatives. Then come the members, and where each case has one run the plans of Sobol' indices: A, A with a
-!> parameter of B, for each, and B. Where cases have several runs, each from another start, their scatter is split instead.
+!> contributor of B, for each, and B. Contributors are parameters and batches. Where cases have several runs, each from another
+!> start, their scatter is split instead.
 module run_design
    use kinds, only: i8, wp
    use member_draws, only: draw_t, stream_a, stream_b, stream_members
@@ -37,7 +38,7 @@ contains
       real(wp), allocatable :: mixed(:), u_a(:), u_b(:)
       integer :: k, m, n
 
-      n = size(study%plan%parameters)
+      n = size(study%plan%parameters) + size(study%plan%batches)
       design%n_start = n_start
       design%n_member = study%plan%sampling%members
       if (n_start == 1) design%n_point = study%plan%sampling%points
@@ -45,8 +46,8 @@ contains
       if (n_start > 1) design%steps = 0.0_wp
       call draw%begin(study)
       design%seed = draw%seed
-      allocate (design%deviations(n, design%point(n + 2, 0)), source=0.0_wp)
-      do k = 1, n
+      allocate (design%deviations(size(design%steps), design%point(n + 2, 0)), source=0.0_wp)
+      do k = 1, size(design%steps)
          if (n_start > 1) exit
          design%deviations(k, design%beside(k, 1)) = design%steps(k)
          design%deviations(k, design%beside(k, 2)) = -design%steps(k)
@@ -103,7 +104,7 @@ contains
    !> Number of the case of a point; point 0 of the plan after the last one: the last case of all.
    pure integer function point(self, plan, m) result(at)
       class(run_design_t), intent(in) :: self   !! the cases
-      integer, intent(in) :: plan               !! 0: plan A, k: A with parameter k of B, parameters + 1: plan B
+      integer, intent(in) :: plan               !! 0: plan A, k: A with contributor k of B, contributors + 1: plan B
       integer, intent(in) :: m                  !! number of the point
 
       at = self%member(self%n_member) + plan*self%n_point + m

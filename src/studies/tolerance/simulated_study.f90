@@ -198,7 +198,7 @@ contains
       integer, allocatable :: cases(:)
       integer :: k, m, n
 
-      n = size(design%steps)
+      n = size(study%contributors)
       if (design%n_point == 0) then
          study%indices%points = 0
          study%indices%open = 0_i8

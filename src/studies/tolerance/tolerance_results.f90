@@ -110,7 +110,7 @@ module tolerance_results
       integer :: n_checked = 0                             !! members that were assembled to check the expansion
       integer :: n_open = 0                                !! of these, members that cannot be assembled
       real(wp), allocatable :: errors(:)                   !! (requests) maximum error of the expansion in them [any]
-      type(text_t), allocatable :: contributors(:)         !! (contributors) names: parameters, then joints
+      type(text_t), allocatable :: contributors(:)         !! (contributors) names: parameters, then joints, then batches
       type(allocation_t), allocatable :: allocations(:)    !! (requests) cheapest tolerances; unallocated: no costs are given
       type(split_t), allocatable :: splits(:)              !! (requests) between parts and within the motion; unallocated: not split
    end type tolerance_study_t
