@@ -116,7 +116,7 @@ contains
 
       integer :: k
 
-      allocate (study%plan%parameters(3), study%pins(0), study%requests(1), study%contributors(3))
+      allocate (study%plan%parameters(3), study%plan%batches(0), study%pins(0), study%requests(1), study%contributors(3))
       do k = 1, 3
          study%plan%parameters(k)%name = "abc"(k:k)
          study%contributors(k)%s = "abc"(k:k)
