@@ -1,4 +1,4 @@
-"""Parameters that deviate together, and parameters that scatter as they were measured: closed forms, indices, members, errors."""
+"""Parameters that deviate together, parameters that scatter as they were measured, and rare failures: closed forms, members, errors."""
 
 import math
 
@@ -147,3 +147,96 @@ def test_refused(gudgeon, rows, words):
     """Errors of the rows, with their place."""
     run = call(gudgeon, "tolerance", written(scratch(), FOUR_BAR.replace(ROWS, rows + "\n")), expect=3)
     assert words in run.stderr and "^" in run.stderr, run.stderr
+
+
+STACK = """deck = 1
+[scene]
+gravity = 0 0 m/s^2
+[parameters]
+a = 20 mm
+b = 20 mm
+[bodies]
+name mass[kg] inertia[kg.m^2] x
+top 0.1 1e-5 {a + b}
+[points]
+name body xi
+foot ground 0mm
+head top 0mm
+[joint.translational]
+name i j axis
+guide foot head x
+[driver.distance]
+name i j distance
+rest foot head {a + b}
+[tolerance]
+name plus_minus distribution batch correlation
+a 0.03mm normal turned 0.5
+b 0.03mm normal turned 0.5
+[tolerance.limit]
+name channel lower upper
+high top.position.x LOWER UPPER
+[tolerance.study]
+members = 100
+points = 10
+rare = RARE
+seed = SEED
+[analysis.kinematic]
+end = 1 s
+[output]
+every = 1 s
+"""
+
+
+def stack(gudgeon, lower, upper, seed=1, rare=4000):
+    """Failures of a stack of two normal rollers whose correlation is 0.5: standard deviation sqrt(3) times 10 um."""
+    text = STACK.replace("LOWER", lower).replace("UPPER", upper).replace("SEED", str(seed)).replace("RARE", str(rare))
+    return study(gudgeon, text)[0]["tolerance"]["top.position.x"]["failures"]
+
+
+def beyond(deviations):
+    """Part of a normal distribution beyond so many standard deviations."""
+    return 0.5 * math.erfc(deviations / math.sqrt(2))
+
+
+@pytest.mark.parametrize("lower, upper, exact", [
+    ("39.91mm", "40.085mm", beyond(9 / math.sqrt(3)) + beyond(8.5 / math.sqrt(3))),
+    ("-", "40.07mm", beyond(7 / math.sqrt(3))),
+    ("39.99mm", "-", beyond(1 / math.sqrt(3))),
+    ("40.02mm", "-", 1 - beyond(2 / math.sqrt(3))),
+])
+def test_rare_failures(gudgeon, lower, upper, exact):
+    """Parts per ten million, by four thousand members; also where failures are not rare."""
+    found = stack(gudgeon, lower, upper)
+    assert found["value"] == pytest.approx(exact, rel=0.15)
+    assert found["low"] < found["value"] < found["high"]
+
+
+def test_rare_failures_that_cannot_be(gudgeon):
+    """Where no member fails the interval starts at zero and ends above it."""
+    found = stack(gudgeon, "30mm", "-", rare=1000)
+    assert found["low"] == found["value"] == 0 and found["high"] == pytest.approx(3 / 100)
+
+
+def test_intervals_of_rare_failures(gudgeon):
+    """The stated interval of 95 % holds: in 21 of 25 repeats or more."""
+    exact = beyond(9 / math.sqrt(3)) + beyond(8.5 / math.sqrt(3))
+    found = [stack(gudgeon, "39.91mm", "40.085mm", seed, 1000) for seed in range(25)]
+    assert sum(one["low"] < exact < one["high"] for one in found) >= 21
+
+
+def test_rare_failures_of_a_linkage(gudgeon):
+    """A rocker beyond its limits in one of ten thousand: by importance sampling, and counted over half a million members."""
+    text = FOUR_BAR.replace("98.3deg    98.9deg", "98.47deg    98.72deg").replace("truncated", "normal")
+    text += "\n[tolerance.study]\nmembers = 500000\npoints = 10\nrare = 20000\n"
+    rocker = study(gudgeon, text)[0]["tolerance"]["request.rocker"]
+    counted = 1 - np.array([rocker["yield"]["value"], rocker["yield"]["low"], rocker["yield"]["high"]])
+    failures = rocker["failures"]
+    assert 5e-6 < counted[0] < 2e-3, counted
+    assert failures["low"] < counted[1] and counted[2] < failures["high"]  # the intervals overlap
+    assert failures["high"] - failures["low"] < counted[1] - counted[2]  # and that of importance sampling is the narrower one
+
+
+def test_rare_failures_of_runs(gudgeon):
+    """Refused: each member would be a run."""
+    run = call(gudgeon, "tolerance", written(scratch(), THROWN.replace("points = 50", "rare = 100")), expect=2)
+    assert "needs the kinematic level" in run.stderr

@@ -38,6 +38,9 @@ contains
       if (.not. any(study%plan%parameters%sigma > 0.0_wp)) then
          call set_error(error, exit_usage, "nothing scatters: no parameter has a tolerance"//new_line("a")// &
                         "  = give a row of [tolerance]")
+      else if (study%plan%sampling%rare > 0) then
+         call set_error(error, exit_usage, "rare of [tolerance.study] needs the kinematic level: each member is a run here"// &
+                        new_line("a")//"  = omit it, and take more members")
       else if (size(study%requests) == 0) then
          call set_error(error, exit_usage, "the deck has no requests of a run"//new_line("a")// &
                         "  = name some as requests of [tolerance.study], as slider.acceleration.x.rms")

@@ -20,6 +20,7 @@ module tolerance_report
    use tolerance_object, only: put_tolerances
    use tolerance_plan, only: level_dynamic
    use tolerance_results, only: tolerance_study_t
+   use tolerance_study, only: is_accurate
    use tolerance_tables, only: table_of_contributors, table_of_requests, table_of_splits, table_of_widths
    implicit none (type, external)
    private
@@ -44,8 +45,7 @@ contains
                           "indices have members that cannot be assembled: the indices are those of the others")
       end if
       if (study%members%is_exact .or. study%n_open > 0) return
-      if (any(study%errors > study%plan%sampling%accuracy*maxval(study%sigma, dim=2) + &
-              1.0e-12_wp*maxval(abs(study%derivatives%values), dim=2))) then
+      if (.not. is_accurate(study)) then
          call append_text(warnings, "the error of the expansion exceeds accuracy = "// &
                           real_text(study%plan%sampling%accuracy, 3)//" of a standard deviation; use "// &
                           "method = exact, or a larger budget")

@@ -210,6 +210,7 @@ contains
          sampling%points = nint(study%number("points"))
          sampling%resamples = nint(study%number("resamples"))
          sampling%bins = nint(study%number("bins"))
+         sampling%rare = nint(study%number("rare"))
          sampling%target = study%number("target")
          if (sampling%members == 1) call mistakes%add(study%values(place_of(study, "members"))%location, &
                                                       "one member has no standard deviation", "give 2 or more")

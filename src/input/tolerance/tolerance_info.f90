@@ -107,6 +107,8 @@ contains
       call add_number(info, "resamples", dim_none, "bootstrap resamples for the intervals of the indices", default="200", &
                       lower=20.0_wp, upper=1.0e4_wp)
       call add_number(info, "bins", dim_none, "bins of the histograms", default="30", lower=2.0_wp, upper=10000.0_wp)
+      call add_number(info, "rare", dim_none, "members of importance sampling for each channel with limits, of the kinematic " &
+                      //"level: failures of parts per million; 0: none", default="0", lower=0.0_wp, upper=1.0e8_wp)
       call add_number(info, "target", dim_none, "yield that the cheapest tolerances reach, with `cost` in [tolerance]", &
                       default="0.9973", lower=0.0_wp, upper=1.0_wp, open_lower=.true., open_upper=.true.)
    end function tolerance_study_info

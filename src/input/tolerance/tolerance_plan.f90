@@ -56,6 +56,7 @@ module tolerance_plan
       integer :: points = 0                     !! of the plan of Sobol' indices; 0: as the level has
       integer :: resamples = 0                  !! for their intervals
       integer :: bins = 0                       !! of histograms
+      integer :: rare = 0                       !! members that find rare failures of a channel; 0: these are not asked for
       real(wp) :: target = 0.0_wp               !! yield that cheapest tolerances must reach [1]
    end type sampling_t
 

@@ -53,6 +53,7 @@ contains
                                              reshape([members%lowest(r, :), members%highest(r, :)], [size(low), 2])))
          call one%put_object("yield", object_of_yield(members%yields(r), 3))
          call one%put_object("capability", interval(members%capability(:, r), 3))
+         if (allocated(members%failures)) call one%put_object("failures", interval(members%failures(:, r), 3))
       end associate
       if (allocated(study%allocations)) call one%put_object("cheapest", cheapest())
       if (allocated(study%splits)) call one%put_object("variance", variances())

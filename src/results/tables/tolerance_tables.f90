@@ -55,6 +55,15 @@ contains
       call table%put("capability_low", "1", "lower end of its interval of 95 %", study%members%capability(2, :), &
                      formats=in_files)
       call table%put("capability_high", "1", "upper end of it", study%members%capability(3, :), formats=in_files)
+      if (allocated(study%members%failures)) then
+         associate (failures => study%members%failures)
+            call table%put("failures", "1", "failures by importance sampling; NaN: no limits", failures(1, :), &
+                           heading="failures", digits=4, formats=in_files)
+            call table%put("failures_low", "1", "lower end of its interval of 95 %", failures(2, :), heading="95 % from", &
+                           digits=3, formats=in_files)
+            call table%put("failures_high", "1", "upper end of it", failures(3, :), heading="to", digits=3, formats=in_files)
+         end associate
+      end if
       call table%put("expansion_error", "rows", "maximum error of the expansion in checked members", study%errors, &
                      heading="error", digits=2, formats=in_files)
 

@@ -14,7 +14,7 @@ module member_draws
    use tolerated, only: joint_number, most_random
    implicit none (type, external)
    private
-   public :: draw_t, stream_a, stream_b, stream_check, stream_members, stream_resamples
+   public :: draw_t, stream_a, stream_b, stream_check, stream_members, stream_rare, stream_resamples
 
    integer, parameter :: stream_members = 1     !! numbers of members
    integer, parameter :: stream_order = 2       !! orders of a Latin hypercube
@@ -22,6 +22,7 @@ module member_draws
    integer, parameter :: stream_b = 4           !! plan B
    integer, parameter :: stream_resamples = 5   !! resamples
    integer, parameter :: stream_check = 6       !! members that check the expansion
+   integer, parameter :: stream_rare = 6      !! of channel r the r-th beyond: its failures
 
    !> What draws members.
    type :: draw_t

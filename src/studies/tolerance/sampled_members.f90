@@ -13,7 +13,7 @@ module sampled_members
    use tolerance_results, only: members_t, tolerance_study_t, yield_t
    implicit none (type, external)
    private
-   public :: begin_members, end_members, find_capabilities, sample_members, take_block
+   public :: begin_members, end_members, find_capabilities, inside_limits, sample_members, take_block
 
    real(wp), parameter :: histogram_half = 4.0_wp   !! half the width of a histogram, of a standard deviation [1]
 
@@ -99,9 +99,9 @@ contains
       type(tolerance_study_t), intent(inout) :: study      !! yields and histograms grow
       type(sample_t), intent(inout) :: samples(:, :)       !! (requests, times) the samples
 
-      real(wp) :: values(some%n), widths(some%n)
+      real(wp) :: values(some%n)
       logical :: is_good(some%n), is_within(some%n)
-      integer :: at, k, r
+      integer :: at, r
 
       is_good = .not. some%is_open(:some%n)
       study%members%open = study%members%open + count(some%is_open(:some%n))
@@ -116,20 +116,50 @@ contains
             end if
             if (at == study%members%at(r)) call count_bins(values, some%is_open(:some%n), study%members%edges(:, r), &
                                                            study%members%counts(:, r))
-            if (.not. study%requests(r)%is_limited) cycle
-            widths = 0.0_wp
-            do k = 1, size(study%pins)
-               if (study%pins(k)%position /= pin_worst) cycle
-               widths = widths + some%clearances(:some%n, k)*norm2(study%derivatives%pins(:, k, r, at))
-            end do
-            is_within = is_within .and. values - widths >= study%requests(r)%lower .and. &
-                        values + widths <= study%requests(r)%upper
+            if (study%requests(r)%is_limited) is_within = is_within .and. is_between(some, study, r, at, values)
          end do
          study%members%yields(r)%good = study%members%yields(r)%good + count(is_within)
          is_good = is_good .and. is_within
       end do
       study%members%yield%good = study%members%yield%good + count(is_good)
    end subroutine take_block
+
+   !> Which members of a block have a channel between its limits at all times; one that cannot be assembled has not.
+   function inside_limits(some, study, r) result(is_inside)
+      type(block_t), intent(in) :: some                    !! the block
+      type(tolerance_study_t), intent(in) :: study         !! the study
+      integer, intent(in) :: r                             !! number of the channel
+      logical :: is_inside(some%n)                         !! (members) which
+
+      real(wp) :: values(some%n)
+      integer :: at
+
+      is_inside = .not. some%is_open(:some%n)
+      do at = 1, size(study%derivatives%instants)
+         call some%values(study, r, at, values)
+         is_inside = is_inside .and. is_between(some, study, r, at, values)
+      end do
+   end function inside_limits
+
+   !> Which members of a block have a channel between its limits at a time, wherever a pin at its worst place is.
+   pure function is_between(some, study, r, at, values)
+      type(block_t), intent(in) :: some                    !! the block
+      type(tolerance_study_t), intent(in) :: study         !! the study
+      integer, intent(in) :: r                             !! number of the channel
+      integer, intent(in) :: at                            !! number of the time
+      real(wp), intent(in) :: values(:)                    !! (members) the channel then [any]
+      logical :: is_between(size(values))                  !! (members) which
+
+      real(wp) :: widths(size(values))
+      integer :: k
+
+      widths = 0.0_wp
+      do k = 1, size(study%pins)
+         if (study%pins(k)%position /= pin_worst) cycle
+         widths = widths + some%clearances(:some%n, k)*norm2(study%derivatives%pins(:, k, r, at))
+      end do
+      is_between = values - widths >= study%requests(r)%lower .and. values + widths <= study%requests(r)%upper
+   end function is_between
 
    !> Count members in the bins of a histogram; those beyond its ends are counted in its outer bins.
    pure subroutine count_bins(values, is_open, edges, counts)

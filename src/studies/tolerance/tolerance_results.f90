@@ -69,6 +69,7 @@ module tolerance_results
       type(yield_t), allocatable :: yields(:)              !! (requests) within the limits of each
       type(yield_t) :: yield                               !! within all limits
       real(wp), allocatable :: capability(:, :)            !! (3, requests) Cpk, ends of its interval; NaN: no limits [1]
+      real(wp), allocatable :: failures(:, :)              !! (3, requests) rare failures, ends of the interval; NaN: no limits [1]
       integer, allocatable :: at(:)                        !! (requests) number of the time that is shown, see `shown_time`
       real(wp), allocatable :: edges(:, :)                 !! (0:bins, requests) of the histograms [any]
       integer(i8), allocatable :: counts(:, :)             !! (bins, requests) members between them

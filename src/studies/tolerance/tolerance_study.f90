@@ -9,6 +9,7 @@ module tolerance_study
    use mechanism_source, only: mechanism_source_t
    use member_draws, only: draw_t, stream_a, stream_b, stream_check, stream_resamples
    use member_values, only: block_t
+   use rare_failures, only: sample_failures
    use sampled_members, only: sample_members
    use sensitivities, only: find_sensitivities
    use sobol_indices, only: find_indices, resample_weights
@@ -17,7 +18,7 @@ module tolerance_study
    use varied_mechanism, only: varied_t
    implicit none (type, external)
    private
-   public :: compare_plans, run_study
+   public :: compare_plans, is_accurate, run_study
 
 contains
 
@@ -40,9 +41,10 @@ contains
          call check_expansion(source, study)
          if (sampling%method == method_auto) then
             members = sampling%members + real(sampling%points, wp)*(size(study%contributors) + 2)
-            is_exact = .not. is_accurate(study) .and. study%cpu_checked/study%n_checked*members <= sampling%budget
+            is_exact = .not. may_expand(study) .and. study%cpu_checked/study%n_checked*members <= sampling%budget
          end if
          call sample_members(source, study, is_exact)
+         call sample_failures(source, study, is_exact)
          call allocate_tolerances(study)
          call find_study_indices(source, study, is_exact)
       end associate
@@ -116,14 +118,25 @@ contains
 
    end subroutine check_expansion
 
-   !> Whether the expansion may stand for the mechanism.
+   !> Whether the expansion may stand for the mechanism: all can be assembled, and its errors are small.
+   logical function may_expand(study)
+      type(tolerance_study_t), intent(in) :: study   !! the study, its expansion checked
+
+      may_expand = study%derivatives%has_curvatures .and. study%n_open == 0
+      if (may_expand) may_expand = is_accurate(study)
+   end function may_expand
+
+   !> Whether the errors of the expansion are small against the standard deviations; of channels that do not scatter, against those
+   !> of normal ones between the ends of the worst case, which may be none.
    logical function is_accurate(study)
       type(tolerance_study_t), intent(in) :: study   !! the study, its expansion checked
 
-      is_accurate = study%derivatives%has_curvatures .and. study%n_open == 0
-      if (.not. is_accurate) return
-      is_accurate = all(study%errors <= study%plan%sampling%accuracy*maxval(study%sigma, dim=2) + &
-                        1.0e-12_wp*maxval(abs(study%derivatives%values), dim=2))
+      real(wp) :: scale(size(study%requests))
+
+      scale = maxval(study%sigma, dim=2)
+      where (.not. scale > 0.0_wp) scale = maxval(study%high - study%low, dim=2)/6.0_wp
+      is_accurate = all(study%errors <= study%plan%sampling%accuracy*scale + &
+                        1.0e-12_wp*maxval(abs(study%derivatives%values), dim=2) .or. .not. scale > 0.0_wp)
    end function is_accurate
 
    !> Sobol' indices of all channels at all times, of the same plans: A, those with a contributor of B, B.
