@@ -1,9 +1,8 @@
-!> Gears and couplers of an Adams dataset as rows of a deck.
+!> Gears of an Adams dataset as rows of a deck.
 !>
 !> | Adams | deck |
 !> |---|---|
 !> | GEAR of two revolute joints with parallel axes on one carrier | `joint.gear`, radii from the CV marker |
-!> | COUPLER of two such joints, s_1 q_1 + s_2 q_2 = 0 | `joint.gear`, radii in the ratio of the scales |
 !>
 !> With a the direction of both axes, p_k a point of each, c the CV marker and z its axis: both bodies have the same velocity there,
 !> w_1 (a x (c - p_1)) . z = w_2 (a x (c - p_2)) . z, as the carrier sees it. Two gears have w_1 R_1 + w_2 R_2 = 0.
@@ -38,7 +37,7 @@ module adams_gears
 
 contains
 
-   !> All GEAR and COUPLER statements.
+   !> All GEAR statements.
    subroutine add_gears(model, draft, mistakes)
       type(adams_model_t), intent(inout) :: model        !! the dataset
       type(deck_draft_t), intent(inout) :: draft         !! the deck, with its joints
@@ -50,10 +49,9 @@ contains
 
       do k = 1, size(model%statements)
          associate (it => model%statements(k))
-            if (it%keyword /= "GEAR" .and. it%keyword /= "COUPLER") cycle
+            if (it%keyword /= "GEAR") cycle
             call find_wheels(model, draft, it, wheels, message, mistakes)
-            if (message == "" .and. it%keyword == "GEAR") call take_mark(model, it, wheels, message, mistakes)
-            if (message == "" .and. it%keyword == "COUPLER") call take_scales(it, wheels, message, mistakes)
+            if (message == "") call take_mark(model, it, wheels, message, mistakes)
             if (message == "") then
                call put_gear(model, draft, it, wheels)
             else
@@ -156,29 +154,6 @@ contains
       wheels(1)%radius = abs(arm(1))
       wheels(2)%radius = -sign(1.0_wp, arm(1))*arm(2)
    end subroutine take_mark
-
-   !> Radii from the scales.
-   subroutine take_scales(statement, wheels, message, mistakes)
-      type(statement_t), intent(in) :: statement                !! the statement
-      type(wheel_t), intent(inout) :: wheels(2)                 !! (2) radii are set
-      character(:), allocatable, intent(inout) :: message       !! set: they have none
-      type(diagnostics_t), intent(inout) :: mistakes            !! collects what is wrong
-
-      real(wp), allocatable :: scales(:)
-
-      call argument_numbers(statement, "SCALES", scales, mistakes, 1)
-      if (size(scales) /= 2) then
-         message = "it does not have two SCALES"
-         return
-      end if
-      if (.not. minval(abs(scales)) > 0.0_wp) then
-         message = "one of its SCALES is zero"
-         return
-      end if
-      wheels%radius = scales*wheels%side
-      if (dot_product(wheels(1)%axis, wheels(2)%axis) < 0.0_wp) wheels(2)%radius = -wheels(2)%radius
-      wheels%radius = wheels%radius*sign(1.0_wp, wheels(1)%radius)/maxval(abs(scales))
-   end subroutine take_scales
 
    !> The row.
    subroutine put_gear(model, draft, statement, wheels)
