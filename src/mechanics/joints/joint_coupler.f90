@@ -225,7 +225,7 @@ contains
       end do
    end subroutine coupler_evaluate
 
-   !> Add the entries of a coordinate to the blocks of its bodies.
+   !> Add the entries of a coordinate to the blocks of its bodies; those of the ground to a side that is left, if there is one.
    pure subroutine add_entries(one, e, x, row, motion, rows)
       type(coupled_t), intent(in) :: one      !! the item
       integer, intent(in) :: e                !! which of its joints
@@ -244,7 +244,7 @@ contains
          entries(:6) = [-x%force(:2), x%turn_i(3), x%force(:2), x%turn_j(3)]
       end if
       do side = 1, 2
-         if (one%of(e)%body(side) == 0) cycle
+         if (one%of(e)%body(side) == 0 .and. modulo(one%n_body, 2) == 0) cycle
          m = findloc(one%body, one%of(e)%body(side), dim=1)
          block = row
          if (m > 2) block = one%first_block + (m - 1)/2
