@@ -101,12 +101,14 @@ contains
       type(item_t), intent(inout) :: item   !! a row
 
       character(1), parameter :: digit(3) = ["1", "2", "3"]
-      integer :: e
+      integer :: e, place
 
       do e = 1, 3
-         item%values(find_place(item, "of_"//digit(e)))%text = "own"
+         place = find_place(item, "of_"//digit(e))
+         item%values(place)%text = "own"
       end do
-      item%values(find_place(item, "offset"))%given = .false.
+      place = find_place(item, "offset")
+      item%values(place)%given = .false.
    end subroutine take_angles
 
    !> Two revolute joints with the bodies of each item, for a kind that couples joints.

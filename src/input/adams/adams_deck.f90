@@ -10,7 +10,6 @@ module adams_deck
    use adams_arguments, only: name_small_degrees, name_unknown_arguments
    use adams_constraints, only: add_constraints
    use adams_contacts, only: add_contacts
-   use adams_couplers, only: add_couplers
    use adams_elastic, only: add_elastic
    use adams_forces, only: add_forces
    use adams_gears, only: add_gears
@@ -76,7 +75,6 @@ contains
       call add_primitives(model, draft, mistakes)
       call add_constraints(model, draft)
       call add_gears(model, draft, mistakes)
-      call add_couplers(model, draft, mistakes)
       call add_motions(model, draft, mistakes)
       call add_forces(model, draft, mistakes)
       call add_loads(model, draft, mistakes)

@@ -9,6 +9,7 @@
 !>
 !> Source: the public descriptions of the statements of Adams/Solver. Limits: other joints, axes that meet or are one.
 module adams_gears
+   use adams_couplers, only: add_couplers
    use adams_joints, only: named
    use adams_model, only: adams_model_t, leave_out
    use adams_numbers, only: argument_numbers, id_of, mistake
@@ -37,7 +38,7 @@ module adams_gears
 
 contains
 
-   !> All GEAR statements.
+   !> All GEAR and COUPLER statements.
    subroutine add_gears(model, draft, mistakes)
       type(adams_model_t), intent(inout) :: model        !! the dataset
       type(deck_draft_t), intent(inout) :: draft         !! the deck, with its joints
@@ -59,6 +60,7 @@ contains
             end if
          end associate
       end do
+      call add_couplers(model, draft, mistakes)
    end subroutine add_gears
 
    !> The wheels of two revolute joints, and whether they turn on parallel axes of one carrier.

@@ -14,7 +14,7 @@ module joint_coupler
    use item, only: item_t
    use joint_coordinate, only: joint_coordinate_t, new_coordinate
    use joint_set, only: joint_set_t, of_own, of_violation, of_violation_rate
-   use kind_info, only: add_any_number, add_channel, add_reference, add_word, in_plane, kind_info_t
+   use kind_info, only: add_any_number, add_channel, add_reference, add_word, free_translation, in_plane, kind_info_t
    use kinds, only: wp
    use motion, only: motion_t
    use rows, only: rows_t
@@ -145,7 +145,7 @@ contains
       info = joint%info()
       associate (one => self%items(k))
          one%n = one%n + 1
-         one%of(one%n) = new_coordinate(joint, one%wants_angle(one%n) .and. info%name /= "joint.translational")
+         one%of(one%n) = new_coordinate(joint, one%wants_angle(one%n) .and. info%free /= free_translation)
          x = one%of(one%n)%find(motion)
          one%near(one%n) = x%value
          if (.not. one%is_given) one%sum = one%sum + one%scale(one%n)*x%value

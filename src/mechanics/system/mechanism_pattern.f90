@@ -120,6 +120,7 @@ contains
    end procedure mechanism_dae_spread
 
    !> Which bodies depend on which: pairs that joints, forces and contacts name, each in both directions and once.
+   !> Length: one list, counted and then filled by the same loops.
    subroutine find_couplings(self, place, near)
       class(mechanism_state_t), intent(in) :: self  !! the system
       integer, intent(in) :: place(0:)              !! (0:bodies) number of each among the unknown ones, 0: none
