@@ -350,3 +350,65 @@ def test_redundant_and_contradictory(gudgeon):
     directory = scratch()
     done = call(gudgeon, "run", written(directory, other), "--out", directory / "out", expect=4)
     assert "'c'" in done.stderr or "'e'" in done.stderr
+
+
+SCREW = """deck = 1
+[scene]
+space = spatial
+gravity = 1 2 -9.81 m/s^2
+[bodies]
+name mass[kg] ixx[kg.m^2] iyy[kg.m^2] izz[kg.m^2]
+arm   2 0.02 0.03 0.04
+block 1 0.01 0.01 0.02
+[points]
+name body xi[m] eta[m] zeta[m]
+floor ground 0 0 0
+heel arm 0 0 0
+far arm 0.1 0.2 0
+seat block 0.1 0.2 0
+[joint.revolute]
+name i j axis_i axis_j
+pin floor heel "0 1 0" "0 1 0"
+{joint}
+[force.torque]
+name body frame mx[N.m] my[N.m] mz[N.m]
+turn block body 0.3 0.3 0.9
+[analysis.dynamic]
+end = 2 s
+tolerance = 1e-11
+start = given
+[output]
+every = 10 ms
+channels = *
+"""
+
+
+@pytest.mark.parametrize("settings", [{}, {"method": "ida"}, {"solver": "sparse"}, {"coordinates": "full"}], ids=str)
+def test_cylindrical_joint_as_a_screw(gudgeon, settings):
+    """The angle and the displacement of one cylindrical joint on an arm that oscillates: the motion of joint.screw, over many turns."""
+    ties = {"screw": "[joint.screw]\nname i j axis_i pitch[mm]\nthread far seat \"1 1 3\" 20",
+            "coupler": "[joint.cylindrical]\nname i j axis_i\nthread far seat \"1 1 3\"\n[joint.coupler]\nname joint_1 joint_2 scale_1 scale_2 of_2\n"
+                       "c thread thread {20/(2*pi)*1mm/rad} -1 displacement"}
+    runs = {name: run_with(gudgeon, SCREW.format(joint=tie), **settings) for name, tie in ties.items()}
+    close = 1e-4 if settings.get("method") in LOOSE else 1e-7
+    turned = runs["screw"].item("joints/displacement", "thread")
+    assert np.ptp(turned) > 0.06  # three turns
+    for path, name in (("joints/displacement", "thread"), ("bodies/position", "block"), ("bodies/position", "arm")):
+        assert_close(runs["coupler"].item(path, name), runs["screw"].item(path, name), absolute=close, what=name)
+
+
+def test_initial_speed(gudgeon):
+    """One shaft's initial speed and another's sum to that of the third."""
+    text = scene("c ja jb jd 1 1 -2").replace("[force.torque]", "[initial.speed]\nname joint speed\nsa ja 3rad/s\nsb jb -1rad/s\n[force.torque]")
+    run = run_with(gudgeon, changed(text, "analysis.dynamic", start=None))
+    first = [run.item("bodies/angular_velocity", name)[0] for name in "abd"]
+    assert_close(first, [3, -1, 1], absolute=1e-12, what="speeds at the start")
+
+
+def test_restart_counts_turns(gudgeon):
+    """Runs that continue from checkpoints after several turns in space are, to the bit, the run in one."""
+    text = changed(space([1, 2, -1], 77, [3, -5, 2])[0], "analysis.dynamic", start=None)
+    directory = scratch()
+    done = call(gudgeon, "run", written(directory, text), "--verify-restart", "--out", directory / "out", "--write", "channels")
+    assert "equal bit for bit" in done.stdout
+    assert abs(Run(directory / "out").item("bodies/angular_velocity", "shaft")).max() * 1.5 > 2 * np.pi

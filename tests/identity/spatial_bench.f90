@@ -78,6 +78,7 @@ contains
          s(:, 2, k) = random%vector(3, -1.0_wp, 1.0_wp)
          call fill_item(bench%info, k, random, items(k))
          if (seed == 1) call leave_open(bench%info, "axis_j", items(k))
+         call leave_open(bench%info, "offset", items(k))  ! of a coupler
          call set_number(bench%info, "pitch", 2.0_wp + k, items(k))  ! so long that rows are smooth where they are differenced
       end do
       angle = 0.0_wp
