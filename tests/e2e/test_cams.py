@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 from scipy.optimize import brentq, minimize_scalar
-from support import Run, assert_close, call, plain, scratch, written
+from support import ROOT, Run, assert_close, call, scratch, written
 
 STEEL = "[material]\nname young[GPa] poisson\nsteel 207 0.3\n"
 
@@ -56,7 +56,7 @@ def test_circle_is_a_disc(gudgeon, friction):
         assert_close(cam.contacts[name], discs.contacts[name], relative=1e-9, absolute=1e-13, what=name)
     for name in ("position", "velocity", "angular_velocity"):
         expected = discs.read(f"bodies/{name}")
-        assert_close(cam.read(f"bodies/{name}"), expected, absolute=1e-12 * abs(expected).max(), what=name)
+        assert_close(cam.read(f"bodies/{name}"), expected, absolute=(1e-10 if friction == "slip" else 1e-12) * abs(expected).max(), what=name)
 
 
 def test_circle_through_points(gudgeon):
@@ -155,11 +155,11 @@ def test_force_of_a_flat_follower(gudgeon):
         whole = stiffness + SPRING
         mean = (stiffness * ROUND + SPRING * ROUND - PRELOAD - MASS * 9.81) / whole
         wave = stiffness * ECCENTRIC / (whole - MASS * omega**2)
-        result = run(gudgeon, follower("flat", stiffness, omega, mean, wave * omega), "0.1 s", tolerance="1e-12")
+        result = run(gudgeon, follower("flat", stiffness, omega, mean, wave * omega), "0.1 s", tolerance="1e-12", overlap="preload")
         t = result.time
         height = result.item("bodies/position", "rod")[:, 1]
         assert_close(height, mean + wave * np.sin(omega * t), absolute=1e-11, what="height")
-        forces.append(result.read("joints/lift/normal_force").ravel())
+        forces.append(result.read("clearances/contacts/normal_force").ravel())
         exact = stiffness * (ROUND + ECCENTRIC * np.sin(omega * t) - mean - wave * np.sin(omega * t))
         assert_close(forces[-1], exact, absolute=1e-5, what="force")
         assert abs(result.summary["energy_residual_max"]) < 1e-7
@@ -175,9 +175,9 @@ def test_force_of_a_roller_follower(gudgeon):
     for stiffness in (2e6, 4e6, 8e6):
         height = np.sqrt((ROUND + ROLLER) ** 2 - ECCENTRIC**2) - 45.0 / stiffness
         text = follower("roller", stiffness, omega, height, ECCENTRIC * omega, damping=200.0)
-        result = run(gudgeon, text, "0.4 s", tolerance="1e-12")
+        result = run(gudgeon, text, "0.4 s", tolerance="1e-12", overlap="preload")
         late = result.time > 0.2
-        forces.append(result.read("joints/lift/normal_force").ravel()[late])
+        forces.append(result.read("clearances/contacts/normal_force").ravel()[late])
     line = [2 * forces[1] - forces[0], 2 * forces[2] - forces[1]]
     best = (4 * line[1] - line[0]) / 3
     expected = rigid_force("roller", omega, result.time[late])
@@ -187,17 +187,17 @@ def test_force_of_a_roller_follower(gudgeon):
 def test_speed_at_which_a_follower_leaves(gudgeon):
     """The cam's speed from which on the flat follower leaves, by bisection of runs, tends to that of the closed form."""
     found = []
-    for stiffness in (1e5, 2e5, 4e5):
+    for stiffness in (1e6, 2e6, 4e6):
 
         def leaves(omega):
             whole = stiffness + SPRING
             mean = (whole * ROUND - PRELOAD - MASS * 9.81) / whole
             wave = stiffness * ECCENTRIC / (whole - MASS * omega**2)
-            result = run(gudgeon, follower("flat", stiffness, omega, mean, wave * omega), f"{6.5 / omega:.6g} s", tolerance="1e-12")
+            result = run(gudgeon, follower("flat", stiffness, omega, mean, wave * omega), f"{6.5 / omega:.6g} s", tolerance="1e-12", overlap="preload")
             return not np.isnan(result.contacts["duration"][0])
 
         low, high = 90.0, 140.0
-        while high - low > 2e-6 * low:
+        while high - low > 1e-7 * low:
             middle = 0.5 * (low + high)
             low, high = (low, middle) if leaves(middle) else (middle, high)
         found.append(0.5 * (low + high))
@@ -205,7 +205,7 @@ def test_speed_at_which_a_follower_leaves(gudgeon):
     best = (4 * line[1] - line[0]) / 3
     expected = np.sqrt((PRELOAD + SPRING * ECCENTRIC + MASS * 9.81) / (MASS * ECCENTRIC))
     assert abs(found[0] / expected - 1) > 1e-4  # the contact yields
-    assert_close(best, expected, relative=1e-5, what="speed")
+    assert_close(best, expected, relative=1e-6, what="speed")
 
 
 # random profiles against a search of their own
@@ -254,7 +254,7 @@ def test_random_profiles(gudgeon, seed):
     joint = f"[clearance.cam]\nname cam follower profile radius[m] material law\nhit c b {profile} {ball} steel hard\n"
     text = two_bodies(joint.replace("{", "{{").replace("}", "}}"), law=law)
     result = run(gudgeon, text, "60 ms", every="0.2 ms")
-    rows = {name: result.rows(name) for name in ("bodies/position", "bodies/angle", "joints/hit/penetration", "joints/hit/state", "joints/hit/normal_force")}
+    rows = {name: result.rows(name) for name in ("bodies/position", "bodies/angle", "clearances/contacts/penetration", "clearances/contacts/state", "clearances/contacts/normal_force")}
     names = [str(name).strip() for name in result.read("bodies/names")]
     cam, other = names.index("cam"), names.index("ball")
     touched = 0
@@ -264,15 +264,15 @@ def test_random_profiles(gudgeon, seed):
         point = turn.T @ (rows["bodies/position"][k, other] - rows["bodies/position"][k, cam]) - [0.002, 0.001]
         distance, u = nearest(radius, point)
         delta = ball - distance
-        assert_close(rows["joints/hit/penetration"][k].item(), max(delta, 0.0), absolute=1e-12, what="penetration")
+        assert_close(rows["clearances/contacts/penetration"][k].item(), max(delta, 0.0), absolute=1e-12, what="penetration")
         if abs(delta) > 1e-10:
-            assert rows["joints/hit/state"][k].item() == (delta > 0)
+            assert rows["clearances/contacts/state"][k].item() == (delta > 0)
         if delta > 1e-7 and seed % 3:
             touched += 1
             stiffness = 4 / (6 * (1 - 0.3**2) / 207e9) / np.sqrt(curvature(radius, u) + 1 / ball)
-            assert_close(rows["joints/hit/normal_force"][k].item(), stiffness * delta**1.5, relative=1e-5, what="Hertz's force")
+            assert_close(rows["clearances/contacts/normal_force"][k].item(), stiffness * delta**1.5, relative=1e-5, what="Hertz's force")
     assert len(result.contacts) >= 1 and (touched >= 1 or seed % 3 == 0)
-    assert abs(result.summary["energy_residual_max"]) < 1e-8 * result.summary["energy_max"]
+    assert abs(result.summary["energy_residual_max"]) < 1e-9 * result.summary["energy_max"]
 
 
 def test_first_impact(gudgeon):
@@ -315,7 +315,6 @@ HEAD = "name cam follower {} law\nhit c b {} hard"
         ("x y radius[mm] material", '"10 0 -10 0 mm" "0 10 0 -10 mm" 5 steel', None),
         ("x y radius[mm] material", '"10 -10 10 -10 mm" "10 10 -10 -10 mm" 5 steel', "crosses itself"),
         ("profile radius[mm] material", "30mm 0 steel", "law 'hard'"),
-        ("profile", "{30mm*angle} 0", "profile"),
     ],
 )
 def test_mistakes(gudgeon, columns, cells, what):
@@ -343,3 +342,42 @@ def test_in_space_it_is_refused(gudgeon):
     text = two_bodies(CIRCLE.format(profile="30mm")).replace("[scene]\n", "[scene]\nspace = spatial\n", 1)
     done = run(gudgeon, text, "1 ms", expect=3)
     assert "clearance.cam" in done.stderr
+
+
+@pytest.mark.parametrize("deck", ["cam_follower", "scotch_yoke"])
+def test_decks_restart(gudgeon, deck):
+    """A checkpoint within a contact, whose law has the stiffness of its place, is continued to the bit."""
+    call(gudgeon, "run", ROOT / f"inputs/{deck}.deck", "--verify-restart", "--quiet", "--write", "channels", "--out", scratch() / "out")
+
+
+def test_sensitivity(gudgeon):
+    """Derivatives by the base radius through impacts (`gudgeon sensitivity`) against differences of runs."""
+    text = (ROOT / "inputs/cam_follower.deck").read_text().replace("500 rpm", "1200 rpm").replace("{base + roller}   0\n", "33.1 0\n")
+    text = text.replace("end         = 1 turns of motor", "end         = 30 ms").replace("tolerance   = 1e-9", "tolerance   = 1e-11")
+    text += "\n[sensitivity]\nparameters = base\nresults = contact.onset(2) contact.impact_speed(2) contact.onset(3)\n"
+    directory = scratch()
+    call(gudgeon, "sensitivity", written(directory, text), "--out", directory / "out", "--quiet")
+    found = [row.split(",") for row in (directory / "out/sensitivity.csv").read_text().splitlines()]
+    events = []
+    for base in (24.999, 25.001):
+        call(gudgeon, "run", directory / "scene.deck", "--set", f"base={base}mm", "--out", directory / f"{base}", "--quiet", "--write", "channels")
+        events.append(Run(directory / f"{base}").contacts)
+    for name, place in (("onset(2)", 1), ("impact_speed(2)", 1), ("onset(3)", 2)):
+        column = "time" if name.startswith("onset") else "impact_speed"
+        slope = (events[1][column][place] - events[0][column][place]) / 2e-6
+        (derivative,) = [float(row[2]) for row in found if row[:2] == [f"contact.{name}", "base"]]
+        assert_close(derivative, slope, relative=1e-4, what=name)
+
+
+def test_profile_is_drawn(gudgeon):
+    """The picture of a cam has its outline: places at the base radius and at the full lift."""
+    directory = scratch()
+    call(gudgeon, "run", ROOT / "inputs/cam_follower.deck", "--out", directory / "out", "--quiet")
+    numbers = []
+    for line in (directory / "out/figures/strip.n.6.dat").read_text().splitlines():
+        words = line.split()
+        if len(words) >= 2 and not line.startswith("#"):
+            numbers.append([float(word) for word in words[:2]])
+    radii = np.hypot(*np.array(numbers).T)
+    scale = 1e3 if radii.max() > 1 else 1.0
+    assert (abs(radii - 0.025 * scale) < 1e-5 * scale).sum() > 100 and (abs(radii - 0.033 * scale) < 1e-5 * scale).sum() > 20

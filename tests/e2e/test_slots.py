@@ -2,7 +2,7 @@
 
 import numpy as np
 import pytest
-from support import assert_close
+from support import ROOT, Run, assert_close, call, scratch
 from test_cams import STEEL, run
 
 
@@ -42,7 +42,7 @@ slip 0.1 1e-4 1e-3
 SLOT = "name slot pin axis {} width[mm] radius[mm] material law friction\nguide {} 12 5 steel {} {{friction}}\n"
 
 
-def same_motion(a, b, relative=1e-12):
+def same_motion(a, b, relative=1e-11):
     """Two runs have one motion."""
     for name in ("position", "velocity", "angular_velocity"):
         expected = b.read(f"bodies/{name}")
@@ -63,7 +63,7 @@ below down p y 0 5 steel hard {friction}
     assert len(one.contacts) == len(two.contacts) >= 4
     for name in ("time", "impact_speed", "peak_force", "duration", "impulse"):
         assert_close(one.contacts[name], two.contacts[name], relative=1e-10, absolute=1e-14, what=name)
-    same_motion(one, two)
+    same_motion(one, two, relative=1e-9 if friction == "slip" else 1e-11)  # its steep friction law amplifies round-off
 
 
 @pytest.mark.parametrize("friction", ["none", "slip", "stick"])
@@ -71,14 +71,14 @@ def test_slot_without_length_is_a_bearing(gudgeon, friction):
     """A slot whose centreline is a point is a round hole; a law with a stiffness of its own is the same there."""
     slot = "[clearance.slot]\n" + SLOT.format("length[mm]", "s p x 0", "linear")
     hole = """[clearance.revolute]
-name bearing journal bearing_radius[mm] clearance[mm] material law friction
-guide s p 6 1 steel linear {friction}
+name bearing journal level bearing_radius[mm] clearance[mm] material law friction
+guide s p clearance 6 1 steel linear {friction}
 """
     body = "0.2 4e-5 0.5 0.1 0.4 0.9 30"
-    one = run(gudgeon, pin(slot, body=body, friction=friction), "25 ms")
-    two = run(gudgeon, pin(hole, body=body, friction=friction), "25 ms")
+    one = run(gudgeon, pin(slot, body=body, friction=friction), "25 ms", start="given")
+    two = run(gudgeon, pin(hole, body=body, friction=friction), "25 ms", start="given")
     assert len(one.contacts) == len(two.contacts) >= 4
-    same_motion(one, two, relative=1e-11)
+    same_motion(one, two, relative=1e-9 if friction == "slip" else 1e-11)  # its steep friction law amplifies round-off
 
 
 @pytest.mark.parametrize("wall", [1, -1])
@@ -96,13 +96,13 @@ def test_orbit_in_a_groove(gudgeon, wall):
     more = "" if wall > 0 else f"[force.spring]\nname i j stiffness[N/m] free_length[m]\nback g p {pull} 1e-9\n"
     slot = "[clearance.slot]\n" + SLOT.format("arc_radius[mm] arc[deg]", "g p x 100 360", "linear")
     body = f"{mass} 4e-5 {1e3 * radius:.17g} 0 0 {speed} 0"
-    result = run(gudgeon, pin(slot, more, body=body), "0.5 s", tolerance="1e-12", start="given")
+    result = run(gudgeon, pin(slot, more, body=body), "0.5 s", tolerance="1e-12", start="given", overlap="preload")
     where = result.item("bodies/position", "bob")
     assert_close(np.hypot(*where.T), radius, absolute=1e-9, what="radius")
     turned = speed / radius * result.time
     assert turned[-1] > 4 * np.pi
     assert_close(where, radius * np.array([np.cos(turned), np.sin(turned)]).T, absolute=1e-7, what="position")
-    assert_close(result.read("joints/guide/normal_force").ravel()[1:], stiffness * delta, absolute=1e-3, what="force")
+    assert_close(result.read("clearances/contacts/normal_force").ravel()[1:], stiffness * delta, absolute=1e-3, what="force")
     assert abs(result.summary["energy_residual_max"]) < 1e-9
 
 
@@ -143,3 +143,15 @@ def test_mistakes(gudgeon, columns, cells, what):
     done = run(gudgeon, pin(table), "1 ms", expect=3)
     assert what in done.stderr, done.stderr
     assert "scene.deck:" in done.stderr and "^" in done.stderr
+
+
+def test_yoke_goes_with_its_crank_within_its_play(gudgeon):
+    """The yoke of the deck is where the crank's sine is, but for the play and what the walls yield; both walls are met."""
+    directory = scratch()
+    call(gudgeon, "run", ROOT / "inputs/scotch_yoke.deck", "--out", directory / "out", "--quiet", "--write", "channels")
+    result = Run(directory / "out")
+    lag = result.item("bodies/position", "yoke")[:, 0] - 0.04 * np.cos(10 * np.pi * result.time)
+    deepest = result.contacts["peak_penetration"].max()
+    assert deepest < 2e-5
+    assert abs(lag).max() < 1e-4 + deepest
+    assert lag.max() > 9.9e-5 and lag.min() < -9.9e-5

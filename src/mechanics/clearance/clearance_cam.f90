@@ -103,6 +103,15 @@ contains
       is_flat = item%word("contact") == "flat"
    end function is_flat
 
+   !> Whether a row gives a radius over the angle; zero is none.
+   pure logical function has_radius(item)
+      type(item_t), intent(in) :: item  !! the row
+
+      has_radius = item%is_given("profile")
+      if (has_radius) has_radius = abs(item%number("profile")) > 0.0_wp .or. &
+                                   .not. item%values(place_of(item, "profile"))%expression%is_constant
+   end function has_radius
+
    !> The surfaces where the profile is least convex, which a law must fit.
    pure subroutine describe_cam(item, materials, pair)
       type(item_t), intent(in) :: item              !! the row
@@ -145,9 +154,9 @@ contains
       type(profile_t) :: profile
 
       fault = fault_t("", "", "")
-      if (has_points(item) .and. item%is_given("profile")) then
+      if (has_points(item) .and. has_radius(item)) then
          fault = fault_t("profile", "the profile is given twice", "give profile, or points")
-      else if (.not. (has_points(item) .or. item%is_given("profile"))) then
+      else if (.not. (has_points(item) .or. has_radius(item))) then
          fault = fault_t("cam", "cam '"//item%name//"' has no profile", "give column profile, or points: x and y, or a file")
       else if (has_points(item)) then
          call check_points(item, .true., fault)

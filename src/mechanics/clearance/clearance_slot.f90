@@ -49,7 +49,7 @@ contains
       call add_reference(info, "slot", "points", "start of a straight centreline, centre of an arc, or origin of points")
       call add_reference(info, "pin", "points", "centre of the pin")
       call add_axis_columns(info, "centreline, or of the start of an arc from its centre,")
-      call add_number(info, "length", dim_length, "length of a straight centreline", default="0 m", lower=0.0_wp)
+      call add_number(info, "length", dim_length, "length of a straight centreline; 0: a round hole", default="", lower=0.0_wp)
       call add_number(info, "arc_radius", dim_length, "radius of the centreline of an arc", default="", lower=0.0_wp, &
                       open_lower=.true.)
       call add_number(info, "arc", dim_angle, "angle of an arc, counter-clockwise; 360 deg: a closed groove", default="0 rad", &

@@ -74,6 +74,7 @@ module curve_contacts
       procedure :: span_of => curve_span_of
       procedure :: fit => curve_fit
       procedure :: note_contact_rate => curve_note_contact_rate
+      procedure :: elastic_energy => curve_elastic_energy
    end type curve_contacts_t
 
 contains
@@ -170,23 +171,30 @@ contains
          side = 1.0_wp
          if (curved%meets == meets_cam) then
             distance = dot_product(n, e)
-            meeting%b = -foot%curvature/(1.0_wp - foot%curvature*distance)
+            meeting%b = -foot%curvature/apart(1.0_wp - foot%curvature*distance)
          else
             distance = norm2(e)
-            if (foot%end /= 0) then
+            if (foot%end /= 0 .and. distance > tiny(1.0_wp)) then
                n = e/distance
                meeting%b = 1.0_wp/distance
             else
                side = sign(1.0_wp, dot_product(n, e))
                n = side*n
                distance = dot_product(n, e)
-               meeting%b = -side*foot%curvature/(1.0_wp - side*foot%curvature*distance)
+               meeting%b = -side*foot%curvature/apart(1.0_wp - side*foot%curvature*distance)
             end if
          end if
          meeting%n = matmul(rot_i, n)
          meeting%delta = distance + curved%offset
       end associate
    end subroutine meet
+
+   !> A divisor, kept from zero: p is in a centre of curvature, where the normal may turn at any rate.
+   elemental real(wp) function apart(divisor)
+      real(wp), intent(in) :: divisor  !! the divisor [1]
+
+      apart = sign(max(abs(divisor), epsilon(1.0_wp)), divisor)
+   end function apart
 
    !> Kinematics of a contact from where it is.
    pure subroutine take_meeting(self, k, motion, meeting, contact)
@@ -341,6 +349,28 @@ contains
          power = (energy(2) - energy(1))/(2.0_wp*h)*speed/foot%pace
       end associate
    end function stiffening_power
+
+   !> Elastic energy that the touching contacts store, with the parameters of the place where each is.
+   function curve_elastic_energy(self, motion) result(energy)
+      class(curve_contacts_t), intent(in) :: self  !! the set
+      type(motion_t), intent(in) :: motion         !! positions
+      real(wp) :: energy                           !! energy stored [J]
+
+      integer :: k
+      real(wp) :: parameters(n_law_parameter)
+      type(meeting_t) :: meeting
+
+      energy = 0.0_wp
+      do k = 1, self%n
+         if (.not. (self%contact(k)%is_touching .or. self%laws%normal%acts_apart)) cycle
+         call meet(self, k, motion, meeting)
+         parameters = self%laws%parameters(:, k)
+         associate (curved => self%curved(k))
+            if (curved%along%varies) parameters = parameters_at(curved%along, curved%radius, meeting%foot%curvature)
+         end associate
+         energy = energy + self%laws%normal%potential(meeting%delta, parameters)
+      end do
+   end function curve_elastic_energy
 
    !> How far the curve and what meets it are from the centres of mass.
    pure function curve_span_of(self, contact) result(span)
