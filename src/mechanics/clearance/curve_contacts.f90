@@ -149,7 +149,7 @@ contains
       type(motion_t), intent(in) :: motion         !! positions
       type(meeting_t), intent(out) :: meeting      !! where it is
 
-      real(wp) :: distance, e(2), n(2), side
+      real(wp) :: bend, distance, e(2), n(2), side
 
       associate (curved => self%curved(k), rot_i => motion%rot(1:2, 1:2, self%items%body(1, k)), &
                  rot_j => motion%rot(1:2, 1:2, self%items%body(2, k)), foot => meeting%foot)
@@ -168,33 +168,22 @@ contains
          call find_nearest(curved%profile, e, foot)
          e = e - foot%q
          n = [-foot%tangent(2), foot%tangent(1)]
-         side = 1.0_wp
-         if (curved%meets == meets_cam) then
-            distance = dot_product(n, e)
-            meeting%b = -foot%curvature/apart(1.0_wp - foot%curvature*distance)
+         distance = norm2(e)
+         if (curved%meets == meets_slot .and. foot%end /= 0 .and. distance > tiny(1.0_wp)) then
+            n = e/distance
+            meeting%b = 1.0_wp/distance
          else
-            distance = norm2(e)
-            if (foot%end /= 0 .and. distance > tiny(1.0_wp)) then
-               n = e/distance
-               meeting%b = 1.0_wp/distance
-            else
-               side = sign(1.0_wp, dot_product(n, e))
-               n = side*n
-               distance = dot_product(n, e)
-               meeting%b = -side*foot%curvature/apart(1.0_wp - side*foot%curvature*distance)
-            end if
+            side = 1.0_wp
+            if (curved%meets == meets_slot) side = sign(1.0_wp, dot_product(n, e))
+            n = side*n
+            distance = dot_product(n, e)
+            bend = 1.0_wp - side*foot%curvature*distance  ! zero where p is in the centre of curvature
+            meeting%b = -side*foot%curvature/sign(max(abs(bend), epsilon(1.0_wp)), bend)
          end if
          meeting%n = matmul(rot_i, n)
          meeting%delta = distance + curved%offset
       end associate
    end subroutine meet
-
-   !> A divisor, kept from zero: p is in a centre of curvature, where the normal may turn at any rate.
-   elemental real(wp) function apart(divisor)
-      real(wp), intent(in) :: divisor  !! the divisor [1]
-
-      apart = sign(max(abs(divisor), epsilon(1.0_wp)), divisor)
-   end function apart
 
    !> Kinematics of a contact from where it is.
    pure subroutine take_meeting(self, k, motion, meeting, contact)
