@@ -3,7 +3,7 @@ module curve_rows
    use generic_item, only: column_number, make_expression, set_number
    use item, only: item_t
    use kind_info, only: kind_info_t
-   use kinds, only: wp
+   use kinds, only: pi, wp
    implicit none (type, external)
    private
    public :: shape_curve
@@ -11,7 +11,7 @@ module curve_rows
 contains
 
    !> Curves of cams and slots: an eccentric circle about a point that is not its centre, whose curvature is the same all around; a
-   !> straight slot, an arc, and a centreline through points.
+   !> straight slot, a circular groove, and a centreline through points.
    subroutine shape_curve(info, k, radius, width, item)
       type(kind_info_t), intent(in) :: info   !! the geometry
       integer, intent(in) :: k                !! number of the item
@@ -31,7 +31,7 @@ contains
       end if
       if (column_number(info, "arc_radius") == 0) return
       call set_number(info, "arc_radius", radius, item)
-      call set_number(info, "arc", 2.0_wp, item)
+      call set_number(info, "arc", 2.0_wp*pi, item)  ! closed: from its centre a pin would come to where an end starts
       call set_number(info, "width", width, item)
       call give(info, "length", k == 1, item)
       call give(info, "arc_radius", k == 2, item)
