@@ -5,6 +5,7 @@ import pytest
 from scipy.optimize import brentq, minimize_scalar
 from support import ROOT, Run, assert_close, call, scratch, written
 
+FRICTIONS = "[friction.coulomb]\nname coefficient\nstick 0.25\n[friction.ambrosio]\nname coefficient v0[m/s] v1[m/s]\nslip 0.1 1e-4 1e-3\n"
 STEEL = "[material]\nname young[GPa] poisson\nsteel 207 0.3\n"
 
 
@@ -33,12 +34,7 @@ b ball 0 0
 {STEEL}
 {joint.format(friction=friction)}
 {law}
-[friction.coulomb]
-name coefficient
-stick 0.25
-[friction.ambrosio]
-name coefficient v0[m/s] v1[m/s]
-slip 0.1 1e-4 1e-3
+{FRICTIONS}
 {more}"""
 
 
@@ -307,6 +303,8 @@ HEAD = "name cam follower {} law\nhit c b {} hard"
         ("profile contact material", "{30mm*(1 + 0.3*cos(3*angle))} flat steel", "where a flat face would touch at two places"),
         ("profile radius[mm] material", "{30mm + 1mm/rad*angle} 5 steel", "the profile does not close"),
         ("profile radius[mm] material", "{30mm*cos(angle)} 5 steel", "the radius of the profile is"),
+        ("profile radius[mm] material", "{30mm*log(angle)} 5 steel", "the radius of the profile is no number at 0 deg"),
+        ("profile radius[mm] material", "{30mm*sqrt(1 - angle/2rad)} 5 steel", "the radius of the profile is no number at 115 deg"),
         ("profile contact radius[mm] material", "30mm flat 5 steel", "a flat face has no radius"),
         ("x radius[mm] material", '"1 2 3 4 mm" 5 steel', "the points have one coordinate"),
         ("x y radius[mm] material", '"10 0 -10 mm" "0 10 0 mm" 5 steel', "a smooth curve needs at least 4"),

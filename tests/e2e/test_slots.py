@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 from support import ROOT, Run, assert_close, call, scratch
-from test_cams import STEEL, run
+from test_cams import FRICTIONS, STEEL, run
 
 
 def pin(joint, more="", gravity=0.0, body="0.2 4e-5 5 0 0.4 0.9 30", friction="none"):
@@ -30,12 +30,7 @@ hard 0.8
 [contact.kelvin_voigt]
 name stiffness[N/m] restitution
 linear 1e6 1
-[friction.coulomb]
-name coefficient
-stick 0.25
-[friction.ambrosio]
-name coefficient v0[m/s] v1[m/s]
-slip 0.1 1e-4 1e-3
+{FRICTIONS}
 {more}"""
 
 

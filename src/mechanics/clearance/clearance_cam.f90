@@ -10,6 +10,7 @@
 !> roller fits every hollow of the profile, so that it touches at one place; a face is on a convex profile; the profile has no
 !> corners.
 module clearance_cam
+   use, intrinsic :: ieee_arithmetic, only: ieee_is_finite
    use bodies, only: material_t
    use curve_contacts, only: curve_contacts_t, meets_cam, meets_face
    use curve_stiffness, only: put_curved
@@ -107,9 +108,10 @@ contains
    pure logical function has_radius(item)
       type(item_t), intent(in) :: item  !! the row
 
-      has_radius = item%is_given("profile")
-      if (has_radius) has_radius = abs(item%number("profile")) > 0.0_wp .or. &
-                                   .not. item%values(place_of(item, "profile"))%expression%is_constant
+      associate (value => item%values(place_of(item, "profile")))
+         has_radius = value%given
+         if (has_radius .and. value%expression%is_constant) has_radius = abs(value%number) > 0.0_wp
+      end associate
    end function has_radius
 
    !> The surfaces where the profile is least convex, which a law must fit.
@@ -168,6 +170,7 @@ contains
       else if (item%number("radius") > 0.0_wp .and. max(item%reference("material"), item%reference("follower_material")) == 0) then
          fault = fault_t("cam", "cam '"//item%name//"' has no material", "give column material")
       end if
+      if (fault%column == "" .and. has_radius(item)) call check_radius(item, fault)
       if (fault%column == "") then
          call cam_profile(item, profile)
          call check_closed(profile, fault)
@@ -179,6 +182,31 @@ contains
       message = fault%message
       help = fault%help
    end subroutine cam_mistake
+
+   !> A radius is a positive number all around.
+   subroutine check_radius(item, fault)
+      type(item_t), intent(in) :: item          !! the row
+      type(fault_t), intent(inout) :: fault     !! set where something is wrong
+
+      integer, parameter :: n_angle = 720  ! directions in a turn
+      character(:), allocatable :: radius
+      real(wp) :: r(3)
+      integer :: k, place
+      logical :: is_number
+
+      place = place_of(item, "profile")
+      do k = 0, n_angle
+         call item%values(place)%expression%evaluate(2.0_wp*pi*k/n_angle, r(1), r(2), r(3))
+         is_number = all(ieee_is_finite(r))
+         if (is_number) is_number = r(1) > 0.0_wp
+         if (is_number) cycle
+         radius = "no number"
+         if (ieee_is_finite(r(1))) radius = real_text(1.0e3_wp*r(1), 4)//" mm"
+         fault = fault_t("profile", "the radius of the profile is "//radius//" at "//real_text(360.0_wp*k/n_angle, 4)//" deg", &
+                         "it must be positive, with two derivatives, all around")
+         return
+      end do
+   end subroutine check_radius
 
    !> A face needs a convex profile; a roller fits the hollows, and touches at one place wherever it is on the profile.
    subroutine check_follower(item, profile, fault)

@@ -174,7 +174,7 @@ contains
                                                              " different points, a closed curve needs at least 4", "")
    end subroutine check_points
 
-   !> Whether a profile is a closed curve that winds once, and a polar one positive and smooth where it closes.
+   !> Whether a profile is a closed curve that winds once, and a polar one smooth where it closes.
    subroutine check_closed(profile, fault)
       type(profile_t), intent(in) :: profile   !! the curve, with nodes
       type(fault_t), intent(inout) :: fault    !! set where something is wrong
@@ -183,13 +183,6 @@ contains
       integer :: k
 
       if (profile%form == profile_polar) then
-         do k = 1, size(profile%u)
-            call profile%polar%evaluate(profile%u(k), start(1), start(2), start(3))
-            if (start(1) > 0.0_wp) cycle
-            fault = fault_t("profile", "the radius of the profile is "//real_text(1.0e3_wp*start(1), 4)//" mm at " &
-                            //real_text(profile%u(k)*180.0_wp/pi, 4)//" deg", "it must be positive all around")
-            return
-         end do
          call profile%polar%evaluate(profile%range(1), start(1), start(2), start(3))
          call profile%polar%evaluate(profile%range(2), end(1), end(2), end(3))
          if (.not. abs(end(1) - start(1)) <= same*start(1)) then
