@@ -160,6 +160,22 @@ def test_stops_drags_and_gears(gudgeon):
         assert np.abs(spin[k] - ratio * first).max() < 1e-7, k
 
 
+def test_couplers(gudgeon):
+    """COUPLER of two and three joints, angles and displacements, by TYPE and SCALES: closed forms; what has a FUNCTION is left out."""
+    run, said = imported(gudgeon, "couplers")
+    t = run["time"][:]
+    assert "COUPLER/3: a FUNCTION of its own is not supported" in said and "(1 item)" in said
+    c, inertia, torque = np.array([1, 1, -2]), np.array([0.02, 0.05, 0.03]), np.array([1.5, -0.4, 0])
+    rate = (torque - c * (c @ (torque / inertia)) / (c**2 @ (1 / inertia))) / inertia
+    for name, acceleration in zip(("PART_2", "PART_3", "PART_4"), rate * [1, 1, -1]):
+        assert np.abs(column(run, "bodies", "spin", name)[:, 2] - acceleration * t).max() < 1e-8, name
+    arm = 0.025
+    fall = 2 * 9.80665 / (2 + 0.04 / arm**2)
+    assert np.abs(column(run, "bodies", "position", "PART_5")[:, 2] + fall * t**2 / 2).max() < 1e-9
+    assert np.abs(column(run, "bodies", "spin", "PART_6")[:, 2] - fall * t / arm).max() < 1e-8
+    assert np.abs(column(run, "bodies", "position", "PART_6")[:, 2] + 9.80665 * t**2 / 2).max() < 1e-8  # slides freely
+
+
 def test_shafts_and_racks(gudgeon):
     """CONVEL keeps the speeds of two shafts equal, RACKPIN lets a rack turn its pinion as it falls; closed forms."""
     run, said = imported(gudgeon, "shafts")

@@ -13,6 +13,7 @@ module clearance_bench
    use errors, only: error_t
    use fixed_random, only: random_t, seed_of
    use friction_law, only: friction_law_t, memory_bristle, memory_none, memory_slip
+   use curve_rows, only: shape_curve
    use generic_item, only: column_number, fill_item, set_number
    use item, only: item_t
    use kind_info, only: kind_info_t, free_rotation, free_translation
@@ -143,7 +144,7 @@ contains
          call set_number(friction_info, "force", 1.0e4_wp, law_item)
          call friction%prepare(law_item)
       end if
-      c = column_number(info, "form") + column_number(info, "faces")
+      c = column_number(info, "form") + column_number(info, "faces") + column_number(info, "contact")
       level = column_number(info, "level")
       words = split_blank("corrected")
       if (c > 0) words = split_blank(info%columns(c)%choices)
@@ -174,6 +175,7 @@ contains
          call set_number(info, "guide_start", 0.0_wp, items(k))
          call set_number(info, "guide_end", 0.0_wp, items(k))
          if (c > 0) items(k)%values(c)%text = words(form)%s
+         call shape_curve(info, k, 3.0_wp*hole, 2.0_wp*(hole + gap), items(k))
          if (level > 0) items(k)%values(level)%text = "clearance"
          points%body(2*k - 1:2*k) = [body_i(k), body_j(k)]
          points%s(1:2, 2*k - 1) = random%vector(2, -0.05_wp, 0.05_wp)

@@ -69,6 +69,7 @@ contains
          points%s(1:2, 2*k - 1) = length*random%vector(2, -1.0_wp, 1.0_wp)
          points%s(1:2, 2*k) = length*random%vector(2, -1.0_wp, 1.0_wp)
          call fill_item(info, k, random, items(k), length)
+         if (info%couples_joints) call take_angles(items(k))
       end do
       angle(0) = 0.0_wp
       angle(1:) = random%vector(n_body, -2.0_wp, 2.0_wp)
@@ -79,8 +80,9 @@ contains
       end if
       bench%set%first_row = before
       call new_rows(before + n_item*info%n_row + 1, bench%rows)
-      call bench%set%declare_rows(bench%rows)
       call new_motion(n_body, bench%motion)
+      if (info%couples_joints) call take_turns(bench, angle)
+      call bench%set%declare_rows(bench%rows)
       do
          do k = 1, n_body
             bench%q(:, k) = random%vector(3, -2.0_wp, 2.0_wp)*[length, length, 1.0_wp]
@@ -93,6 +95,46 @@ contains
          bench%a(:, k) = random%vector(3, -2.0_wp, 2.0_wp)*[length, length, 1.0_wp]
       end do
    end subroutine make_bench
+
+   !> Couple the angles of the joints, and keep the sum of the given positions: so that the row does not depend on lengths.
+   subroutine take_angles(item)
+      type(item_t), intent(inout) :: item   !! a row
+
+      character(1), parameter :: digit(3) = ["1", "2", "3"]
+      integer :: e, place
+
+      do e = 1, 3
+         place = find_place(item, "of_"//digit(e))
+         item%values(place)%text = "own"
+      end do
+      place = find_place(item, "offset")
+      item%values(place)%given = .false.
+   end subroutine take_angles
+
+   !> Two revolute joints with the bodies of each item, for a kind that couples joints.
+   subroutine take_turns(bench, angle)
+      type(bench_t), intent(inout) :: bench     !! the kind, prepared
+      real(wp), intent(in) :: angle(0:n_body)   !! (0:bodies) angles at the start [rad]
+
+      class(joint_set_t), allocatable :: joint
+      type(item_t) :: items(1)
+      type(kind_info_t) :: info
+      type(random_t) :: random
+      integer :: e, k
+
+      call new_joint_set(1, joint)
+      info = joint%info()
+      do k = 1, n_item
+         do e = 1, 2
+            random%state = seed_of(bench%name, k)
+            call fill_item(info, k, random, items(1))
+            call new_joint_set(1, joint)
+            call joint%new(items, bench%set%body(:, k:k), bench%set%s_i(:, k:k), bench%set%s_j(:, k:k))
+            call joint%prepare(items, angle)
+            call bench%set%take_joint(k, joint, bench%motion)
+         end do
+      end do
+   end subroutine take_turns
 
    !> A law of friction for each item.
    function friction_laws(n) result(laws)

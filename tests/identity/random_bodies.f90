@@ -30,25 +30,32 @@ module random_bodies
 contains
 
    !> Bodies and rows with numbers from the seed. All rows are solved for but the last n_left.
-   subroutine new_problem(n_v, is_known, body, n_left, seed, problem)
+   subroutine new_problem(n_v, is_known, body, n_left, seed, problem, more)
       integer, intent(in) :: n_v               !! rates of a body
       logical, intent(in) :: is_known(:)       !! (bodies) whether the motion of a body is known
       integer, intent(in) :: body(:, :)        !! (2, rows) bodies of the rows, 0: ground
       integer, intent(in) :: n_left            !! rows that are not solved for
       integer, intent(in) :: seed              !! of the numbers
       type(problem_t), intent(out) :: problem  !! the equations
+      integer, intent(in), optional :: more(:, :)  !! (3, blocks) row and two bodies of each further block; absent: none
 
       type(random_t) :: random
-      integer :: k
+      integer :: k, n_more
 
+      n_more = 0
+      if (present(more)) n_more = size(more, 2)
       random%state = int(seed, i8)
       associate (rows => problem%rows, n => size(is_known))
          problem%n_body = n
-         call new_rows(size(body, 2), rows, n_v)
-         rows%body = body
+         call new_rows(size(body, 2), rows, n_v, n_more)
+         rows%body(:, :rows%n) = body
+         if (present(more)) then
+            rows%owner(rows%n + 1:) = more(1, :)
+            rows%body(:, rows%n + 1:) = more(2:, :)
+         end if
          rows%n_solve = rows%n - n_left
          call list_sides(is_known, rows)
-         do k = 1, rows%n
+         do k = 1, rows%n_block
             rows%jac(:, k) = random%vector(2*n_v, -1.0_wp, 1.0_wp)
          end do
          allocate (problem%inverse_mass(n_v, 0:n), problem%g(n_v, 0:n), source=0.0_wp)
@@ -90,16 +97,18 @@ contains
       type(problem_t), intent(in) :: problem   !! the equations
       real(wp), allocatable :: jac(:, :)       !! (solved rows, coordinates) J [1 or m]
 
-      integer :: k, number(0:problem%n_body), row, side
+      integer :: block, k, number(0:problem%n_body), row, side
 
       associate (rows => problem%rows, n_v => problem%rows%n_v)
          number = 0
          number(rows%unknown) = [(k, k=1, rows%n_unknown)]
          allocate (jac(rows%n_solve, n_v*rows%n_unknown), source=0.0_wp)
-         do row = 1, rows%n_solve
+         do block = 1, rows%n_block
+            row = rows%owner(block)
+            if (row > rows%n_solve) cycle
             do side = 1, 2
-               k = number(rows%body(side, row))
-               if (k > 0) jac(row, n_v*(k - 1) + 1:n_v*k) = rows%jac(n_v*(side - 1) + 1:n_v*side, row)
+               k = number(rows%body(side, block))
+               if (k > 0) jac(row, n_v*(k - 1) + 1:n_v*k) = rows%jac(n_v*(side - 1) + 1:n_v*side, block)
             end do
          end do
       end associate

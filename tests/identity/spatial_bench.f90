@@ -78,6 +78,7 @@ contains
          s(:, 2, k) = random%vector(3, -1.0_wp, 1.0_wp)
          call fill_item(bench%info, k, random, items(k))
          if (seed == 1) call leave_open(bench%info, "axis_j", items(k))
+         call leave_open(bench%info, "offset", items(k))  ! of a coupler
          call set_number(bench%info, "pitch", 2.0_wp + k, items(k))  ! so long that rows are smooth where they are differenced
       end do
       angle = 0.0_wp
@@ -92,12 +93,12 @@ contains
       end if
       bench%set%first_row = before
       call new_rows(before + n_item*bench%info%n_row + 1, bench%rows, n_v_spatial)
-      call bench%set%declare_rows(bench%rows)
       call new_motion(n_body, bench%motion, own)
       call draw_state(random, bench)
       call evaluate_motion(bench, 0.0_wp)
       call bench%set%set_start(bench%motion)
       call take_joints(bench)
+      call bench%set%declare_rows(bench%rows)
       do k = 1, 1000  ! until no axis is nearly along one that an angle is measured about
          call draw_state(random, bench)
          call evaluate_after(bench, 0.0_wp)
@@ -121,7 +122,7 @@ contains
       if (allocated(item%values(c)%table)) deallocate (item%values(c)%table)
    end subroutine leave_open
 
-   !> Revolute joints with the items' bodies, for kinds that name a joint.
+   !> Joints with the items' bodies: a revolute one for kinds that name a joint, three for those that couple them.
    subroutine take_joints(bench)
       type(bench_t), intent(inout) :: bench    !! the bodies stand where the deck puts them
 
@@ -130,21 +131,24 @@ contains
       type(kind_info_t) :: info
       type(random_t) :: random
       real(wp), parameter :: angle(0:n_body) = 0.0_wp
-      integer :: k, kind
+      character(*), parameter :: names(3) = [character(19) :: "joint.revolute", "joint.translational", "joint.cylindrical"]
+      integer :: e, k, kind
 
-      if (column_number(bench%info, "joint") == 0) return
+      if (column_number(bench%info, "joint") == 0 .and. .not. bench%info%couples_joints) return
       do k = 1, n_item
-         do kind = 1, n_joint_kinds()
-            call new_joint_set(kind, joint)
-            info = joint%info()
-            if (info%name == "joint.revolute" .and. is_of_space(info, .true.)) exit
+         do e = 1, merge(3, 1, bench%info%couples_joints)
+            do kind = 1, n_joint_kinds()
+               call new_joint_set(kind, joint)
+               info = joint%info()
+               if (info%name == trim(names(e)) .and. is_of_space(info, .true.)) exit
+            end do
+            random%state = seed_of(bench%name, k + 10*(e - 1))
+            call fill_item(info, k, random, items(1))
+            call joint%new(items, bench%set%body(:, k:k), bench%set%s_i(:, k:k), bench%set%s_j(:, k:k))
+            call joint%prepare(items, angle)
+            call joint%set_start(bench%motion)
+            call bench%set%take_joint(k, joint, bench%motion)
          end do
-         random%state = seed_of(bench%name, k)
-         call fill_item(info, k, random, items(1))
-         call joint%new(items, bench%set%body(:, k:k), bench%set%s_i(:, k:k), bench%set%s_j(:, k:k))
-         call joint%prepare(items, angle)
-         call joint%set_start(bench%motion)
-         call bench%set%take_joint(k, joint, bench%motion)
       end do
    end subroutine take_joints
 

@@ -43,7 +43,7 @@ contains
 
       real(wp), allocatable :: full_a(:, :), full_lambda(:), left(:, :), row_left(:)
       real(wp) :: maximum(2)
-      integer :: body, row, side
+      integer :: block, body, row, side
 
       if (allocated(error)) return
       allocate (full_a(size(a, 1), 0:problem%n_body), source=untouched)
@@ -58,11 +58,13 @@ contains
          ! M a + J^T lambda = g, J a = b, side by side
          left(:, rows%unknown) = a(:, rows%unknown)/problem%inverse_mass(:, rows%unknown) - problem%g(:, rows%unknown)
          row_left = -problem%b
-         do row = 1, rows%n_solve
+         do block = 1, rows%n_block
+            row = rows%owner(block)
+            if (row > rows%n_solve) cycle
             do side = 1, 2
-               body = rows%body(side, row)
+               body = rows%body(side, block)
                if (.not. any(rows%unknown == body)) cycle
-               associate (jac => rows%jac(n_v*(side - 1) + 1:n_v*side, row))
+               associate (jac => rows%jac(n_v*(side - 1) + 1:n_v*side, block))
                   left(:, body) = left(:, body) + jac*lambda(row)
                   row_left(row) = row_left(row) + dot_product(jac, a(:, body))
                end associate
@@ -103,6 +105,15 @@ contains
                                      [2, size(tree(n_rates(k), some_known, seed))/2 + 2]), 2, 7*seed, problem)
             do i = 1, n_solver_kinds()
                call check_solver("known")
+            end do
+            associate (body => tree(n_rates(k), some_known, seed))
+               associate (n => size(body, 2))
+                  call new_problem(n_rates(k), some_known, body, 0, 7*seed, problem, &
+                                   reshape([n, 1, 2, n, 0, 5, n - 1, 6, 4], [3, 3]))
+               end associate
+            end associate
+            do i = 1, n_solver_kinds()
+               call check_solver("rows of many bodies")
             end do
          end do
       end do

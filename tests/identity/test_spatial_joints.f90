@@ -228,6 +228,7 @@ contains
       do kind = 1, size(kinds)
          call make_bench(kinds(kind), 1, bench)
          if (bench%set%is_driver .or. bench%info%is_start_only) cycle
+         if (bench%info%couples_joints) cycle  ! its start comes with its joints, `take_joint`
          if (bench%info%name == "joint.universal" .or. bench%info%name == "joint.perpendicular") cycle  ! both axes are given
          call bench%set%set_start(bench%motion)
          call bench%set%evaluate(now, bench%motion, bench%rows)

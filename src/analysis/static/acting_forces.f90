@@ -97,15 +97,16 @@ contains
       real(wp), intent(inout) :: acting(0:)      !! (0:bodies) sums of magnitudes [N.m]
 
       real(wp) :: scale(system%linkage%coordinates%n_v)
-      integer :: body, row, side
+      integer :: block, body, side
 
       associate (rows => system%linkage%rows, n_v => system%linkage%coordinates%n_v, lambda => system%linkage%solution%lambda)
          scale = system%linkage%coordinates%scales(system%linkage%scales%length, 1)
-         do row = 1, rows%n
+         do block = 1, rows%n_block
             do side = 1, 2
-               body = rows%body(side, row)
+               body = rows%body(side, block)
                if (body == 0) cycle
-               acting(body) = acting(body) + abs(lambda(row))*norm2(rows%jac(n_v*(side - 1) + 1:n_v*side, row)*scale)
+               acting(body) = acting(body) + abs(lambda(rows%owner(block))) &
+                              *norm2(rows%jac(n_v*(side - 1) + 1:n_v*side, block)*scale)
             end do
          end do
       end associate

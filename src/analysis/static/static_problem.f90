@@ -81,16 +81,16 @@ contains
       class(mechanism_t), intent(in) :: system   !! the system, rows and loads evaluated, lambda set
       real(wp) :: load(size(system%linkage%mass))              !! (n_v bodies) what is out of balance, scaled [N.m]
 
-      integer :: body, row, side
+      integer :: block, body, side
 
       load = reshape(system%loading%g(:, 1:), [size(load)])
       associate (rows => system%linkage%rows, n_v => system%linkage%coordinates%n_v)
-         do row = 1, rows%n
+         do block = 1, rows%n_block
             do side = 1, 2
-               body = rows%body(side, row)
+               body = rows%body(side, block)
                if (body == 0) cycle
                associate (part => load(n_v*(body - 1) + 1:n_v*body))
-                  part = part - rows%jac(n_v*(side - 1) + 1:n_v*side, row)*system%linkage%solution%lambda(row)
+                  part = part - rows%jac(n_v*(side - 1) + 1:n_v*side, block)*system%linkage%solution%lambda(rows%owner(block))
                end associate
             end do
          end do

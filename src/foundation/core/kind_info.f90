@@ -101,6 +101,7 @@ module kind_info
       integer :: n_row = 0                          !! constraint rows that an item adds
       integer :: free = free_other                 !! of a joint: what of the freedom of j against i, one of the above
       logical :: drives_turn = .false.              !! its row prescribes the turn of the joint that it names
+      logical :: couples_joints = .false.           !! its row ties all bodies of the two or three joints that it names
       logical :: counts_turns = .false.             !! its items count turns from step to step
       logical :: is_start_only = .false.            !! the rows hold while the start is made consistent, not after
       type(column_t), allocatable :: columns(:)     !! of the table, without `name`

@@ -28,7 +28,7 @@ module spline
 contains
 
    !> The spline through samples, with any behaviour beyond them.
-   subroutine new_spline(x, y, ends, beyond, curve)
+   pure subroutine new_spline(x, y, ends, beyond, curve)
       real(wp), intent(in) :: x(:)         !! (n) places, increasing, at least `min_samples` [any]
       real(wp), intent(in) :: y(:)         !! (n) values [any]
       integer, intent(in) :: ends          !! how it is closed, one of the above

@@ -1,15 +1,15 @@
-!> Gears and couplers of an Adams dataset as rows of a deck.
+!> Gears of an Adams dataset as rows of a deck.
 !>
 !> | Adams | deck |
 !> |---|---|
 !> | GEAR of two revolute joints with parallel axes on one carrier | `joint.gear`, radii from the CV marker |
-!> | COUPLER of two such joints, s_1 q_1 + s_2 q_2 = 0 | `joint.gear`, radii in the ratio of the scales |
 !>
 !> With a the direction of both axes, p_k a point of each, c the CV marker and z its axis: both bodies have the same velocity there,
 !> w_1 (a x (c - p_1)) . z = w_2 (a x (c - p_2)) . z, as the carrier sees it. Two gears have w_1 R_1 + w_2 R_2 = 0.
 !>
 !> Source: the public descriptions of the statements of Adams/Solver. Limits: other joints, axes that meet or are one.
 module adams_gears
+   use adams_couplers, only: add_couplers
    use adams_joints, only: named
    use adams_model, only: adams_model_t, leave_out
    use adams_numbers, only: argument_numbers, id_of, mistake
@@ -50,10 +50,9 @@ contains
 
       do k = 1, size(model%statements)
          associate (it => model%statements(k))
-            if (it%keyword /= "GEAR" .and. it%keyword /= "COUPLER") cycle
+            if (it%keyword /= "GEAR") cycle
             call find_wheels(model, draft, it, wheels, message, mistakes)
-            if (message == "" .and. it%keyword == "GEAR") call take_mark(model, it, wheels, message, mistakes)
-            if (message == "" .and. it%keyword == "COUPLER") call take_scales(it, wheels, message, mistakes)
+            if (message == "") call take_mark(model, it, wheels, message, mistakes)
             if (message == "") then
                call put_gear(model, draft, it, wheels)
             else
@@ -61,6 +60,7 @@ contains
             end if
          end associate
       end do
+      call add_couplers(model, draft, mistakes)
    end subroutine add_gears
 
    !> The wheels of two revolute joints, and whether they turn on parallel axes of one carrier.
@@ -156,29 +156,6 @@ contains
       wheels(1)%radius = abs(arm(1))
       wheels(2)%radius = -sign(1.0_wp, arm(1))*arm(2)
    end subroutine take_mark
-
-   !> Radii from the scales.
-   subroutine take_scales(statement, wheels, message, mistakes)
-      type(statement_t), intent(in) :: statement                !! the statement
-      type(wheel_t), intent(inout) :: wheels(2)                 !! (2) radii are set
-      character(:), allocatable, intent(inout) :: message       !! set: they have none
-      type(diagnostics_t), intent(inout) :: mistakes            !! collects what is wrong
-
-      real(wp), allocatable :: scales(:)
-
-      call argument_numbers(statement, "SCALES", scales, mistakes, 1)
-      if (size(scales) /= 2) then
-         message = "it does not have two SCALES"
-         return
-      end if
-      if (.not. minval(abs(scales)) > 0.0_wp) then
-         message = "one of its SCALES is zero"
-         return
-      end if
-      wheels%radius = scales*wheels%side
-      if (dot_product(wheels(1)%axis, wheels(2)%axis) < 0.0_wp) wheels(2)%radius = -wheels(2)%radius
-      wheels%radius = wheels%radius*sign(1.0_wp, wheels(1)%radius)/maxval(abs(scales))
-   end subroutine take_scales
 
    !> The row.
    subroutine put_gear(model, draft, statement, wheels)

@@ -149,7 +149,7 @@ contains
       end associate
    end subroutine add_set
 
-   !> Give the items of a set the joints that their rows name, if they name one each.
+   !> Give the items of a set the joints that their rows name, if they name one each, or couple several.
    subroutine take_joints(scene, info, items, motion, set)
       type(scene_t), intent(in) :: scene          !! the scene
       type(kind_info_t), intent(in) :: info       !! kind of the rows
@@ -159,19 +159,21 @@ contains
 
       class(joint_set_t), allocatable :: joint
       type(tie_t) :: tie
-      integer :: k, kind, row
+      integer :: end, k, kind, row
 
       do k = 1, size(items)
          tie = tie_of(scene, info, items(k))
-         if (tie%joint(1) == 0 .or. tie%joint(2) > 0) cycle
-         call find_joint(scene, tie%joint(1), kind, row)
-         call new_joint_set(kind, joint)
-         associate (table => scene%joints(kind))
-            call tie_set(scene, table%info, table%items(row:row), joint)
-            call joint%prepare(table%items(row:row), start_angles(scene))
-         end associate
-         call joint%set_start(motion)
-         call set%take_joint(k, joint, motion)
+         if (tie%joint(1) == 0 .or. (tie%joint(2) > 0 .and. .not. info%couples_joints)) cycle
+         do end = 1, merge(count(tie%joint > 0), 1, info%couples_joints)
+            call find_joint(scene, tie%joint(end), kind, row)
+            call new_joint_set(kind, joint)
+            associate (table => scene%joints(kind))
+               call tie_set(scene, table%info, table%items(row:row), joint)
+               call joint%prepare(table%items(row:row), start_angles(scene))
+            end associate
+            call joint%set_start(motion)
+            call set%take_joint(k, joint, motion)
+         end do
       end do
    end subroutine take_joints
 
@@ -180,11 +182,16 @@ contains
       type(linkage_t), intent(inout) :: linkage  !! rows are set
 
       logical :: is_reduced(linkage%bodies%n)
-      integer :: k, n, n_solve
+      integer :: k, n, n_more, n_solve
 
       n_solve = linkage%rows%n_solve
       n = linkage%rows%n
-      call new_rows(n, linkage%rows, linkage%coordinates%n_v)
+      n_more = 0
+      do k = 1, size(linkage%joints)
+         n_more = n_more + linkage%joints(k)%set%n_more_blocks()
+      end do
+      call new_rows(n, linkage%rows, linkage%coordinates%n_v, n_more)
+      linkage%rows%n_block = n  ! those that are declared
       linkage%rows%n_solve = n_solve
       do k = 1, size(linkage%joints)
          call linkage%joints(k)%set%declare_rows(linkage%rows)

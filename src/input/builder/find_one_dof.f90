@@ -65,7 +65,10 @@ contains
       do k = 1, n_joint_kinds()
          if (scene%joints(k)%info%is_start_only) cycle
          do i = 1, size(scene%joints(k)%items)
-            call count_pair(joint_bodies(scene, k, i))
+            tie = tie_of(scene, scene%joints(k)%info, scene%joints(k)%items(i))
+            call count_pair(tie%body)
+            call count_pair(tie%more(:2))
+            call count_pair(tie%more(3:))
          end do
       end do
       do k = 1, n_clearance_kinds()

@@ -59,7 +59,8 @@ contains
       do k = 1, n_joint_kinds()
          if (scene%joints(k)%info%is_start_only) cycle
          do i = 1, size(scene%joints(k)%items)
-            if (all(is_known(joint_bodies(scene, k, i)))) n = n + 1
+            tie = tie_of(scene, scene%joints(k)%info, scene%joints(k)%items(i))
+            if (all(is_known(tie%body)) .and. all(is_known(tie%more))) n = n + 1
          end do
       end do
       do k = 1, n_clearance_kinds()

@@ -11,7 +11,7 @@ module tables
    use kind_info, only: cell_file, kind_info_t
    use mesh_file, only: read_mesh
    use name_table, only: name_table_t
-   use number_lists, only: read_samples
+   use number_lists, only: file_to_lists, read_samples
    use quantities, only: is_numeric
    use run_profiles, only: columns_of_profiles, read_profiles
    use table_header, only: header_t, is_broken, is_name_column, read_table_header
@@ -83,9 +83,22 @@ contains
                   call read_samples(deck, place, value, mistakes)
                end if
             end associate
+            if (index(info%name, "clearance.") == 1) call take_points(items(n), mistakes)
          end do
       end do
    end subroutine read_items
+
+   !> The points of a file become the lists of their row.
+   subroutine take_points(item, mistakes)
+      type(item_t), intent(inout) :: item             !! the row
+      type(diagnostics_t), intent(inout) :: mistakes  !! collects what is wrong
+
+      integer :: twice
+
+      call file_to_lists(item, ["x", "y"], twice)
+      if (twice > 0) call mistakes%add(item%values(twice)%location, "the points are already given by a file", "given twice", &
+                                       "give columns x and y, or column file")
+   end subroutine take_points
 
    !> A file of triangles.
    subroutine read_triangles(deck, place, value, mistakes)

@@ -3,6 +3,7 @@ module scene_checks
    use clearance_registry, only: n_clearance_kinds, new_clearance_set
    use clearance_set, only: clearance_set_t
    use columns, only: cell_index, column_of, find_column
+   use coupler_checks, only: check_coupler
    use deck_types, only: add_default, deck_t
    use diagnostics, only: diagnostics_t
    use friction_law, only: memory_slip
@@ -122,6 +123,8 @@ contains
             call check_start_length(scene%joints(k)%info, scene%joints(k)%items(i))
             call check_references(scene%joints(k)%info, scene%joints(k)%items(i))
             call check_friction(scene%joints(k)%info, scene%joints(k)%items(i))
+            if (scene%joints(k)%info%couples_joints) call check_coupler(scene, scene%joints(k)%info, scene%joints(k)%items(i), &
+                                                                        diagnostics)
          end do
       end do
       do k = 1, n_force_kinds()
@@ -271,7 +274,7 @@ contains
          integer :: c, kind, row
 
          tie = tie_of(scene, info, item)
-         if (.not. tie%by_joint) return
+         if (.not. tie%by_joint .or. info%couples_joints) return
          call find_joint(scene, tie%joint(1), kind, row)
          if (.not. any(scene%joints(kind)%info%free == [free_rotation, free_translation])) return
          wanted = dim_length

@@ -2,7 +2,8 @@
 !>
 !> The references of a row to points, bodies or joints, in the order of its columns, are its ends. An end that is a point or a body
 !> is that. One joint stands for what it ties itself, in its order. Two joints stand for the two bodies that they do not share, at
-!> the points that they hold there: two wheels on one carrier, say. So a kind of joint, driver, force or contact is tied by the
+!> the points that they hold there: two wheels on one carrier, say. A row that couples joints ties all bodies of them, the ground
+!> left out. So a kind of joint, driver, force or contact is tied by the
 !> words of its `add_reference` alone.
 module ties
    use item, only: item_t
@@ -17,12 +18,13 @@ module ties
 
    !> What a row ties.
    type :: tie_t
-      integer :: n = 0              !! references that are ends: none, one or two
+      integer :: n = 0              !! references that are ends: none to three
       logical :: by_joint = .false. !! the first of them is a joint
-      integer :: column(2) = 0      !! (2) their columns
+      integer :: column(3) = 0      !! (3) their columns
       integer :: body(2) = 0        !! (2) bodies i and j, 0: ground
       integer :: point(2) = 0       !! (2) points of these, 0: the centre of mass
-      integer :: joint(2) = 0       !! (2) joints that the ends name, by their numbers among all joints, 0: none
+      integer :: more(4) = 0        !! (4) further bodies of a row that couples joints, 0: none
+      integer :: joint(3) = 0       !! (3) joints that the ends name, by their numbers among all joints, 0: none
    end type tie_t
 
 contains
@@ -34,12 +36,14 @@ contains
       type(item_t), intent(in) :: item        !! the row
       type(tie_t) :: tie                      !! what it ties
 
-      integer :: c
+      integer :: c, most
 
+      most = merge(3, 2, info%couples_joints)
       do c = 1, size(info%columns)
-         if (info%columns(c)%cell /= cell_reference .or. tie%n == 2) cycle
+         if (info%columns(c)%cell /= cell_reference .or. tie%n == most) cycle
          associate (refers_to => info%columns(c)%refers_to, index => item%values(c)%index)
             if (.not. (refers_to == "points" .or. refers_to == "bodies" .or. names_joint(refers_to))) cycle
+            if (info%couples_joints .and. index == 0) cycle
             tie%n = tie%n + 1
             tie%column(tie%n) = c
             if (refers_to == "points") then
@@ -53,8 +57,36 @@ contains
          end associate
       end do
       tie%by_joint = tie%joint(1) > 0
-      if (tie%by_joint) call take_joints(scene, tie)
+      if (.not. tie%by_joint) return
+      if (info%couples_joints) then
+         call take_all_bodies(scene, tie)
+      else
+         call take_joints(scene, tie)
+      end if
    end function tie_of
+
+   !> All bodies of the joints but the ground, each once.
+   pure recursive subroutine take_all_bodies(scene, tie)
+      type(scene_t), intent(in) :: scene   !! the scene
+      type(tie_t), intent(inout) :: tie    !! the ends; bodies are set
+
+      type(tie_t) :: own
+      integer :: bodies(6), end, kind, n, row, side
+
+      bodies = 0
+      n = 0
+      do end = 1, count(tie%joint > 0)
+         call find_joint(scene, tie%joint(end), kind, row)
+         own = tie_of(scene, scene%joints(kind)%info, scene%joints(kind)%items(row))
+         do side = 1, 2
+            if (own%body(side) == 0 .or. any(bodies == own%body(side))) cycle
+            n = n + 1
+            bodies(n) = own%body(side)
+         end do
+      end do
+      tie%body = bodies(:2)
+      tie%more = bodies(3:)
+   end subroutine take_all_bodies
 
    !> Ends that joints stand for.
    pure recursive subroutine take_joints(scene, tie)

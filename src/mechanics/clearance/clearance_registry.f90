@@ -4,11 +4,13 @@ module clearance_registry
    use clearance_balls, only: clearance_balls_t
    use clearance_block, only: clearance_block_t
    use clearance_bushing, only: clearance_bushing_t
+   use clearance_cam, only: clearance_cam_t
    use clearance_discs, only: clearance_discs_t
    use clearance_limits, only: clearance_limits_t
    use clearance_plane, only: clearance_plane_t
    use clearance_revolute, only: clearance_revolute_t
    use clearance_set, only: clearance_set_t
+   use clearance_slot, only: clearance_slot_kind_t
    use clearance_spherical, only: clearance_spherical_t
    use clearance_stop, only: clearance_stop_t
    use clearance_thrust, only: clearance_thrust_t
@@ -21,7 +23,7 @@ contains
 
    !> Number of geometries.
    pure integer function n_clearance_kinds()
-      n_clearance_kinds = 12
+      n_clearance_kinds = 14
    end function n_clearance_kinds
 
    !> An empty set of geometry number k, 1 to `n_clearance_kinds`.
@@ -42,6 +44,8 @@ contains
       case (10); allocate (clearance_ball_t :: set)
       case (11); allocate (clearance_balls_t :: set)
       case (12); allocate (clearance_limits_t :: set)
+      case (13); allocate (clearance_cam_t :: set)
+      case (14); allocate (clearance_slot_kind_t :: set)
       end select
    end subroutine new_clearance_set
 

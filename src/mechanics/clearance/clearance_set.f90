@@ -24,8 +24,8 @@ module clearance_set
    use text, only: text_t
    implicit none (type, external)
    private
-   public :: clearance_fit, clearance_set_t, clearance_slot_t, loss_contact, loss_friction, n_integrand, &
-      normal_impulse
+   public :: clearance_fit, clearance_note_contact_rate, clearance_set_t, clearance_slot_t, loss_contact, loss_friction, &
+      n_integrand, normal_impulse
 
    ! what is integrated of a contact
    integer, parameter :: loss_contact = 1    !! power taken by contact damping

@@ -9,7 +9,7 @@
 !> Source: Flores et al. (2008), eq. (2.15). Cost: of order (n_v unknown bodies + rows)^3, n_v rates a body.
 module augmented_dense
    use augmented, only: direct_t
-   use rows, only: before_side, body_of_side, coordinate_place, row_of_side, rows_t
+   use rows, only: before_side, block_of_side, body_of_side, coordinate_place, rows_t
    use kinds, only: wp
    implicit none (type, external)
    private
@@ -84,11 +84,12 @@ contains
          self%matrix(i, i) = 1.0_wp
       end do
       do k = 1, rows%n_side
-         row = row_of_side(rows%side(k))
+         row = rows%side_row(k)
          side = before_side(n_v, rows%side(k))
          body = body_of_side(rows, rows%side(k))
          i = self%place(body)
-         self%matrix(i + 1:i + n_v, nq + row) = rows%jac(side + 1:side + n_v, row)*sqrt(inverse_mass(:, body))
+         self%matrix(i + 1:i + n_v, nq + row) = rows%jac(side + 1:side + n_v, block_of_side(rows%side(k))) &
+                                                *sqrt(inverse_mass(:, body))
       end do
       do row = 1, rows%n_solve
          diagonal = sum(self%matrix(1:nq, nq + row)**2)

@@ -14,7 +14,7 @@ module augmented_lagrangian
    use augmented, only: augmented_t
    use body_kernels, only: body_accelerations, row_residuals
    use envelope, only: envelope_t, factorise_and_solve, new_envelope, solve_factored
-   use rows, only: body_of_side, coordinate_place, n_v_planar, place_of_side, row_of_side, rows_t
+   use rows, only: body_of_side, coordinate_place, list_sides_of_rows, n_v_planar, place_of_side, rows_t
    use kind_info, only: kind_info_t
    use kinds, only: wp
    use matrix_kernels_planar, only: planar_loads => penalty_loads, planar_matrix => penalty_matrix, &
@@ -79,12 +79,13 @@ contains
       integer, intent(in) :: n_body                         !! number of bodies
       type(rows_t), intent(in) :: rows                      !! rows, of which the bodies are read
 
-      integer, allocatable :: first(:), first_body(:), neighbour(:), order(:), other(:), start(:)
-      integer :: body, c, k, m, n, of_row(2, rows%n_solve), other_body, pass
+      integer, allocatable :: first(:), first_body(:), last(:), neighbour(:), order(:), other(:), sides(:), start(:)
+      integer :: body, c, k, m, n, other_body, pass
       real :: cost, other_cost
 
       n = rows%n_unknown
-      call list_bodies(n_body, rows, of_row, start, neighbour)
+      call list_sides_of_rows(rows, last, sides)
+      call list_bodies(n_body, rows, last, sides, start, neighbour)
       order = [(k, k=1, n)]
       first_body = order
       call envelope_of(start, neighbour, order, first_body, cost)
@@ -101,15 +102,14 @@ contains
       do pass = 1, 2
          self%n_pair = 0
          do k = 1, rows%n_solve
-            do c = 1, 2
-               do m = 1, 2
-                  if (of_row(c, k) == 0 .or. of_row(m, k) == 0) cycle
-                  body = self%place(body_of_side(rows, rows%side(of_row(c, k))))
-                  other_body = self%place(body_of_side(rows, rows%side(of_row(m, k))))
+            do c = last(k - 1) + 1, last(k)
+               do m = last(k - 1) + 1, last(k)
+                  body = self%place(body_of_side(rows, rows%side(sides(c))))
+                  other_body = self%place(body_of_side(rows, rows%side(sides(m))))
                   if (body < other_body) cycle
                   self%n_pair = self%n_pair + 1
                   if (pass == 1) cycle
-                  self%pair(:, self%n_pair) = [k, place_of_side(rows%n_v, rows%side([of_row(c, k), of_row(m, k)])), body, &
+                  self%pair(:, self%n_pair) = [k, place_of_side(rows%n_v, rows%side(sides([c, m]))), body, &
                                                other_body]
                end do
             end do
@@ -121,32 +121,30 @@ contains
       allocate (self%d(rows%n_v, 0:n_body), self%last(rows%n_v, 0:n_body), source=0.0_wp)
    end subroutine lagrangian_prepare
 
-   !> Sides of each row, and for each unknown body those that share a row with it.
-   subroutine list_bodies(n_body, rows, of_row, start, neighbour)
+   !> For each unknown body those that share a row with it.
+   subroutine list_bodies(n_body, rows, last, sides, start, neighbour)
       integer, intent(in) :: n_body                       !! number of bodies
       type(rows_t), intent(in) :: rows                    !! rows
-      integer, intent(out) :: of_row(2, rows%n_solve)     !! (2, solved rows) sides of each row, 0: none
+      integer, intent(in) :: last(0:)                     !! (0:solved rows) last place of each row in the list
+      integer, intent(in) :: sides(:)                     !! (sides) sides of the rows, row by row
       integer, allocatable, intent(out) :: start(:)       !! (unknown bodies + 1) place of the first neighbour of each
       integer, allocatable, intent(out) :: neighbour(:)   !! (any) neighbours, numbered among the unknown bodies
 
-      integer :: i, k, number(0:n_body), other, row
+      integer :: i, k, m, number(0:n_body), row
 
       number = 0
       number(rows%unknown) = [(k, k=1, rows%n_unknown)]
-      of_row = 0
-      do k = 1, rows%n_side
-         row = row_of_side(rows%side(k))
-         of_row(merge(1, 2, of_row(1, row) == 0), row) = k
-      end do
-      allocate (start(rows%n_unknown + 1), neighbour(rows%n_side))
+      allocate (start(rows%n_unknown + 1), neighbour(sum((last(1:) - last(:rows%n_solve - 1))**2)))
       start(1) = 1
       do i = 1, rows%n_unknown
          start(i + 1) = start(i)
          do k = rows%last_side(rows%unknown(i) - 1) + 1, rows%last_side(rows%unknown(i))
-            other = sum(of_row(:, row_of_side(rows%side(k)))) - k
-            if (other == 0) cycle
-            neighbour(start(i + 1)) = number(body_of_side(rows, rows%side(other)))
-            start(i + 1) = start(i + 1) + 1
+            row = rows%side_row(k)
+            do m = last(row - 1) + 1, last(row)
+               if (sides(m) == k) cycle
+               neighbour(start(i + 1)) = number(body_of_side(rows, rows%side(sides(m))))
+               start(i + 1) = start(i + 1) + 1
+            end do
          end do
       end do
    end subroutine list_bodies
@@ -248,14 +246,15 @@ contains
       n_body = ubound(inverse_mass, 2)
       associate (k => self%k, n => rows%n_solve)
          if (rows%n_v == n_v_planar) then
-            call planar_penalties(n_body, rows%n, n, rows%n_side, rows%side, rows%body, penalty, rows%jac, inverse_mass, self%alpha)
-            call planar_matrix(n_body, rows%n, n, rows%n_unknown, rows%unknown, self%place, self%n_pair, self%pair, k%n, k%start, &
-                               size(k%a), self%alpha, inverse_mass, rows%jac, k%a)
+            call planar_penalties(n_body, rows%n_block, n, rows%n_side, rows%side, rows%side_row, rows%body, penalty, &
+                                  rows%jac, inverse_mass, self%alpha)
+            call planar_matrix(n_body, rows%n_block, n, rows%n_unknown, rows%unknown, self%place, self%n_pair, self%pair, k%n, &
+                               k%start, size(k%a), self%alpha, inverse_mass, rows%jac, k%a)
          else
-            call spatial_penalties(n_body, rows%n, n, rows%n_side, rows%side, rows%body, penalty, rows%jac, inverse_mass, &
-                                   self%alpha)
-            call spatial_matrix(n_body, rows%n, n, rows%n_unknown, rows%unknown, self%place, self%n_pair, self%pair, k%n, k%start, &
-                                size(k%a), self%alpha, inverse_mass, rows%jac, k%a)
+            call spatial_penalties(n_body, rows%n_block, n, rows%n_side, rows%side, rows%side_row, rows%body, penalty, &
+                                   rows%jac, inverse_mass, self%alpha)
+            call spatial_matrix(n_body, rows%n_block, n, rows%n_unknown, rows%unknown, self%place, self%n_pair, self%pair, k%n, &
+                               k%start,  size(k%a), self%alpha, inverse_mass, rows%jac, k%a)
          end if
       end associate
    end subroutine assemble
@@ -288,11 +287,11 @@ contains
 
       n_body = ubound(self%place, 1)
       if (rows%n_v == n_v_planar) then
-         call planar_loads(n_body, rows%n, rows%n_solve, rows%n_side, rows%side, rows%body, self%place, self%k%n, self%alpha, &
-                           rows%jac, self%residual, self%x)
+         call planar_loads(n_body, rows%n_block, rows%n_solve, rows%n_side, rows%side, rows%side_row, rows%body, self%place, &
+                           self%k%n, self%alpha, rows%jac, self%residual, self%x)
       else
-         call spatial_loads(n_body, rows%n, rows%n_solve, rows%n_side, rows%side, rows%body, self%place, self%k%n, self%alpha, &
-                            rows%jac, self%residual, self%x)
+         call spatial_loads(n_body, rows%n_block, rows%n_solve, rows%n_side, rows%side, rows%side_row, rows%body, self%place, &
+                            self%k%n, self%alpha, rows%jac, self%residual, self%x)
       end if
       call solve_factored(self%k%n, size(self%k%a), self%k%first, self%k%start, self%k%a, self%x)
       do k = 1, rows%n_unknown

@@ -122,17 +122,17 @@ contains
       n_body = size(g, 2) - 1
       if (rows%n_solve > 0) self%n_factorisations = self%n_factorisations + 1
       if (rows%n_v == n_v_planar) then
-         call solve_planar(self%lone%n, self%lone%body, self%lone%row, self%lone%place, n_body, rows%n, inverse_mass, rows%jac, g, &
-                           b, self%min_pivot, a, lambda, bad_row)
+         call solve_planar(self%lone%n, self%lone%body, self%lone%row, self%lone%place, n_body, rows%n, rows%n_block, &
+                           inverse_mass, rows%jac, g, b, self%min_pivot, a, lambda, bad_row)
       else
-         call solve_spatial(self%lone%n, self%lone%body, self%lone%row, self%lone%place, n_body, rows%n, inverse_mass, rows%jac, &
-                            g, b, self%min_pivot, a, lambda, bad_row)
+         call solve_spatial(self%lone%n, self%lone%body, self%lone%row, self%lone%place, n_body, rows%n, rows%n_block, &
+                            inverse_mass, rows%jac, g, b, self%min_pivot, a, lambda, bad_row)
       end if
       if (bad_row > 0 .or. size(self%unknown) == 0) return
       if (self%rest%is_in_order) then
-         call take_blocks(self%rest, n_body, rows%n, inverse_mass, rows%jac, g, b, self%min_pivot, lambda, bad_row)
+         call take_blocks(self%rest, n_body, rows%n, rows%n_block, inverse_mass, rows%jac, g, b, self%min_pivot, lambda, bad_row)
       else
-         call take_blocks(self%rest, n_body, rows%n, inverse_mass, rows%jac, g, b, self%min_pivot, self%x, bad_row)
+         call take_blocks(self%rest, n_body, rows%n, rows%n_block, inverse_mass, rows%jac, g, b, self%min_pivot, self%x, bad_row)
          if (bad_row == 0) call in_given_order(size(self%rest%order), self%rest%order, rows%n, self%x, lambda)
       end if
       if (bad_row > 0) return
@@ -140,12 +140,13 @@ contains
    end subroutine schur_solve
 
    !> Assemble and factorise a part block by block, and solve.
-   pure subroutine take_blocks(part, n_body, n_row, inverse_mass, jac, g, b, min_pivot, x, bad_row)
+   pure subroutine take_blocks(part, n_body, n_row, n_block, inverse_mass, jac, g, b, min_pivot, x, bad_row)
       type(part_t), intent(inout) :: part                       !! the part; S is set
       integer, intent(in) :: n_body                             !! number of bodies
       integer, intent(in) :: n_row                              !! number of rows
+      integer, intent(in) :: n_block                            !! number of blocks of Phi_q
       real(wp), intent(in) :: inverse_mass(part%n_v, 0:n_body)  !! (n_v, 0:bodies) inverse masses [1/kg or 1/(kg.m^2)]
-      real(wp), intent(in) :: jac(2*part%n_v*n_row)             !! (2 n_v rows) Phi_q, row by row [1 or m]
+      real(wp), intent(in) :: jac(2*part%n_v*n_block)           !! (2 n_v blocks) Phi_q, block by block [1 or m]
       real(wp), intent(in) :: g(part%n_v, 0:n_body)             !! (n_v, 0:bodies) applied loads [N or N.m]
       real(wp), intent(in) :: b(n_row)                          !! (rows) right-hand side [m/s^2 or rad/s^2]
       real(wp), intent(in) :: min_pivot                       !! of its diagonal: below, rows are nearly dependent [1]
@@ -155,7 +156,7 @@ contains
       integer :: k
 
       do k = 1, part%n_block
-         call assemble(k, part, n_body, n_row, inverse_mass, jac, g, b, x)
+         call assemble(k, part, n_body, n_row, n_block, inverse_mass, jac, g, b, x)
          call factorise_and_solve(part%block(3, k - 1) + 1, part%block(3, k), size(part%order), size(part%s%a), part%s%first, &
                                   part%s%start, min_pivot, part%s%a, part%s%row, x, bad_row)
          if (bad_row > 0) then
@@ -178,8 +179,8 @@ contains
       associate (part => self%all)
          self%residual = 0.0_wp
          do k = 1, part%n_block
-            call assemble(k, part, ubound(inverse_mass, 2), rows%n, inverse_mass, rows%jac, 0.0_wp*inverse_mass, self%residual, &
-                          self%x)
+            call assemble(k, part, ubound(inverse_mass, 2), rows%n, rows%n_block, inverse_mass, rows%jac, 0.0_wp*inverse_mass, &
+                          self%residual, self%x)
          end do
          do k = 1, size(part%order)
             associate (diagonal => part%s%a(part%s%start(k) + k))
@@ -227,21 +228,22 @@ contains
    end subroutine in_given_order
 
    !> What a block of bodies gives to the Schur complement of a part, and to the right-hand side of its multipliers.
-   pure subroutine assemble(block, part, n_body, n_row, inverse_mass, jac, g, b, x)
+   pure subroutine assemble(block, part, n_body, n_row, n_block, inverse_mass, jac, g, b, x)
       integer, intent(in) :: block                         !! which of the blocks; they are taken in their order
       type(part_t), intent(inout) :: part                  !! the part; S is set
       integer, intent(in) :: n_body                        !! number of bodies
       integer, intent(in) :: n_row                         !! number of rows
+      integer, intent(in) :: n_block                       !! number of blocks of Phi_q
       real(wp), intent(in) :: inverse_mass(part%n_v, 0:n_body)  !! (n_v, 0:bodies) inverse masses [1/kg or 1/(kg.m^2)]
-      real(wp), intent(in) :: jac(2*part%n_v*n_row)    !! (2 n_v rows) Phi_q, row by row [1 or m]
+      real(wp), intent(in) :: jac(2*part%n_v*n_block)  !! (2 n_v blocks) Phi_q, block by block [1 or m]
       real(wp), intent(in) :: g(part%n_v, 0:n_body)    !! (n_v, 0:bodies) applied loads [N or N.m]
       real(wp), intent(in) :: b(n_row)                     !! (rows) right-hand side [m/s^2 or rad/s^2]
       real(wp), intent(inout) :: x(size(part%order))       !! (its rows) right-hand side, envelope's order [m/s^2 or rad/s^2]
 
       if (part%n_v == n_v_planar) then
-         call assemble_planar(block, part, n_body, n_row, inverse_mass, jac, g, b, x)
+         call assemble_planar(block, part, n_body, n_row, n_block, inverse_mass, jac, g, b, x)
       else
-         call assemble_spatial(block, part, n_body, n_row, inverse_mass, jac, g, b, x)
+         call assemble_spatial(block, part, n_body, n_row, n_block, inverse_mass, jac, g, b, x)
       end if
    end subroutine assemble
 

@@ -6,7 +6,7 @@
 !> Source: Flores et al. (2008), eq. (2.15). Cost: in proportion to the bodies and rows, unless loops fill the factors.
 module augmented_sparse
    use augmented, only: direct_t
-   use rows, only: body_of_side, coordinate_place, n_v_planar, row_of_side, rows_t
+   use rows, only: body_of_side, coordinate_place, list_sides_of_rows, n_v_planar, rows_t
    use kind_info, only: kind_info_t
    use kinds, only: wp
    use klu, only: sparse_lu_t
@@ -57,7 +57,7 @@ contains
       type(rows_t), intent(in) :: rows                  !! rows, of which the bodies are read
 
       integer :: body, c, column, coordinate(0:n_body), i, k, n, n_v, nq, place
-      integer, allocatable :: in_row(:), of_row(:, :)
+      integer, allocatable :: last(:), sides(:)
 
       n_v = rows%n_v
       nq = n_v*rows%n_unknown
@@ -78,25 +78,19 @@ contains
             self%matrix%row(place) = column - 1
             do k = rows%last_side(body - 1) + 1, rows%last_side(body)
                place = place + 1
-               self%matrix%row(place) = nq + row_of_side(rows%side(k)) - 1
+               self%matrix%row(place) = nq + rows%side_row(k) - 1
                self%lower(c, k) = place
             end do
          end do
       end do
-      ! the sides of each row, at most two
-      allocate (in_row(rows%n_solve), of_row(2, rows%n_solve), source=0)
-      do k = 1, rows%n_side
-         i = row_of_side(rows%side(k))
-         in_row(i) = in_row(i) + 1
-         of_row(in_row(i), i) = k
-      end do
+      call list_sides_of_rows(rows, last, sides)
       do i = 1, rows%n_solve
          self%matrix%column(nq + i) = place
-         do k = 1, in_row(i)
-            self%upper(of_row(k, i)) = place + 1
+         do k = last(i - 1) + 1, last(i)
+            self%upper(sides(k)) = place + 1
             do c = 1, n_v
                place = place + 1
-               self%matrix%row(place) = coordinate(body_of_side(rows, rows%side(of_row(k, i)))) + c - 1
+               self%matrix%row(place) = coordinate(body_of_side(rows, rows%side(sides(k)))) + c - 1
             end do
          end do
          place = place + 1
@@ -158,11 +152,11 @@ contains
       n_body = ubound(inverse_mass, 2)
       n_entry = size(self%matrix%a)
       if (rows%n_v == n_v_planar) then
-         call planar_upper(n_body, rows%n, rows%n_solve, rows%n_side, rows%side, rows%body, self%upper, n_entry, rows%jac, &
-                           self%root, self%matrix%a, self%row_scale)
+         call planar_upper(n_body, rows%n_block, rows%n_solve, rows%n_side, rows%side, rows%side_row, rows%body, self%upper, &
+                           n_entry, rows%jac, self%root, self%matrix%a, self%row_scale)
       else
-         call spatial_upper(n_body, rows%n, rows%n_solve, rows%n_side, rows%side, rows%body, self%upper, n_entry, rows%jac, &
-                            self%root, self%matrix%a, self%row_scale)
+         call spatial_upper(n_body, rows%n_block, rows%n_solve, rows%n_side, rows%side, rows%side_row, rows%body, self%upper, &
+                            n_entry, rows%jac, self%root, self%matrix%a, self%row_scale)
       end if
       do row = 1, rows%n_solve
          self%matrix%a(self%diagonal(row)) = -damping
@@ -173,9 +167,11 @@ contains
          self%row_scale(row) = 1.0_wp/sqrt(self%row_scale(row))
       end do
       if (rows%n_v == n_v_planar) then
-         call planar_lower(rows%n_solve, rows%n_side, rows%side, self%upper, self%lower, self%row_scale, n_entry, self%matrix%a)
+         call planar_lower(rows%n_solve, rows%n_side, rows%side_row, self%upper, self%lower, self%row_scale, n_entry, &
+                            self%matrix%a)
       else
-         call spatial_lower(rows%n_solve, rows%n_side, rows%side, self%upper, self%lower, self%row_scale, n_entry, self%matrix%a)
+         call spatial_lower(rows%n_solve, rows%n_side, rows%side_row, self%upper, self%lower, self%row_scale, n_entry, &
+                            self%matrix%a)
       end if
       call self%matrix%factorise(bad)
       self%n_factorisations = self%n_factorisations + 1

@@ -19,7 +19,7 @@ contains
       integer, intent(in) :: unknown(n_unknown)            !! (these bodies) their numbers
       integer, intent(in) :: n_body                        !! number of bodies
       real(wp), intent(in) :: inverse_mass(rows%n_v, 0:n_body)  !! (n_v, 0:bodies) inverse masses [1/kg or 1/(kg.m^2)]
-      real(wp), intent(in) :: jac(2*rows%n_v*rows%n)            !! (2 n_v rows) Phi_q, row by row [1 or m]
+      real(wp), intent(in) :: jac(2*rows%n_v*rows%n_block)      !! (2 n_v blocks) Phi_q, block by block [1 or m]
       real(wp), intent(in) :: g(rows%n_v, 0:n_body)             !! (n_v, 0:bodies) applied loads [N or N.m]
       real(wp), intent(in) :: lambda(rows%n)               !! (rows) multipliers [N or N.m]
       real(wp), intent(inout) :: a(rows%n_v, 0:n_body)          !! (n_v, 0:bodies) accelerations [m/s^2 or rad/s^2]
@@ -36,7 +36,7 @@ contains
       type(rows_t), intent(in) :: rows                     !! rows, of which the sides are read
       integer, intent(in) :: n_solve                       !! rows that are solved for
       integer, intent(in) :: n_body                        !! number of bodies
-      real(wp), intent(in) :: jac(2*rows%n_v*rows%n)            !! (2 n_v rows) Phi_q, row by row [1 or m]
+      real(wp), intent(in) :: jac(2*rows%n_v*rows%n_block)      !! (2 n_v blocks) Phi_q, block by block [1 or m]
       real(wp), intent(in) :: a(rows%n_v, 0:n_body)             !! (n_v, 0:bodies) accelerations [m/s^2 or rad/s^2]
       real(wp), intent(in) :: b(n_solve)                   !! (solved rows) right-hand side [m/s^2 or rad/s^2]
       real(wp), intent(out) :: r(n_solve)                  !! (solved rows) residuals [m/s^2 or rad/s^2]

@@ -10,7 +10,7 @@ module free_directions
    use kinds, only: wp
    use lapack, only: dgeqp3, dormqr
    use linkage, only: linkage_t
-   use rows, only: before_side, body_of_side, row_of_side
+   use rows, only: before_side, block_of_side, body_of_side
    implicit none (type, external)
    private
    public :: find_free_directions
@@ -80,10 +80,11 @@ contains
             root(n_v*(k - 1) + 1:n_v*k) = sqrt(linkage%mass(:, linkage%rows%unknown(k)))
          end do
          do side = 1, linkage%rows%n_side
-            associate (row => row_of_side(linkage%rows%side(side)), body => body_of_side(linkage%rows, linkage%rows%side(side)))
+            associate (row => linkage%rows%side_row(side), body => body_of_side(linkage%rows, linkage%rows%side(side)))
                place = before_side(n_v, linkage%rows%side(side))
                call linkage%coordinates%to_local(1, y(n_q*(number(body) - 1) + 1:), nothing, &
-                                                 linkage%rows%jac(place + 1:place + n_v, row), unused, along)
+                                                 linkage%rows%jac(place + 1:place + n_v, block_of_side(linkage%rows%side(side))), &
+                                                 unused, along)
                k = n_v*(number(body) - 1)
                rows(k + 1:k + n_v, row) = rows(k + 1:k + n_v, row) + along/root(k + 1:k + n_v)
             end associate

@@ -80,8 +80,8 @@ contains
          do k = 1, known%n
             call copy(known%held(k)%body)
          end do
-         call known%find_multipliers(self%coordinates%n_v, self%bodies%n, self%rows%n, known%held, self%reduced%carried, &
-                                     self%rows%jac, self%mass, g, solution%a, self%rest, solution%lambda)
+         call known%find_multipliers(self%coordinates%n_v, self%bodies%n, self%rows%n, self%rows%n_block, known%held, &
+                                     self%reduced%carried, self%rows%jac, self%mass, g, solution%a, self%rest, solution%lambda)
       end associate
 
    contains

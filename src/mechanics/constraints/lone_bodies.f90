@@ -8,7 +8,7 @@
 !> are such.
 !> Source: Flores et al. (2008), eqs. (2.16)-(2.18). Limits: one or two rows a body; other bodies are not lone.
 module lone_bodies
-   use rows, only: place_of_side, row_of_side, rows_t
+   use rows, only: place_of_side, rows_t
    implicit none (type, external)
    private
    public :: find_lone_bodies, lone_t
@@ -33,14 +33,14 @@ contains
 
       in_row = 0
       do k = 1, rows%n_side
-         associate (row => row_of_side(rows%side(k)))
+         associate (row => rows%side_row(k))
             in_row(row) = in_row(row) + 1
          end associate
       end do
       do i = 1, rows%n_unknown
          body = rows%unknown(i)
          associate (first => rows%last_side(body - 1) + 1, last => rows%last_side(body))
-            is_lone(i) = last >= first .and. last - first <= 1 .and. all(in_row(row_of_side(rows%side(first:last))) == 1)
+            is_lone(i) = last >= first .and. last - first <= 1 .and. all(in_row(rows%side_row(first:last)) == 1)
          end associate
       end do
       n = count(is_lone)
@@ -54,7 +54,7 @@ contains
                n = n + 1
                lone%n(m) = lone%n(m) + 1
                lone%body(n) = body
-               lone%row(:m, n) = row_of_side(rows%side(first:last))
+               lone%row(:m, n) = rows%side_row(first:last)
                lone%place(:m, n) = place_of_side(rows%n_v, rows%side(first:last))
             end associate
          end do

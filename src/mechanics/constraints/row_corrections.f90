@@ -43,15 +43,16 @@ contains
       real(wp), intent(in) :: v(:)                  !! (n_v bodies) rates of the coordinates [m/s or rad/s]
       real(wp), intent(out) :: right(:)             !! (rows) rates of the violations [m/s or rad/s]
 
-      integer :: body, row, side
+      integer :: block, body, row, side
 
       associate (rows => linkage%rows, n_v => linkage%coordinates%n_v)
-         do row = 1, rows%n
-            right(row) = rows%phi_t(row)
+         right(:rows%n) = rows%phi_t
+         do block = 1, rows%n_block
+            row = rows%owner(block)
             do side = 1, 2
-               body = rows%body(side, row)
+               body = rows%body(side, block)
                if (body == 0) cycle
-               right(row) = right(row) + dot_product(rows%jac(n_v*(side - 1) + 1:n_v*side, row), v(n_v*(body - 1) + 1:n_v*body))
+               right(row) = right(row) + dot_product(rows%jac(n_v*(side - 1) + 1:n_v*side, block), v(n_v*(body - 1) + 1:n_v*body))
             end do
          end do
       end associate
@@ -70,17 +71,18 @@ contains
       real(wp), allocatable, intent(out) :: jac(:, :)  !! (rows, n_v bodies) scaled Jacobian [1]
 
       real(wp) :: column_scale(linkage%coordinates%n_v)
-      integer :: body, row, side
+      integer :: block, body, row, side
 
       associate (rows => linkage%rows, n_v => linkage%coordinates%n_v)
          allocate (jac(rows%n, n_v*linkage%bodies%n), source=0.0_wp)
          column_scale = linkage%coordinates%scales(linkage%scales%length, 1)
-         do row = 1, rows%n
+         do block = 1, rows%n_block
+            row = rows%owner(block)
             do side = 1, 2
-               body = rows%body(side, row)
+               body = rows%body(side, block)
                if (body == 0) cycle
                associate (part => jac(row, n_v*(body - 1) + 1:n_v*body))
-                  part = part + rows%jac(n_v*(side - 1) + 1:n_v*side, row)*linkage%solution%row_weight(row)*column_scale
+                  part = part + rows%jac(n_v*(side - 1) + 1:n_v*side, block)*linkage%solution%row_weight(row)*column_scale
                end associate
             end do
          end do

@@ -8,7 +8,7 @@ module schur_part
    use envelope, only: envelope_t, new_envelope
    use kinds, only: wp
    use ordering, only: envelope_of, reverse_cuthill_mckee
-   use rows, only: place_of_side, row_of_side, rows_t
+   use rows, only: place_of_side, rows_t
    implicit none (type, external)
    private
    public :: choose_order, part_t, prepare_part
@@ -79,11 +79,11 @@ contains
       do pass = 1, 2
          do body = 1, ubound(rows%last_side, 1)
             do i = rows%last_side(body - 1) + 1, rows%last_side(body)
-               if (.not. is_taken(row_of_side(rows%side(i)))) cycle
-               row = number(row_of_side(rows%side(i)))
+               if (.not. is_taken(rows%side_row(i))) cycle
+               row = number(rows%side_row(i))
                do j = rows%last_side(body - 1) + 1, rows%last_side(body)
-                  if (i == j .or. .not. is_taken(row_of_side(rows%side(j)))) cycle
-                  if (pass == 2) neighbour(start(row)) = number(row_of_side(rows%side(j)))
+                  if (i == j .or. .not. is_taken(rows%side_row(j))) cycle
+                  if (pass == 2) neighbour(start(row)) = number(rows%side_row(j))
                   start(row) = start(row) + 1
                end do
             end do
@@ -120,13 +120,13 @@ contains
       allocate (place(rows%n_solve), source=0)
       place(part%order) = [(k, k=1, size(part%order))]
       call new_envelope(first, part%s)
-      n_side = count([(place(row_of_side(rows%side(i))) > 0, i=1, size(rows%side))])
+      n_side = count([(place(rows%side_row(i)) > 0, i=1, size(rows%side))])
       allocate (part%side(2, n_side), part%body(2, ubound(rows%last_side, 1)), source=0)
       n_side = 0
       do body = 1, ubound(rows%last_side, 1)
          first_side = n_side
          do i = rows%last_side(body - 1) + 1, rows%last_side(body)
-            line = place(row_of_side(rows%side(i)))
+            line = place(rows%side_row(i))
             if (line == 0) cycle
             n_side = n_side + 1
             k = n_side

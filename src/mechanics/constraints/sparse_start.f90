@@ -50,8 +50,9 @@ contains
       type(sparse_start_t), intent(out) :: start  !! the structure
 
       start%n_body = n_body
-      call new_rows(rows%n, start%rows, rows%n_v)
+      call new_rows(rows%n, start%rows, rows%n_v, rows%n_block - rows%n)
       start%rows%body = rows%body
+      start%rows%owner = rows%owner
       call list_sides(spread(.false., 1, n_body), start%rows)
       call prepare_part(start%rows, spread(.true., 1, rows%n), start%part)
       allocate (start%is_dependent(rows%n), source=.false.)
@@ -60,7 +61,7 @@ contains
    !> Factors of S at the present Jacobian.
    subroutine start_factorise(self, jac, weight)
       class(sparse_start_t), intent(inout) :: self       !! the structure; its factors are set
-      real(wp), intent(in), contiguous :: jac(:, :)      !! (2 n_v, rows) Phi_q [1 or m]
+      real(wp), intent(in), contiguous :: jac(:, :)      !! (2 n_v, blocks) Phi_q [1 or m]
       real(wp), intent(in), contiguous :: weight(:, 0:)  !! (n_v, 0:bodies) W [any]
 
       real(wp) :: none(self%rows%n_v, 0:self%n_body), unused(size(self%part%order)), zero(self%rows%n)
@@ -70,7 +71,7 @@ contains
       zero = 0.0_wp
       associate (part => self%part)
          do k = 1, part%n_block
-            call assemble(k, part, self%n_body, self%rows%n, weight, jac, none, zero, unused)
+            call assemble(k, part, self%n_body, self%rows%n, self%rows%n_block, weight, jac, none, zero, unused)
          end do
          call factorise_semidefinite(threshold, part%s, self%is_dependent)
       end associate
@@ -79,7 +80,7 @@ contains
    !> Minimum change x of the coordinates (or rates) with Phi_q x = right.
    subroutine start_correct(self, jac, weight, right, x, rank)
       class(sparse_start_t), intent(inout) :: self       !! the structure
-      real(wp), intent(in), contiguous :: jac(:, :)      !! (2 n_v, rows) Phi_q [1 or m]
+      real(wp), intent(in), contiguous :: jac(:, :)      !! (2 n_v, blocks) Phi_q [1 or m]
       real(wp), intent(in), contiguous :: weight(:, 0:)  !! (n_v, 0:bodies) W, zero for the ground [any]
       real(wp), intent(in), contiguous :: right(:)       !! (rows) what the rows should change by [m or rad, or rates]
       real(wp), intent(out), contiguous :: x(:)          !! (n_v bodies) change [m or rad, or rates]
@@ -119,7 +120,7 @@ contains
    !> Rows that depend on others, and all rows that occur in a combination that vanishes.
    subroutine start_find_dependent(self, jac, weight, scale, share, dependent, shared)
       class(sparse_start_t), intent(inout) :: self       !! the structure
-      real(wp), intent(in), contiguous :: jac(:, :)      !! (2 n_v, rows) Phi_q [1 or m]
+      real(wp), intent(in), contiguous :: jac(:, :)      !! (2 n_v, blocks) Phi_q [1 or m]
       real(wp), intent(in), contiguous :: weight(:, 0:)  !! (n_v, 0:bodies) W, zero for the ground [any]
       real(wp), intent(in) :: scale(:)                   !! (rows) scales that make rows comparable [any]
       real(wp), intent(in) :: share                      !! minimum part of a scaled row in a combination that counts [1]

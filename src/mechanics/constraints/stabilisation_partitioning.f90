@@ -18,7 +18,7 @@ module stabilisation_partitioning
    use kinds, only: wp
    use lapack, only: dgels, dgeqp3, dgeqrf
    use archive, only: archive_t
-   use rows, only: before_side, body_of_side, row_of_side
+   use rows, only: before_side, block_of_side, body_of_side
    use linkage, only: linkage_t
    implicit none (type, external)
    private
@@ -179,11 +179,11 @@ contains
          position(self%order) = [(k, k=1, size(self%order))]
          self%jac = 0.0_wp
          do k = 1, rows%n_side
-            row = row_of_side(rows%side(k))
+            row = rows%side_row(k)
             body = body_of_side(rows, rows%side(k))
             do c = 1, n_v
                column = position(place(body) + c)
-               self%jac(row, column) = rows%jac(before_side(n_v, rows%side(k)) + c, row) &
+               self%jac(row, column) = rows%jac(before_side(n_v, rows%side(k)) + c, block_of_side(rows%side(k))) &
                                        *linkage%solution%row_weight(row)*merge(1.0_wp, linkage%scales%length, is_turn(c))
             end do
          end do

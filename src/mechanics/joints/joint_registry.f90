@@ -6,6 +6,7 @@ module joint_registry
    use driver_speed, only: driver_speed_t
    use initial_speed, only: initial_speed_t
    use joint_belt, only: joint_belt_t
+   use joint_coupler, only: joint_coupler_t
    use joint_distance, only: joint_distance_t
    use joint_gear, only: joint_gear_t
    use joint_parallel, only: joint_parallel_t
@@ -17,6 +18,7 @@ module joint_registry
    use joint_translational, only: joint_translational_t
    use spatial_belt, only: spatial_belt_t
    use spatial_constant_velocity, only: spatial_constant_velocity_t
+   use spatial_coupler, only: spatial_coupler_t
    use spatial_cylindrical, only: spatial_cylindrical_t
    use spatial_distance, only: spatial_distance_t
    use spatial_driver_angle, only: spatial_driver_angle_t
@@ -46,7 +48,7 @@ contains
 
    !> Number of kinds.
    pure integer function n_joint_kinds()
-      n_joint_kinds = 37
+      n_joint_kinds = 39
    end function n_joint_kinds
 
    !> An empty set of kind number k, 1 to `n_joint_kinds`. Drivers follow the joints they drive: rows
@@ -93,6 +95,8 @@ contains
       case (35); allocate (spatial_constant_velocity_t :: set)
       case (36); allocate (joint_belt_t :: set)
       case (37); allocate (spatial_belt_t :: set)
+      case (38); allocate (joint_coupler_t :: set)
+      case (39); allocate (spatial_coupler_t :: set)
       end select
    end subroutine new_joint_set
 

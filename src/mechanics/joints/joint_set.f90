@@ -57,6 +57,7 @@ module joint_set
       procedure :: closing_fault => joint_closing_fault
       procedure :: closing_doubt => joint_closing_doubt
       procedure :: follow => joint_follow
+      procedure :: n_more_blocks => joint_n_more_blocks
       procedure :: declare_rows => joint_declare_rows
       procedure :: reaction_point => joint_reaction_point
       procedure :: slide_axis_of => joint_slide_axis_of
@@ -175,7 +176,8 @@ contains
       type(motion_t), intent(in) :: motion       !! bodies where the deck puts them
    end subroutine joint_set_start
 
-   !> Take what an item needs of the joint that its row names: nothing, unless the kind says otherwise.
+   !> Take what an item needs of the joint that its row names, of several one after the other: nothing, unless the kind says
+   !> otherwise.
    subroutine joint_take_joint(self, k, joint, motion)
       class(joint_set_t), intent(inout) :: self  !! the set, prepared
       integer, intent(in) :: k                   !! item
@@ -211,10 +213,17 @@ contains
       doubt = repeat("", k + self%n + size(motion%angle))
    end function joint_closing_doubt
 
+   !> Blocks of Phi_q besides one of each row: none, unless rows tie more than two bodies.
+   pure integer function joint_n_more_blocks(self) result(n)
+      class(joint_set_t), intent(in) :: self  !! the set, with the joints that its rows name
+
+      n = 0*self%n
+   end function joint_n_more_blocks
+
    !> Report the bodies of the set's rows, and which are angles.
    subroutine joint_declare_rows(self, rows)
-      class(joint_set_t), intent(in) :: self  !! the set
-      type(rows_t), intent(inout) :: rows     !! rows; those of the set are declared
+      class(joint_set_t), intent(inout) :: self  !! the set
+      type(rows_t), intent(inout) :: rows        !! rows; those of the set are declared
 
       integer :: i, k, row
 

@@ -9,7 +9,7 @@ module planar_prescribed
    use kinds, only: wp
    use motion, only: motion_t
    use reduced_bodies, only: held_t, prescribed_bodies_t
-   use rows, only: coordinate_place, n_v => n_v_planar, place_in_row, rows_t
+   use rows, only: coordinate_place, n_v => n_v_planar, rows_t
    implicit none (type, external)
    private
    public :: planar_prescribed_t, planar_link_t
@@ -65,21 +65,23 @@ contains
       real(wp), intent(in), contiguous :: lambda(:)       !! (rows) multipliers of the solved rows [N or N.m]
       type(motion_t), intent(in) :: motion                !! motion, with accelerations
 
-      power = power_of(size(driven), driven, size(rows%known, 2), rows%known, size(mass, 2), rows%n, mass, g, rows%jac, lambda, &
-                       motion%v, motion%omega, motion%a, motion%alpha)
+      power = power_of(size(driven), driven, size(rows%known, 2), rows%known, size(mass, 2), rows%n, rows%n_block, mass, g, &
+                       rows%jac, lambda, motion%v, motion%omega, motion%a, motion%alpha)
    end function planar_power
 
    !> The same on plain arrays.
-   pure real(wp) function power_of(n, body, n_known, known, n_body, n_row, mass, g, jac, lambda, v, omega, a, alpha) result(power)
+   pure real(wp) function power_of(n, body, n_known, known, n_body, n_row, n_block, mass, g, jac, lambda, v, omega, a, alpha) &
+      result(power)
       integer, intent(in) :: n                      !! number of prescribed bodies
       integer, intent(in) :: body(n)                !! (n) the bodies
       integer, intent(in) :: n_known                !! sides of solved rows that are prescribed bodies
       integer, intent(in) :: known(3, n_known)      !! (3, known sides) row, place in the Jacobian, body
       integer, intent(in) :: n_body                 !! number of bodies
       integer, intent(in) :: n_row                  !! number of rows
+      integer, intent(in) :: n_block                !! number of blocks of Phi_q
       real(wp), intent(in) :: mass(3, n_body)       !! (3, bodies) masses [kg, kg, kg.m^2]
       real(wp), intent(in) :: g(3, 0:n_body)        !! (3, 0:bodies) applied loads [N, N, N.m]
-      real(wp), intent(in) :: jac(6*n_row)          !! (6 rows) Phi_q, row by row [1 or m]
+      real(wp), intent(in) :: jac(6*n_block)        !! (6 blocks) Phi_q, block by block [1 or m]
       real(wp), intent(in) :: lambda(n_row)         !! (rows) multipliers of the solved rows [N or N.m]
       real(wp), intent(in) :: v(3, 0:n_body)        !! (3, 0:bodies) velocities [m/s]
       real(wp), intent(in) :: omega(3, 0:n_body)    !! (3, 0:bodies) angular velocities [rad/s]

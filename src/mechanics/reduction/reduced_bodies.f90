@@ -88,15 +88,16 @@ module reduced_bodies
 
       !> Multipliers of the rows that fix the prescribed bodies. Those of other rows with prescribed bodies are there, and all these
       !> rows are evaluated.
-      subroutine prescribed_multipliers_interface(n_rate, n_body, n_row, held, carried, jac, mass, g, a, rest, lambda)
+      subroutine prescribed_multipliers_interface(n_rate, n_body, n_row, n_block, held, carried, jac, mass, g, a, rest, lambda)
          import :: held_t, wp
          implicit none (type, external)
          integer, intent(in) :: n_rate                         !! rates of a body
          integer, intent(in) :: n_body                         !! number of bodies
          integer, intent(in) :: n_row                          !! number of rows
+         integer, intent(in) :: n_block                        !! number of blocks of Phi_q
          type(held_t), intent(in), contiguous :: held(:)       !! (n) how the bodies are held
          integer, intent(in), contiguous :: carried(:, :)      !! (3, sides) prescribed bodies in other rows: row, place, body
-         real(wp), intent(in) :: jac(2*n_rate, n_row)          !! (2 n_v, rows) Phi_q of all rows [1 or m]
+         real(wp), intent(in) :: jac(2*n_rate, n_block)        !! (2 n_v, blocks) Phi_q of all rows [1 or m]
          real(wp), intent(in) :: mass(n_rate, n_body)          !! (n_v, bodies) masses [kg or kg.m^2]
          real(wp), intent(in) :: g(n_rate, 0:n_body)           !! (n_v, 0:bodies) applied loads [N or N.m]
          real(wp), intent(in) :: a(n_rate, 0:n_body)           !! (n_v, 0:bodies) accelerations of the rates [m/s^2 or rad/s^2]

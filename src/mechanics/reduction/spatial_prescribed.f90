@@ -12,7 +12,7 @@ module spatial_prescribed
    use lapack, only: dgetrf, dgetrs
    use motion, only: motion_t
    use reduced_bodies, only: held_t, prescribed_bodies_t
-   use rows, only: coordinate_place, n_v => n_v_spatial, place_in_row, rows_t
+   use rows, only: coordinate_place, n_v => n_v_spatial, rows_t
    implicit none (type, external)
    private
    public :: spatial_prescribed_t, spatial_link_t
@@ -116,7 +116,7 @@ contains
       real(wp), intent(in), contiguous :: lambda(:)       !! (rows) multipliers of the solved rows [N or N.m]
       type(motion_t), intent(in) :: motion                !! motion, with accelerations
 
-      integer :: b, k, place
+      integer :: b, block, k, place
 
       power = 0.0_wp
       do k = 1, size(driven)
@@ -125,9 +125,10 @@ contains
                  + sum((mass(4:6, b)*motion%spatial%rise(:, b) - g(4:6, b))*motion%spatial%spin(:, b))
       end do
       do k = 1, size(rows%known, 2)
-         place = rows%known(2, k) - 12*(rows%known(1, k) - 1)
+         block = rows%known(2, k)/12 + 1
+         place = mod(rows%known(2, k), 12)
          b = rows%known(3, k)
-         associate (row => rows%jac(:, rows%known(1, k)))
+         associate (row => rows%jac(:, block))
             power = power + lambda(rows%known(1, k))*(sum(row(place + 1:place + 3)*motion%v(:, b)) &
                                                       + sum(row(place + 4:place + 6)*motion%spatial%spin(:, b)))
          end associate

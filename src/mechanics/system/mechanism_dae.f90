@@ -7,7 +7,7 @@ submodule(mechanism) mechanism_dae
    use assembly_report, only: assembly_t
    use contact_places, only: impulse_rates
    use dependent_rows, only: choose_dependent
-   use rows, only: before_side, body_of_side, row_of_side, rows_t
+   use rows, only: before_side, block_of_side, body_of_side, rows_t
    implicit none (type, external)
 
 contains
@@ -111,10 +111,10 @@ contains
 
       z = 0.0_wp
       do k = 1, rows%n_side
-         row = row_of_side(rows%side(k))
+         row = rows%side_row(k)
          place = before_side(rows%n_v, rows%side(k))
          body = body_of_side(rows, rows%side(k))
-         z(:, body) = z(:, body) + rows%jac(place + 1:place + size(z, 1), row)*x(row)
+         z(:, body) = z(:, body) + rows%jac(place + 1:place + size(z, 1), block_of_side(rows%side(k)))*x(row)
       end do
       z = z*inverse_mass
    end subroutine spread_rows

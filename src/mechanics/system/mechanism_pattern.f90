@@ -1,7 +1,7 @@
 !> Where the residual of `mechanism_dae` has entries: a body couples with itself, and with those that it shares joints, forces or
 !> contacts with. All bodies have all their coordinates, as many as rates, and contacts no states of their own.
 submodule(mechanism_state) mechanism_pattern
-   use rows, only: row_of_side
+   use rows, only: next_block, rows_t
    implicit none (type, external)
 
    !> Neighbours of bodies, of each those of a list.
@@ -16,7 +16,7 @@ contains
    !> Column by column: coordinates, rates, quadratures, both sets of multipliers.
    module procedure mechanism_dae_pattern
       type(couplings_t) :: near
-      integer :: body, first, i, k, level, m, n, n_entry, n_v, pass, place(0:self%linkage%bodies%n)
+      integer :: block, body, first, i, k, level, m, n, n_entry, n_v, pass, place(0:self%linkage%bodies%n)
 
       n = self%linkage%rows%n_unknown
       n_v = self%linkage%coordinates%n_v
@@ -39,8 +39,8 @@ contains
                      call add_body(n_v*n + n_v*(place(near%other(first)) - 1))
                   end do
                   do first = self%linkage%rows%last_side(body - 1) + 1, self%linkage%rows%last_side(body)
-                     call add_entry(self%n + row_of_side(self%linkage%rows%side(first)) - 1)
-                     if (level == 0) call add_entry(self%n + m + row_of_side(self%linkage%rows%side(first)) - 1)
+                     call add_entry(self%n + self%linkage%rows%side_row(first) - 1)
+                     if (level == 0) call add_entry(self%n + m + self%linkage%rows%side_row(first) - 1)
                   end do
                end do
             end do
@@ -52,9 +52,13 @@ contains
          do level = 1, 0, -1  ! lambda acts on rates, mu on coordinates
             do i = 1, m
                column(self%n + merge(0, m, level == 1) + i) = n_entry
-               do k = 1, 2
-                  body = place(self%linkage%rows%body(k, i))
-                  if (body > 0) call add_body(n_v*n*level + n_v*(body - 1))
+               block = i
+               do while (block > 0)
+                  do k = 1, 2
+                     body = place(self%linkage%rows%body(k, block))
+                     if (body > 0) call add_body(n_v*n*level + n_v*(body - 1))
+                  end do
+                  block = next_block(self%linkage%rows, block)
                end do
                call add_entry(self%n + merge(0, m, level == 1) + i - 1)  ! of a row that is omitted
             end do
@@ -88,7 +92,7 @@ contains
 
    !> M^{-1} Phi_q^T, row by row, the first body of each before the second, and after them 1 of a row that is omitted.
    module procedure mechanism_dae_spread
-      integer :: body, i, k, n
+      integer :: block, body, i, k, n
       logical :: is_left_out(self%n_row)
 
       n = 0
@@ -98,12 +102,16 @@ contains
       end do
       associate (rows => self%linkage%rows, n_v => self%linkage%coordinates%n_v)
          do i = 1, self%n_row
-            do k = 1, 2
-               body = rows%body(k, i)
-               if (body == 0) cycle
-               if (self%linkage%reduced%is_known(body)) cycle
-               values(n + 1:n + n_v) = self%linkage%inverse_mass(:, body)*rows%jac(n_v*(k - 1) + 1:n_v*k, i)
-               n = n + n_v
+            block = i
+            do while (block > 0)
+               do k = 1, 2
+                  body = rows%body(k, block)
+                  if (body == 0) cycle
+                  if (self%linkage%reduced%is_known(body)) cycle
+                  values(n + 1:n + n_v) = self%linkage%inverse_mass(:, body)*rows%jac(n_v*(k - 1) + 1:n_v*k, block)
+                  n = n + n_v
+               end do
+               block = next_block(rows, block)
             end do
             n = n + 1
             values(n) = merge(1.0_wp, 0.0_wp, is_left_out(i))
@@ -112,6 +120,7 @@ contains
    end procedure mechanism_dae_spread
 
    !> Which bodies depend on which: pairs that joints, forces and contacts name, each in both directions and once.
+   !> Length: one list, counted and then filled by the same loops.
    subroutine find_couplings(self, place, near)
       class(mechanism_state_t), intent(in) :: self  !! the system
       integer, intent(in) :: place(0:)              !! (0:bodies) number of each among the unknown ones, 0: none
@@ -126,6 +135,7 @@ contains
             if (.not. self%linkage%joints(k)%set%is_solved .or. self%linkage%joints(k)%set%sides_apart) cycle
             call couple_all(self%linkage%joints(k)%set%body, .true.)
          end do
+         call couple_blocks(self%linkage%rows)
          do k = 1, size(self%linkage%ideal)
             if (.not. self%linkage%ideal(k)%set%sides_apart) call couple_all(self%linkage%ideal(k)%set%body, .true.)
          end do
@@ -177,6 +187,26 @@ contains
             call couple(body(:, j), by_joint)
          end do
       end subroutine couple_all
+
+      !> The pairs of rows that tie more than two bodies.
+      subroutine couple_blocks(rows)
+         type(rows_t), intent(in) :: rows   !! the rows
+
+         integer :: block, end, other, side
+
+         do block = rows%n + 1, rows%n_block
+            other = rows%owner(block)
+            do while (other > 0)
+               do side = 1, 2
+                  do end = 1, 2
+                     if (other == block .and. side == end) cycle
+                     call couple([rows%body(side, block), rows%body(end, other)], .true.)
+                  end do
+               end do
+               other = next_block(rows, other)
+            end do
+         end do
+      end subroutine couple_blocks
 
       !> Both are neighbours of one another, if both are unknown and not the same.
       subroutine couple(body, by_joint)

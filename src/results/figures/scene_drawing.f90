@@ -3,10 +3,12 @@
 !> A body has the rows of [shapes] that name it. One without is drawn by the points that it carries (`body_outline`). Columns
 !> `radius`, `radius_i` and `radius_j` of a row that ties two points are circles about them, of discs and gears, in space across
 !> their axes (`drawn_axes`); of clearance joints in space they are balls. What slides in a guide with clearance is the block of its
-!> row; its points are drawn only where they lie beyond the block. Joints and forces are marks (`drawn_marks`).
+!> row; its points are drawn only where they lie beyond the block. Profiles of cams and slots: `drawn_curves`. Joints and forces
+!> are marks (`drawn_marks`).
 module scene_drawing
    use body_outline, only: distinct_points, outline, same_place
    use drawing, only: add_part, add_teeth, drawing_t, part_t, round_part
+   use drawn_curves, only: add_curves
    use drawn_axes, only: axis_of, find_frame, find_shafts, find_ways, turning_axis
    use drawn_marks, only: add_marks
    use item, only: find_place
@@ -47,6 +49,7 @@ contains
       call add_rounds(scene, scene%joints, .false., .true., drawing, has_part)
       call add_rounds(scene, scene%clearances, drawing%is_spatial, .false., drawing, has_part)
       call add_blocks(scene, has_shape, drawing, has_part)
+      call add_curves(scene, has_shape, drawing, has_part)
       call add_outlines(scene, drawing, has_part)
       call add_marks(scene, scene%joints, .false., has_shape, drawing)
       call add_marks(scene, scene%clearances, .false., has_shape, drawing)
@@ -121,6 +124,7 @@ contains
             do c = 1, size(columns)
                place = find_place(tables(k)%items(i), trim(columns(c)))
                if (place == 0 .or. tie%n < 2 .or. tie%by_joint .or. tables(k)%info%free /= free_other) cycle
+               if (.not. abs(tables(k)%items(i)%values(place)%number) > 0.0_wp) cycle  ! a follower that is a point
                associate (body => tie%body(ends(c)), point => tie%point(ends(c)), &
                           radius => abs(tables(k)%items(i)%values(place)%number))
                   if (point == 0 .or. body == 0 .or. had_part(body)) cycle
