@@ -3,7 +3,8 @@
 !> dx/dtau = (1 - tau/J) v_a(x) + tau/J v_b(x) + tau d,   0 < tau < J
 !>
 !> v_a and v_b under the loads at the start and at the end of the jump, or v_a alone with a drift d. By the pair of orders 3 and 2
-!> of Bogacki and Shampine: the error of a sub-jump is at most a part of the tolerance of what it adds to the volumes.
+!> of Bogacki and Shampine: the error of a sub-jump is at most a part of the tolerance of what it adds to the volumes, or of what a
+!> twentieth of the jump adds: rates have small jumps where the edges of contact pass cells.
 !> The weights of the method are positive, so that no cell is filled; sums of volumes are those of the rates to round-off.
 !> Source: P. Bogacki, L. F. Shampine, Appl. Math. Lett. 2 (1989) 321-325.
 module held_jump
@@ -15,11 +16,13 @@ module held_jump
    public :: follow, mean_of, path_t
 
    integer, parameter :: most_steps = 2000          !! sub-jumps of a jump, rejected ones counted
-   real(wp), parameter :: part = 0.5_wp             !! of the tolerance that sub-jumps may use [1]
+   real(wp), parameter :: part = 0.25_wp            !! of the tolerance that sub-jumps may use [1]
+   real(wp), parameter :: few = 0.05_wp             !! part of a jump below which a sub-jump is not made to gain accuracy [1]
+   real(wp), parameter :: shortest = 1.0e-7_wp      !! part of a jump that a sub-jump is at least [1]
    real(wp), parameter :: careful = 0.9_wp          !! part of the sub-jump that would just be accepted [1]
    real(wp), parameter :: longest_growth = 4.0_wp   !! of a sub-jump over the one before [1]
    real(wp), parameter :: shortest_part = 0.2_wp    !! of a sub-jump that is made again [1]
-   real(wp), parameter :: failed_part = 0.1_wp      !! of a sub-jump in which a pin was not found [1]
+   real(wp), parameter :: failed_part = 0.25_wp            !! of a sub-jump in which a pin was not found [1]
 
    !> Profiles over a jump.
    type :: path_t
@@ -47,6 +50,7 @@ contains
       real(wp), dimension(size(x), size(a%rates, 2)) :: k1, k2, k3, k4, sums, trial
       real(wp) :: h, ratio, tau
       integer :: tried
+      logical :: is_last
 
       call begin(path)
       sums = 0.0_wp
@@ -56,8 +60,8 @@ contains
       h = min(path%wish, jump)
       do tried = 1, most_steps
          if (.not. is_good) return
-         h = min(h, jump - tau)
-         if (jump - tau - h < 1.0e-9_wp*jump) h = jump - tau
+         is_last = jump - tau - h < 1.0e-9_wp*jump
+         if (is_last) h = jump - tau
          call rates_of(tau + 0.5_wp*h, sums + 0.5_wp*h*k1, k2, is_good)
          if (is_good) call rates_of(tau + 0.75_wp*h, sums + 0.75_wp*h*k2, k3, is_good)
          if (is_good) then
@@ -66,20 +70,21 @@ contains
          end if
          if (.not. is_good) then
             h = failed_part*h
-            is_good = h > 1.0e-6_wp*jump
+            is_good = h > shortest*jump
             cycle
          end if
-         ratio = error_over(mean_of(trial - sums), h*mean_of(-10.0_wp*k1 + 12.0_wp*k2 + 16.0_wp*k3 - 18.0_wp*k4)/144.0_wp)
+         ratio = error_over(mean_of(trial - sums), h*mean_of(-10.0_wp*k1 + 12.0_wp*k2 + 16.0_wp*k3 - 18.0_wp*k4)/144.0_wp) &
+                 /max(1.0_wp, few*jump/h)
          if (ratio <= 1.0_wp) then
-            tau = tau + h
-            if (jump - tau <= 0.0_wp) tau = jump
+            tau = merge(jump, tau + h, is_last)
             sums = trial
             k1 = k4
             call append(path, tau, sums, mean_of(k1))
          end if
          h = h*max(shortest_part, min(longest_growth, careful*max(ratio, 1.0e-9_wp)**(-1.0_wp/3.0_wp)))
          if (ratio <= 1.0_wp) path%wish = h
-         if (tau >= jump) return
+         if (is_last .and. ratio <= 1.0_wp) return
+         is_good = h > shortest*jump
       end do
       is_good = .false.
 
@@ -113,7 +118,7 @@ contains
          do k = 1, size(state%surfaces)
             associate (first => state%before(k) + 1, last => state%before(k) + size(state%surfaces(k)%volume))
                associate (all => sum(abs(gain(first:last))))
-                  if (all > 0.0_wp) most = max(most, sum(abs(error(first:last)))/(part*tolerance*all))
+                  if (.not. all <= 0.0_wp) most = max(most, sum(abs(error(first:last)))/(part*tolerance*all))
                end associate
             end associate
          end do

@@ -234,24 +234,30 @@ contains
       do iteration = 1, most_iterations
          call find_overlap(pair, pin_at(e, turned), to_gradient, overlap, arc)
          associate (delta => overlap%delta, g => overlap%gradient)
-            if (.not. delta > 0.0_wp) then
-               e = e + (0.5_wp*magnitude**(1.0_wp/p) - delta)*g/dot_product(g, g)
+            if (.not. (delta > 0.0_wp .and. arc%n > 0)) then
+               if (best < huge(1.0_wp)) then
+                  e = 0.5_wp*(e + place)
+               else
+                  e = e + (0.5_wp*magnitude**(1.0_wp/p) - delta)*g/dot_product(g, g)
+               end if
                cycle
             end if
             left = force - delta**p*g
             is_good = norm2(left) <= close*magnitude
             if (is_good) return
-            if (norm2(left) < best) then
-               best = norm2(left)
-               place = e
+            if (norm2(left) >= best) then
+               e = 0.5_wp*(e + place)
+               cycle
             end if
+            best = norm2(left)
+            place = e
             step = newton_step(overlap, arc, p, left)
             e = e + step*min(1.0_wp, (2.0_wp*delta + longest*norm2(e))/max(norm2(step), tiny(1.0_wp)))
          end associate
       end do
       e = place
       call find_overlap(pair, pin_at(e, turned), to_gradient, overlap, arc)
-      is_good = overlap%delta > 0.0_wp
+      is_good = overlap%delta > 0.0_wp .and. arc%n > 0
    end subroutine place_pin
 
    !> Newton's step of the pin.

@@ -19,7 +19,7 @@ module life_errors
    use worn_surface, only: worn_surface_t
    implicit none (type, external)
    private
-   public :: error_ratio, measure_errors, settling_errors
+   public :: beyond_scatter, error_ratio, measure_errors, settling_errors
 
    real(wp), parameter :: safety = 2.0_wp   !! times the estimated error of all jumps [1]
    real(wp), parameter :: explained = 2.0_wp     !! standard errors of an error that scatter explains [1]
@@ -163,5 +163,21 @@ contains
       end associate
       errors = max(abs(mean_of(depths)) - explained*scatter, 0.0_wp)
    end function unexplained
+
+   !> Local errors less what the scatter between starts explains, the same for each start; of one start they are not changed.
+   pure function beyond_scatter(local) result(errors)
+      real(wp), intent(in) :: local(:, :)                          !! (n, starts) local errors [m^3, m]
+      real(wp) :: errors(size(local, 1), size(local, 2))           !! (n, starts) what is left of their mean [m^3, m]
+
+      real(wp) :: mean(size(local, 1)), scatter(size(local, 1))
+
+      errors = local
+      associate (n => size(local, 2))
+         if (n < 2) return
+         mean = mean_of(local)
+         scatter = sqrt(sum((local - spread(mean, 2, n))**2, dim=2)/(n*(n - 1.0_wp)))
+         errors = spread(sign(max(abs(mean) - explained*scatter, 0.0_wp), mean), 2, n)
+      end associate
+   end function beyond_scatter
 
 end module life_errors

@@ -31,7 +31,7 @@ module life_jumps
    use life_ends, only: approach, find_end, is_beyond, part_done
    use held_jump, only: follow, mean_of, path_t
    use held_loads, only: held_t, new_held
-   use life_errors, only: error_ratio, measure_errors, settling_errors
+   use life_errors, only: beyond_scatter, error_ratio, measure_errors, settling_errors
    use life_results, only: life_plan_t, life_t, node_t
    use rate_source, only: rate_source_t
    use text, only: to_text
@@ -41,9 +41,8 @@ module life_jumps
    public :: find_life
 
    real(wp), parameter :: first_part = 0.02_wp      !! what the first jump adds, of the maximum depth at the start [1]
-   real(wp), parameter :: longest_growth = 10.0_wp  !! of a jump over the one before [1]
-   real(wp), parameter :: shortest_part = 0.2_wp    !! of a jump that is made again [1]
-   real(wp), parameter :: careful = 0.9_wp          !! part of the jump that would just be accepted [1]
+   real(wp), parameter :: longest_growth = 5.0_wp   !! of a jump over the one before [1]
+   real(wp), parameter :: shortest_part = 0.2_wp, careful = 0.9_wp   !! of a jump made again; of one that would just do [1]
    real(wp), parameter :: no_error = 1.0e-6_wp      !! part of what is allowed that limits no jump [1]
 
    !> Where the life is.
@@ -101,10 +100,10 @@ contains
                exit
             end if
             life%rejected = life%rejected + 1
-            jump = max(jump*factor(trial%ratio, march%last > 0.0_wp), real(plan%measured, wp))
+            jump = max(jump*factor(trial%ratio, march%last > 0.0_wp, plan%starts), real(plan%measured, wp))
          end do
          if (allocated(error)) exit
-         wish = jump*factor(trial%ratio, march%last > 0.0_wp)
+         wish = jump*factor(trial%ratio, march%last > 0.0_wp, plan%starts)
          call take_jump(life, march, jump, trial)
          call source%show(part_done(life, march%cycles, march%x))
       end do
@@ -204,11 +203,12 @@ contains
    end function bounded
 
    !> Factor for the next jump, or for the same once more.
-   pure real(wp) function factor(ratio, has_history)
+   pure real(wp) function factor(ratio, has_history, starts)
       real(wp), intent(in) :: ratio              !! error over what is allowed [1]
       logical, intent(in) :: has_history         !! the error over what is added falls as J^2, else as J
+      integer, intent(in) :: starts              !! of the ensemble; rates that scatter say little of much longer jumps
 
-      factor = huge(1.0_wp)
+      factor = merge(longest_growth, huge(1.0_wp), starts > 1)
       if (ratio <= no_error) return
       factor = max(shortest_part, min(longest_growth, careful*ratio**merge(-0.5_wp, -1.0_wp, has_history)))
    end function factor
@@ -294,7 +294,7 @@ contains
       change = trial%path%sums(:, :, trial%path%n)
       share = 1.0_wp
       if (march%last > 0.0_wp) share = -1.0_wp/(3.0_wp*(1.0_wp + march%last/jump))
-      trial%local = share*(change - predicted)
+      trial%local = beyond_scatter(share*(change - predicted))
       trial%rates = trial%held%rates
       call march%now%at(life%state, trial%place, trial%rates, is_good)
       if (.not. is_good) return
