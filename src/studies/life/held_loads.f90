@@ -68,15 +68,34 @@ contains
          held%force = 0.0_wp*held%nodes(:2, :, :, :)
       end associate
       if (size(loads) == 0) return
+      call take_volumes(state, held)
       call find_pairs(state, x, pairs)
       call keep_forces(pairs, held)
       call merge_nodes(held)
       do m = 1, size(rates, 2)
          call add_nodes(state, pairs, held, m, held%defect(:, m), is_good)
-         held%defect(:, m) = rates(:, m) - held%defect(:, m)
+         held%defect(:, m) = held%rates(:, m) - held%defect(:, m)
       end do
       held%defect(state%n - size(state%surfaces) + 1:, :) = 0.0_wp
    end subroutine new_held
+
+   !> Scale the rates so that their sums are the volumes of the nodes: these are no differences of volumes that are large.
+   pure subroutine take_volumes(state, held)
+      type(life_state_t), intent(in) :: state   !! the surfaces
+      type(held_t), intent(inout) :: held       !! its rates are scaled
+
+      real(wp) :: lost
+      integer :: k, m
+
+      do m = 1, size(held%rates, 2)
+         do k = 1, size(state%surfaces)
+            associate (rates => held%rates(state%before(k) + 1:state%before(k) + size(state%surfaces(k)%volume), m))
+               lost = sum(rates)
+               if (lost > 0.0_wp) rates = rates*(sum(held%nodes(6 - modulo(k, 2), :, (k + 1)/2, m))/lost)
+            end associate
+         end do
+      end do
+   end subroutine take_volumes
 
    !> Rates of other profiles under the same loads.
    subroutine rates_at(self, state, x, rates, is_good)

@@ -1,13 +1,13 @@
 !> Wear over many cycles by jumps between simulated cycles, with control of their error.
 !>
-!> The volumes x of all cells follow dx/dN = v(x), v what simulated cycles take per cycle. A jump over J cycles from x_n is
+!> The volumes x of all cells follow dx/dN = v(x), v what simulated cycles take per cycle. With v_n(x) the rates of a profile
+!> under the loads of simulation n (`held_loads`) a jump over J cycles from x_n is
 !>
-!> predictor   x* = x_n + J v_n + J^2 (v_n - v_(n-1))/(2 J_(n-1)),   of the first jump  x* = x_n + J v_n
-!> corrector   x_(n+1) = x_n + J (v_n + v(x*))/2
+!> predictor   dx*/ds = v_n(x*) + s (v_n(x_n) - v_(n-1)(x_n))/J_(n-1),   of the first jump  dx*/ds = v_n(x*)
+!> corrector   dx/ds  = (1 - s/J) v_n(x) + s/J v_(n+1)(x),   v_(n+1) under the loads of a simulation with x*
 !>
-!> With an ensemble all predictors are that of the first jump: the difference of two rates that scatter says little. The rates v(x*)
-!> are those of the next start, so that a jump costs one simulation. The method is of second order (the first jump is Heun's). Its
-!> local error follows from the difference of the corrector and the first predictor,
+!> in sub-jumps (`held_jump`). With an ensemble all predictors are that of the first jump: the difference of two rates that
+!> scatter says little. A jump costs one simulation; the method is of second order. Its local error follows from the difference,
 !>
 !> e = -(x_(n+1) - x*)/(3 (1 + J_(n-1)/J)),   of the first jump the difference from x* itself.
 !>
@@ -16,14 +16,13 @@
 !> g (tolerance + depth_tolerance/(h + g)),   g what the jump adds to the maximum depth h,
 !>
 !> wherever the depth exceeds h/2 (at the ends of an arc, which move, cells are worn in part, and their errors have both signs), and
-!> if J |v(x*) - v_n|/2, on average over the surface, is at most a tenth of what the jump adds on average; else it is made again
-!> with fewer cycles. So the depth at the end has about the relative error `tolerance`, and in any case some `depth_tolerance`.
+!> if J |v_(n+1)(x*) - v_n(x*)|/2, on average over the surface, is at most a tenth of what the jump adds; else it is made again with
+!> fewer cycles. So the depth at the end has about the relative error `tolerance`, and in any case some `depth_tolerance`.
 !> What the scatter between starts explains of both (two standard errors) is not counted: shorter jumps would not reduce it. A jump
 !> over the measured cycles is always accepted: it is the simulation.
-!> Volumes are sums of rates, so that nothing is lost: the volume is what all cycles take, by the trapezoidal rule.
+!> Volumes are sums of rates, so that nothing is lost. Within a sub-jump rates are linear in N.
 !>
-!> Within a jump rates are linear in N. Source: E. Hairer, S. P. Norsett, G. Wanner, Solving Ordinary Differential Equations I, 2nd
-!> ed. (1993), section III.5. Signs: rates are not negative; a predictor that would be below its start is bounded by it. Limits:
+!> Source: E. Hairer, S. P. Norsett, G. Wanner, Solving Ordinary Differential Equations I, 2nd ed. (1993), section III.5. Signs: rates are not negative; a predictor that would be below its start is bounded by it. Limits:
 !> rates depend on the profile only, not on the number of the cycle.
 module life_jumps
    use errors, only: error_t, exit_integration, set_error
@@ -136,6 +135,7 @@ contains
       call source%find(surfaces, 1, 1, march%rates, march%values, loads, error)
       if (allocated(error)) return
       call new_held(life%state, march%x, march%rates, loads, march%now)
+      march%rates = march%now%rates
       life%simulated = 1
       call add_node(life, march)
       if (is_beyond(life, march%x, march%values)) call find_end(life, march%x, march%values)
