@@ -22,8 +22,8 @@
 !> over the measured cycles is always accepted: it is the simulation.
 !> Volumes are sums of rates, so that nothing is lost. Within a sub-jump rates are linear in N.
 !>
-!> Source: E. Hairer, S. P. Norsett, G. Wanner, Solving Ordinary Differential Equations I, 2nd ed. (1993), section III.5. Signs: rates are not negative; a predictor that would be below its start is bounded by it. Limits:
-!> rates depend on the profile only, not on the number of the cycle.
+!> Source: E. Hairer, S. P. Norsett, G. Wanner, Solving Ordinary Differential Equations I, 2nd ed. (1993), section III.5.
+!> Signs: rates are not negative. Limits: rates depend on the profile only, not on the number of the cycle.
 module life_jumps
    use errors, only: error_t, exit_integration, set_error
    use kinds, only: wp
