@@ -12,6 +12,7 @@ interval of depth and volume of each surface at the end must hold the truth with
 import argparse
 import concurrent.futures
 import json
+import math
 import pathlib
 import random
 import subprocess
@@ -80,15 +81,15 @@ crank     0.30       1.0e-4            0            {half_crank}   90
 coupler   {rod}      1.0e-3            {coupler_x}  {coupler_y}    {coupler_angle}
 rocker    {slider}   1.0e-3            {rocker_x}   {rocker_y}     {rocker_angle}
 [points]
-name     body      xi[mm]          x[mm]
-main     ground    -               0
-foot     ground    -               {base}
-heel     crank     {minus_crank}   -
-throw    crank     {half_crank}    -
-big      coupler   {minus_rod}     -
-small    coupler   {half_rod}      -
-low      rocker    {minus_rocker}  -
-pin      rocker    {half_rocker}   -
+name     body      xi[mm]
+main     ground    0
+foot     ground    {base}
+heel     crank     {minus_crank}
+throw    crank     {half_crank}
+big      coupler   {minus_rod}
+small    coupler   {half_rod}
+low      rocker    {minus_rocker}
+pin      rocker    {half_rocker}
 [joint.revolute]
 name        i       j
 main        main    heel
@@ -107,8 +108,6 @@ def circles(base, crank, coupler, rocker):
 
 def mechanism(draw, is_crank):
     """Words of a mechanism, bearing and journal."""
-    import math
-
     crank, rod = draw.uniform(30, 60), draw.uniform(110, 160)
     words = {"half_crank": crank / 2, "minus_crank": -crank / 2, "half_rod": rod / 2, "minus_rod": -rod / 2,
              "rod": draw.uniform(0.1, 0.4), "slider": draw.uniform(0.1, 0.4), "middle": crank + rod / 2, "end": crank + rod}

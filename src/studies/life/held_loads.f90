@@ -167,7 +167,7 @@ contains
          do c = 1, size(pairs)
             do k = 1, size(held%nodes, 2)
                associate (node => held%nodes(:, k, c, m))
-                  if (.not. sum(node(5:)) > 0.0_wp) cycle
+                  if (.not. (sum(node(5:)) > 0.0_wp .and. node(4) > 0.0_wp)) cycle
                   call find_overlap(pairs(c), pin_at(node(:2), node(3)), to_gradient, overlap)
                   if (overlap%delta > 0.0_wp) held%force(:, k, c, m) = overlap%delta**node(4)*overlap%gradient
                end associate
