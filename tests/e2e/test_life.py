@@ -91,7 +91,8 @@ def test_bush(gudgeon, radius, shaft, first, depth, close):
     assert_close(wear["bearing"]["depth_max"]["value"], depth, relative=1e-9, what="depth")
     assert_close(wear["time"], time, relative=close, what="time")
     assert_close(wear["bearing"]["volume"]["value"], end, relative=close, what="volume")
-    assert_close(wear["bearing"]["arc"]["value"], 2 * arcs(radius, shaft, depth)[1], relative=close, what="arc")
+    assert_close(wear["bearing"]["arc"]["value"], 2 * arcs(radius, shaft, depth)[1], relative=1.5 * close, what="arc")
+    assert summary["life"]["profiles"] <= 20, "few simulations under held loads"
     for measure in ("depth_max", "volume", "arc"):
         assert all(value == 0 for value in wear["journal"][measure].values()), "the shaft does not wear"
         assert wear["bearing"][measure]["low"] <= wear["bearing"][measure]["value"] <= wear["bearing"][measure]["high"]
@@ -127,6 +128,18 @@ def test_shaft_only(lives):
         mine = file["life_jumps/surface"][()] == b"journal"
         assert_close(value[mine], rate * time[mine], absolute=1e-7, what="linear")
     assert summary["life"]["profiles"] < 60
+
+
+def test_both_wear(gudgeon):
+    """Bearing and journal of one coefficient lose the same in every sub-jump, and no cell is filled."""
+    _, place = life_of(gudgeon, pin("depth = 4 um", bearing="1e-15"))
+    with h5py.File(place / "life.h5") as file:
+        volume, side = file["life_jumps/volume"][()], file["life_jumps/surface"][()]
+        assert_close(volume[side == b"bearing"], volume[side == b"journal"], relative=1e-12, what="volumes")
+        assert len(volume) > 20
+        for name in ("bearing", "journal"):
+            depth = file[f"life_profiles/pin/{name}/depth"][()]
+            assert depth.min() >= 0 and np.diff(depth, axis=0).min() >= 0, "nothing is filled"
 
 
 def test_spread(gudgeon):

@@ -53,18 +53,20 @@ contains
    end subroutine run_test_life
 
    !> Rates of the first law.
-   subroutine find_slowing(self, surfaces, number, settling, rates, values, error)
+   subroutine find_slowing(self, surfaces, number, settling, rates, values, loads, error)
       class(slowing_t), intent(inout) :: self            !! the law
       type(worn_surface_t), intent(in) :: surfaces(:)    !! (2) bearing and journal
       integer, intent(in) :: number                      !! of the request
       integer, intent(in) :: settling                    !! settling cycles, as a multiple of those of the plan
       real(wp), intent(out) :: rates(:, :)               !! (n, starts) volumes and distances per cycle [m^3, m]
       real(wp), intent(out) :: values(:)                 !! (conditions) the rate over that of new surfaces [1]
+      real(wp), intent(out) :: loads(:, :)               !! (0, starts) none are known
       type(error_t), allocatable, intent(out) :: error   !! the request that fails
 
       real(wp) :: rate
       integer :: k
 
+      loads = 0.0_wp
       call check_true(error, number < self%fails_at, "simulation failed")
       associate (n => size(surfaces(1)%volume))
          rate = self%first/(1.0_wp + sum(surfaces(1)%volume)/self%half_volume)
@@ -79,19 +81,21 @@ contains
    end subroutine find_slowing
 
    !> Rates of the second law: V_i(e) of the section of a circle of the shaft's radius, e by the total volume.
-   subroutine find_bush(self, surfaces, number, settling, rates, values, error)
+   subroutine find_bush(self, surfaces, number, settling, rates, values, loads, error)
       class(bush_t), intent(inout) :: self               !! the law
       type(worn_surface_t), intent(in) :: surfaces(:)    !! (2) bearing and journal
       integer, intent(in) :: number                      !! of the request
       integer, intent(in) :: settling                    !! settling cycles, as a multiple of those of the plan
       real(wp), intent(out) :: rates(:, :)               !! (n, starts) volumes and distances per cycle [m^3, m]
       real(wp), intent(out) :: values(:)                 !! (0) no conditions
+      real(wp), intent(out) :: loads(:, :)               !! (0, starts) none are known
       type(error_t), allocatable, intent(out) :: error   !! never set
 
       real(wp), parameter :: small = 1.0e-5_wp
       real(wp) :: left, middle, right, step(size(surfaces(1)%volume))
       integer :: k
 
+      loads = 0.0_wp
       left = 0.0_wp
       right = 1.0e-3_wp
       do k = 1, 100

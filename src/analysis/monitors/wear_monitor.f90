@@ -20,6 +20,7 @@ module wear_monitor
    use wear_arc, only: add_swept_arc, add_swept_points
    use wear_contact, only: wear_contact_t
    use surfaces, only: surfaces_t
+   use wear_loads, only: wear_loads_t
    use wear_law, only: n_side, of_bearing, of_journal, side_names, wear_law_t
    use worn_surface, only: worn_surface_t
    implicit none (type, external)
@@ -40,6 +41,7 @@ module wear_monitor
       real(wp) :: distance = 0.0_wp                !! that it has slid [m]
       real(wp) :: owed = 0.0_wp                    !! driving work that is not booked yet, not positive [J]
       real(wp), allocatable :: volume(:, :)        !! (cells, 2) what bearing and journal have lost [m^3]
+      type(wear_loads_t) :: loads                  !! under which loads, where wear is counted from some time on
    end type worn_contact_t
 
    !> What a contact does at a point of a step.
@@ -114,7 +116,8 @@ contains
       do m = 1, size(self%worn)
          associate (worn => self%worn(m), set => system%clearance_joints%sets(self%worn(m)%slot)%set)
             if (.not. set%contact(worn%contact)%is_touching) cycle
-            call wear_in_step(worn, max((self%from - method%step%t0)/method%step%h, 0.0_wp), self%samples, self%y, system, method)
+            call wear_in_step(worn, max((self%from - method%step%t0)/method%step%h, 0.0_wp), self%from > -huge(1.0_wp), &
+                              self%samples, self%y, system, method)
             has_moved = .true.
          end associate
       end do
@@ -122,15 +125,16 @@ contains
    end subroutine after_step
 
    !> What it took of the surfaces of a contact.
-   subroutine wear_in_step(worn, first, samples, y, system, method)
+   subroutine wear_in_step(worn, first, keeps_loads, samples, y, system, method)
       type(worn_contact_t), intent(inout) :: worn                     !! the contact
       real(wp), intent(in) :: first                                   !! part of the step that is not counted [1]
+      logical, intent(in) :: keeps_loads                              !! the loads are kept
       type(sample_t), allocatable, intent(inout) :: samples(:)        !! (any) scratch, grown
       real(wp), intent(inout), contiguous :: y(:)                     !! (n) scratch state [any]
       type(mechanism_t), intent(inout) :: system                      !! the system
       class(integrator_t), intent(inout) :: method                    !! the integrator, after a step
 
-      real(wp) :: volume, work
+      real(wp) :: lost(n_gauss*most_stretches, n_side), volume, work
       integer :: k, n, place, side
 
       associate (set => system%clearance_joints%sets(worn%slot)%set, h => method%step%h)
@@ -150,16 +154,22 @@ contains
          if (n > 1) call take_samples(worn, first, n, samples, y, system, method)
          n = n*n_gauss
          if (.not. sum(samples(:n)%weight) > 0.0_wp) samples(:n)%weight = samples(:n)%time
+         lost(:n, :) = 0.0_wp
          do side = 1, n_side
             associate (shares => samples(:n)%weight*samples(:n)%kappa(side))
                if (.not. (work > 0.0_wp .and. sum(shares) > 0.0_wp)) cycle
                volume = work*sum(shares)/sum(samples(:n)%weight)
+               lost(:n, side) = volume*shares/sum(shares)
                do k = 1, n
-                  if (shares(k) > 0.0_wp) call add_shares(samples(k), side, volume*shares(k)/sum(shares), worn%volume(:, side))
+                  if (shares(k) > 0.0_wp) call add_shares(samples(k), side, lost(k, side), worn%volume(:, side))
                end do
             end associate
          end do
          worn%distance = worn%distance + sum(samples(:n)%time*samples(:n)%wear%speed)
+         if (.not. keeps_loads) return
+         do k = 1, n
+            call worn%loads%add(samples(k)%wear, lost(k, :))
+         end do
       end associate
    end subroutine wear_in_step
 
@@ -265,6 +275,8 @@ contains
                surface%is_hole = side == of_bearing
                surface%radius = merge(set%items%pairs(item)%radius_i, set%items%pairs(item)%radius_j, side == of_bearing)
                surface%volume = worn%volume(:, side)
+               if (allocated(surface%loads)) deallocate (surface%loads)
+               if (side == of_bearing) surface%loads = worn%loads%nodes()
                surfaces = [surfaces, surface]
             end do
          end associate

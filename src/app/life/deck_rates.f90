@@ -42,13 +42,14 @@ module deck_rates
 contains
 
    !> What surfaces of some profiles lose in a cycle, from each start.
-   subroutine find_in_simulations(self, surfaces, number, settling, rates, values, error)
+   subroutine find_in_simulations(self, surfaces, number, settling, rates, values, loads, error)
       class(deck_rates_t), intent(inout) :: self         !! the simulations
       type(worn_surface_t), intent(in) :: surfaces(:)    !! (surfaces) their profiles
       integer, intent(in) :: number                      !! of the request, from 1: the same for the same profiles
       integer, intent(in) :: settling                    !! 1: settling cycles of the deck, 2: twice as many
       real(wp), intent(out) :: rates(:, :)               !! (n, starts) volumes and distances per cycle [m^3, m]
       real(wp), intent(out) :: values(:)                 !! (conditions) mean extremes of their channels [any]
+      real(wp), intent(out) :: loads(:, :)               !! (n_loads, starts) nodes of the loads, see `held_loads` [m, rad, 1, m^3]
       type(error_t), allocatable, intent(out) :: error   !! a simulation failed
 
       integer :: at, k
@@ -59,6 +60,7 @@ contains
       do k = 1, size(rates, 2)
          at = self%journal%find(number, k)
          rates(:, k) = self%journal%runs(at)%rates
+         loads(:, k) = self%journal%runs(at)%loads
          values = values + self%journal%runs(at)%values/size(rates, 2)
       end do
    end subroutine find_in_simulations
@@ -120,9 +122,9 @@ contains
       type(simulation_t), intent(inout) :: run             !! its start is known; what it gives is set
       character(:), allocatable, intent(out) :: reason     !! why it failed; blank: it did not
 
-      allocate (run%rates(self%state%n), run%values(n_values), source=0.0_wp)
+      allocate (run%rates(self%state%n), run%values(n_values), run%loads(self%plan%n_loads), source=0.0_wp)
       call simulate(self%job, self%plan, self%spans(settling), surfaces, merge(run%start, 0, self%has_ensemble), self%state, &
-                    run%rates, run%values, reason)
+                    run%rates, run%values, run%loads, reason)
    end subroutine make_run
 
    !> Make a simulation in a process of its own.
@@ -148,6 +150,7 @@ contains
       call packer%text(reason)
       call packer%reals(run%rates)
       call packer%reals(run%values)
+      call packer%reals(run%loads)
       call end_process(merge(exit_ok, exit_file, hand_back(packer%bytes%get()) == 0))
    end subroutine start_process
 
@@ -164,6 +167,7 @@ contains
       call unpacker%text(reason)
       call unpacker%reals(run%rates)
       call unpacker%reals(run%values)
+      call unpacker%reals(run%loads)
       if (code == exit_ok .and. unpacker%is_good) return
       reason = "its process ended with exit code "//to_text(code)
       if (code > 128) reason = "its process was ended by signal "//to_text(code - 128)

@@ -17,6 +17,7 @@ module life_setup
    use scene, only: analysis_dynamic
    use text, only: append_text, text_t
    use wear_monitor, only: new_wear_monitor, wear_monitor_t
+   use wear_loads, only: most_nodes, n_load
    use worn_surface, only: worn_surface_t
    implicit none (type, external)
    private
@@ -104,6 +105,7 @@ contains
          plan%cycle = (span%to - span%from)/plan%measured
          plan%tolerance = life%number("tolerance")
          plan%depth_tolerance = life%number("depth_tolerance")
+         plan%n_loads = n_load*most_nodes*(size(surfaces)/2)
          plan%simulations = nint(life%number("simulations"))
          if (source%has_ensemble) plan%starts = nint(loaded%scene%settings%ensemble%number("runs"))
          if (life%number("cycles") > 0.0_wp) ends%cycles = life%number("cycles")

@@ -23,6 +23,7 @@ module worn_surface
       real(wp) :: length = 0.0_wp            !! along the axis [m]
       real(wp) :: distance = 0.0_wp          !! that the surfaces have slid on each other [m]
       real(wp), allocatable :: volume(:)     !! (cells) what each has lost [m^3]
+      real(wp), allocatable :: loads(:, :)   !! (6, nodes) of a bearing, see `wear_loads`; unallocated: unknown [m, rad, 1, m^3]
    contains
       procedure :: angle => angle_of_cell
       procedure :: depths => depths_of_cells

@@ -201,6 +201,7 @@ contains
          wear%direction(side) = atan2(normal(2), normal(1))
          wear%turn(side) = turn - motion%omega(3, body)
       end do
+      call find_place(self, k, motion, contact, wear)
       associate (pair => self%items%pairs(k))
          wear%is_worn = allocated(pair%worn)
          if (wear%is_worn) then
@@ -210,5 +211,35 @@ contains
          end if
       end associate
    end subroutine revolute_wear_at
+
+   !> Where the pin is in its hole, and the exponent of the normal law at its penetration.
+   subroutine find_place(self, k, motion, contact, wear)
+      class(clearance_revolute_t), intent(in) :: self   !! the set
+      integer, intent(in) :: k                          !! contact of the set
+      type(motion_t), intent(in) :: motion              !! positions and velocities
+      type(point_contact_t), intent(in) :: contact      !! its kinematics
+      type(wear_contact_t), intent(inout) :: wear       !! place, turned and exponent are set
+
+      real(wp), parameter :: small = 1.0e-3_wp   ! part of the penetration [1]
+      type(point_contact_t) :: probe(2)
+      real(wp) :: f_elastic(1), f_n(1, 2)
+      integer :: i
+
+      associate (body => self%journal(k)%body, s_i => self%journal(k)%s_i, s_j => self%journal(k)%s_j)
+         associate (rot_i => motion%rot(1:2, 1:2, body(1)), rot_j => motion%rot(1:2, 1:2, body(2)))
+            wear%place = motion%r(1:2, body(2)) - motion%r(1:2, body(1)) + matmul(rot_j, s_j)
+            wear%place = matmul(wear%place, rot_i) - s_i
+         end associate
+         wear%turned = motion%angle(body(2)) - motion%angle(body(1))
+      end associate
+      probe = contact
+      probe%rate = 0.0_wp
+      probe(2)%delta = (1.0_wp + small)*contact%delta
+      do i = 1, 2
+         call self%press(k, probe(i:i), f_n(:, i), f_elastic)
+      end do
+      wear%exponent = 0.0_wp
+      if (minval(f_n) > 0.0_wp) wear%exponent = log(f_n(1, 2)/f_n(1, 1))/log(1.0_wp + small)
+   end subroutine find_place
 
 end module clearance_revolute

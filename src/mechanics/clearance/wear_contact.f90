@@ -15,6 +15,9 @@ module wear_contact
       real(wp) :: direction(n_side) = 0.0_wp     !! (2) direction of the middle of the arc on each surface [rad]
       real(wp) :: turn(n_side) = 0.0_wp          !! (2) rates of these directions [rad/s]
       real(wp) :: half_angle(n_side) = 0.0_wp    !! (2) half angles of the arc of round surfaces, from their centres [rad]
+      real(wp) :: place(2) = 0.0_wp              !! (2) centre of the pin from that of the hole, frame of the hole's body [m]
+      real(wp) :: turned = 0.0_wp                !! angle of the pin's body less that of the hole's [rad]
+      real(wp) :: exponent = 0.0_wp              !! d ln F/d ln delta of the normal law there [1]
       logical :: is_worn = .false.               !! the surfaces have profiles: `arc` has the arc
       type(arc_t) :: arc                         !! points of the arc of worn surfaces
    end type wear_contact_t

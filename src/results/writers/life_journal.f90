@@ -14,7 +14,7 @@ module life_journal
    public :: life_journal_t, simulation_t
 
    character(*), parameter :: journal_name = "life.runs"                  !! file in the directory
-   character(*), parameter :: first_line = "gudgeon runs of a life, format 1"//new_line("a")
+   character(*), parameter :: first_line = "gudgeon runs of a life, format 2"//new_line("a")
    character(tag_length), parameter :: tag_head = "head"     !! block: what the life is of
    character(tag_length), parameter :: tag_run = "run "      !! block: a simulation
    integer(i8), parameter :: largest_journal = 2000000000_i8  !! bytes that are read
@@ -25,6 +25,7 @@ module life_journal
       integer :: start = 0                     !! number of the start
       real(wp), allocatable :: rates(:)        !! (n) volumes and distances per cycle [m^3, m]
       real(wp), allocatable :: values(:)       !! (conditions) extremes of channels [any]
+      real(wp), allocatable :: loads(:)        !! (n_loads) nodes of the loads, see `held_loads` [m, rad, 1, m^3]
    end type simulation_t
 
    !> A journal.
@@ -68,6 +69,7 @@ contains
             call block%integer(run%start, huge(0))
             call block%reals(run%rates)
             call block%reals(run%values)
+            call block%reals(run%loads)
             if (block%is_good) call append_run(self, run)
          end if
       end do
@@ -139,6 +141,7 @@ contains
       call packer%integer(run%start)
       call packer%reals(run%rates)
       call packer%reals(run%values)
+      call packer%reals(run%loads)
       block = block_of(tag_run, packer%bytes%get())
    end function packed_run
 

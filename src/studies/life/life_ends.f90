@@ -8,7 +8,7 @@ module life_ends
    use text, only: real_text, to_text
    implicit none (type, external)
    private
-   public :: approach, find_end, is_beyond, rate_of_end
+   public :: approach, find_end, is_beyond, part_done, rate_of_end
 
    integer, parameter :: halvings = 60             !! of a jump
    real(wp), parameter :: beyond = 1.1_wp          !! times the cycles in which a limit would be reached at the present rate [1]
@@ -231,5 +231,19 @@ contains
       end function slope
 
    end subroutine rate_of_end
+
+   !> How far the life is, by the nearest limit.
+   real(wp) function part_done(life, cycles, x)
+      type(life_t), intent(in) :: life          !! the life
+      real(wp), intent(in) :: cycles            !! so far [1]
+      real(wp), intent(in) :: x(:)              !! (n) volumes and distances [m^3, m]
+
+      associate (ends => life%plan%ends)
+         part_done = max(cycles/(ends%cycles*life%plan%stretch), life%state%max_depth(x)/ends%depth)
+         if (ends%clearance < huge(1.0_wp)) then
+            part_done = max(part_done, maxval(life%state%added_clearance(x)/(ends%clearance - life%plan%clearances)))
+         end if
+      end associate
+   end function part_done
 
 end module life_ends

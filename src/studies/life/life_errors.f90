@@ -11,15 +11,20 @@
 module life_errors
    use batch_means, only: student
    use errors, only: error_t
+   use held_jump, only: mean_of
    use kinds, only: wp
    use life_results, only: life_t, node_t
    use life_state, only: life_state_t, n_measure
    use rate_source, only: rate_source_t
+   use worn_surface, only: worn_surface_t
    implicit none (type, external)
    private
-   public :: measure_errors, settling_errors
+   public :: beyond_scatter, error_ratio, measure_errors, settling_errors
 
    real(wp), parameter :: safety = 2.0_wp   !! times the estimated error of all jumps [1]
+   real(wp), parameter :: explained = 2.0_wp     !! standard errors of an error that scatter explains [1]
+   real(wp), parameter :: deep = 0.5_wp          !! part of the maximum depth above which errors of cells count [1]
+   real(wp), parameter :: most_change = 0.1_wp   !! mean of what the change of rates makes over that of what the jump adds [1]
 
 contains
 
@@ -66,16 +71,18 @@ contains
       real(wp), intent(in) :: rates(:, :)                !! (n, starts) its rates [m^3, m]
       type(error_t), allocatable, intent(out) :: error   !! a simulation failed
 
-      real(wp), allocatable :: change(:, :, :), first(:, :), values(:)
+      real(wp), allocatable :: change(:, :, :), first(:, :), loads(:, :), values(:)
       integer :: k
 
       if (life%last < 2) return
       allocate (first(size(rates, 1), size(rates, 2)), change(size(rates, 1), size(rates, 2), 2), &
-                values(size(life%plan%ends%extremes)), source=0.0_wp)
-      call source%find(life%state%surfaces, 1, 1, first, values, error)  ! known: it was the first
-      if (.not. allocated(error)) call source%find(life%state%surfaces, life%simulated + 1, 2, change(:, :, 1), values, error)
+                loads(life%plan%n_loads, size(rates, 2)), values(size(life%plan%ends%extremes)), source=0.0_wp)
+      call source%find(life%state%surfaces, 1, 1, first, values, loads, error)  ! known: it was the first
       if (.not. allocated(error)) then
-         call source%find(life%state%worn(place), life%simulated + 2, 2, change(:, :, 2), values, error)
+         call source%find(life%state%surfaces, life%simulated + 1, 2, change(:, :, 1), values, loads, error)
+      end if
+      if (.not. allocated(error)) then
+         call source%find(life%state%worn(place), life%simulated + 2, 2, change(:, :, 2), values, loads, error)
       end if
       if (allocated(error)) return
       life%simulated = life%simulated + 2
@@ -102,5 +109,75 @@ contains
       node%by_settling = abs(state%measures(max(node%x + mean, 0.0_wp)) - node%measures)
       node%by_settling = max(node%by_settling - jackknife(state, max(node%x + mean, 0.0_wp), sums), 0.0_wp)
    end subroutine settle
+
+   !> Maximum over the surfaces of the error of depth, and of the change of the rates, over what is allowed. The change falls as J,
+   !> the error over what is added as J^2: the square of the first stands beside the second.
+   real(wp) function error_ratio(life, x, gain, local, change) result(ratio)
+      type(life_t), intent(in) :: life       !! the life
+      real(wp), intent(in) :: x(:)           !! (n) where the jump starts [m^3, m]
+      real(wp), intent(in) :: gain(:)        !! (n) what it adds [m^3, m]
+      real(wp), intent(in) :: local(:, :)    !! (n, starts) its local errors [m^3, m]
+      real(wp), intent(in) :: change(:, :)   !! (n, starts) what the change of the rates makes [m^3, m]
+
+      type(worn_surface_t), allocatable :: surfaces(:)
+      real(wp), allocatable :: added(:), errors(:)
+      real(wp) :: most
+      integer :: k
+
+      ratio = 0.0_wp
+      surfaces = life%state%worn(x)
+      do k = 1, size(surfaces)
+         allocate (added(size(surfaces(k)%volume)))
+         call life%state%smooth_depths(k, x + gain, gain, added)
+         most = maxval(added)
+         if (most > 0.0_wp) then
+            associate (depths => surfaces(k)%depths() + added)
+               errors = merge(unexplained(life, k, x + gain, local), 0.0_wp, depths > deep*maxval(depths))
+               ratio = max(ratio, maxval(errors)/(most*(life%plan%tolerance + life%plan%depth_tolerance/maxval(depths))))
+            end associate
+            errors = unexplained(life, k, x + gain, change)
+            ratio = max(ratio, (sum(errors)/(most_change*sum(added)))**2)
+         end if
+         deallocate (added)
+      end do
+   end function error_ratio
+
+   !> Depths of a change of a surface, less what the scatter between starts explains.
+   function unexplained(life, k, x, change) result(errors)
+      type(life_t), intent(in) :: life       !! the life
+      integer, intent(in) :: k               !! number of the surface
+      real(wp), intent(in) :: x(:)           !! (n) where [m^3, m]
+      real(wp), intent(in) :: change(:, :)   !! (n, starts) the change [m^3, m]
+
+      real(wp) :: errors(size(life%state%surfaces(k)%volume))   !! (cells) magnitudes [m]
+
+      real(wp) :: depths(size(errors), size(change, 2)), scatter(size(errors))
+      integer :: m
+
+      do m = 1, size(change, 2)
+         call life%state%smooth_depths(k, x, change(:, m), depths(:, m))
+      end do
+      scatter = 0.0_wp
+      associate (n => size(change, 2))
+         if (n > 1) scatter = sqrt(sum((depths - spread(mean_of(depths), 2, n))**2, dim=2)/(n*(n - 1.0_wp)))
+      end associate
+      errors = max(abs(mean_of(depths)) - explained*scatter, 0.0_wp)
+   end function unexplained
+
+   !> Local errors less what the scatter between starts explains, the same for each start; of one start they are not changed.
+   pure function beyond_scatter(local) result(errors)
+      real(wp), intent(in) :: local(:, :)                          !! (n, starts) local errors [m^3, m]
+      real(wp) :: errors(size(local, 1), size(local, 2))           !! (n, starts) what is left of their mean [m^3, m]
+
+      real(wp) :: mean(size(local, 1)), scatter(size(local, 1))
+
+      errors = local
+      associate (n => size(local, 2))
+         if (n < 2) return
+         mean = mean_of(local)
+         scatter = sqrt(sum((local - spread(mean, 2, n))**2, dim=2)/(n*(n - 1.0_wp)))
+         errors = spread(sign(max(abs(mean) - explained*scatter, 0.0_wp), mean), 2, n)
+      end associate
+   end function beyond_scatter
 
 end module life_errors

@@ -1,13 +1,13 @@
 !> Wear over many cycles by jumps between simulated cycles, with control of their error.
 !>
-!> The volumes x of all cells follow dx/dN = v(x), v what simulated cycles take per cycle. A jump over J cycles from x_n is
+!> The volumes x of all cells follow dx/dN = v(x), v what simulated cycles take per cycle. With v_n(x) the rates of a profile
+!> under the loads of simulation n (`held_loads`) a jump over J cycles from x_n is
 !>
-!> predictor   x* = x_n + J v_n + J^2 (v_n - v_(n-1))/(2 J_(n-1)),   of the first jump  x* = x_n + J v_n
-!> corrector   x_(n+1) = x_n + J (v_n + v(x*))/2
+!> predictor   dx*/ds = v_n(x*) + s (v_n(x_n) - v_(n-1)(x_n))/J_(n-1),   of the first jump  dx*/ds = v_n(x*)
+!> corrector   dx/ds  = (1 - s/J) v_n(x) + s/J v_(n+1)(x),   v_(n+1) under the loads of a simulation with x*
 !>
-!> With an ensemble all predictors are that of the first jump: the difference of two rates that scatter says little. The rates v(x*)
-!> are those of the next start, so that a jump costs one simulation. The method is of second order (the first jump is Heun's). Its
-!> local error follows from the difference of the corrector and the first predictor,
+!> in sub-jumps (`held_jump`). With an ensemble all predictors are that of the first jump: the difference of two rates that
+!> scatter says little. A jump costs one simulation; the method is of second order. Its local error follows from the difference,
 !>
 !> e = -(x_(n+1) - x*)/(3 (1 + J_(n-1)/J)),   of the first jump the difference from x* itself.
 !>
@@ -16,20 +16,21 @@
 !> g (tolerance + depth_tolerance/(h + g)),   g what the jump adds to the maximum depth h,
 !>
 !> wherever the depth exceeds h/2 (at the ends of an arc, which move, cells are worn in part, and their errors have both signs), and
-!> if J |v(x*) - v_n|/2, on average over the surface, is at most a tenth of what the jump adds on average; else it is made again
-!> with fewer cycles. So the depth at the end has about the relative error `tolerance`, and in any case some `depth_tolerance`.
+!> if J |v_(n+1)(x*) - v_n(x*)|/2, on average over the surface, is at most a tenth of what the jump adds; else it is made again with
+!> fewer cycles. So the depth at the end has about the relative error `tolerance`, and in any case some `depth_tolerance`.
 !> What the scatter between starts explains of both (two standard errors) is not counted: shorter jumps would not reduce it. A jump
 !> over the measured cycles is always accepted: it is the simulation.
-!> Volumes are sums of rates, so that nothing is lost: the volume is what all cycles take, by the trapezoidal rule.
+!> Volumes are sums of rates, so that nothing is lost. Within a sub-jump rates are linear in N.
 !>
-!> Within a jump rates are linear in N. Source: E. Hairer, S. P. Norsett, G. Wanner, Solving Ordinary Differential Equations I, 2nd
-!> ed. (1993), section III.5. Signs: rates are not negative; a predictor that would be below its start is bounded by it. Limits:
-!> rates depend on the profile only, not on the number of the cycle.
+!> Source: E. Hairer, S. P. Norsett, G. Wanner, Solving Ordinary Differential Equations I, 2nd ed. (1993), section III.5.
+!> Signs: rates are not negative. Limits: rates depend on the profile only, not on the number of the cycle.
 module life_jumps
    use errors, only: error_t, exit_integration, set_error
    use kinds, only: wp
-   use life_ends, only: approach, find_end, is_beyond
-   use life_errors, only: measure_errors, settling_errors
+   use life_ends, only: approach, find_end, is_beyond, part_done
+   use held_jump, only: follow, mean_of, path_t
+   use held_loads, only: held_t, new_held
+   use life_errors, only: beyond_scatter, error_ratio, measure_errors, settling_errors
    use life_results, only: life_plan_t, life_t, node_t
    use rate_source, only: rate_source_t
    use text, only: to_text
@@ -39,22 +40,20 @@ module life_jumps
    public :: find_life
 
    real(wp), parameter :: first_part = 0.02_wp      !! what the first jump adds, of the maximum depth at the start [1]
-   real(wp), parameter :: longest_growth = 10.0_wp  !! of a jump over the one before [1]
-   real(wp), parameter :: shortest_part = 0.2_wp    !! of a jump that is made again [1]
-   real(wp), parameter :: careful = 0.9_wp          !! part of the jump that would just be accepted [1]
+   real(wp), parameter :: longest_growth = 5.0_wp   !! of a jump over the one before [1]
+   real(wp), parameter :: shortest_part = 0.2_wp, careful = 0.9_wp   !! of a jump made again; of one that would just do [1]
    real(wp), parameter :: no_error = 1.0e-6_wp      !! part of what is allowed that limits no jump [1]
-   real(wp), parameter :: explained = 2.0_wp        !! standard errors of an error that scatter explains [1]
-   real(wp), parameter :: deep = 0.5_wp             !! part of the maximum depth above which errors of cells count [1]
-   real(wp), parameter :: most_change = 0.1_wp      !! mean of J |v(x*) - v_n|/2 over that of what the jump adds, at most [1]
 
    !> Where the life is.
    type :: march_t
       real(wp) :: cycles = 0.0_wp                   !! cycles so far [1]
       real(wp), allocatable :: x(:)                 !! (n) volumes and distances [m^3, m]
-      real(wp), allocatable :: place(:)             !! (n) those for which the rates were found [m^3, m]
-      real(wp), allocatable :: rates(:, :)          !! (n, starts) per cycle [m^3, m]
+      real(wp), allocatable :: place(:)             !! (n) those for which the loads were found [m^3, m]
+      type(held_t) :: now                           !! loads and rates there
+      real(wp), allocatable :: rates(:, :)          !! (n, starts) under these loads, of x, per cycle [m^3, m]
       real(wp), allocatable :: values(:)            !! (conditions) extremes of channels [any]
-      real(wp), allocatable :: before(:, :)         !! (n, starts) rates at the start of the last jump [m^3, m]
+      type(held_t) :: before                        !! loads at the start of the last jump
+      real(wp) :: sub_jump = huge(1.0_wp)           !! last sub-jump [1]
       real(wp) :: last = 0.0_wp                     !! cycles of the last jump, 0: none [1]
       real(wp), allocatable :: sums(:, :)           !! (n, starts) what each start would have taken so far [m^3, m]
       real(wp), allocatable :: error(:)             !! (n) sum of the local errors [m^3, m]
@@ -63,8 +62,10 @@ module life_jumps
    !> A jump that was tried.
    type :: trial_t
       real(wp), allocatable :: place(:)             !! (n) the predictor [m^3, m]
-      real(wp), allocatable :: rates(:, :)          !! (n, starts) rates there [m^3, m]
+      type(held_t) :: held                          !! loads and rates there
+      type(path_t) :: path                          !! the profiles of the corrector
       real(wp), allocatable :: values(:)            !! (conditions) extremes of channels there [any]
+      real(wp), allocatable :: rates(:, :)          !! (n, starts) at the end of the jump, under the loads there [m^3, m]
       real(wp), allocatable :: local(:, :)          !! (n, starts) local errors [m^3, m]
       real(wp) :: ratio = 0.0_wp                    !! maximum error over what is allowed [1]
    end type trial_t
@@ -91,17 +92,22 @@ contains
          do
             call try_jump(life, march, source, jump, trial, error)
             if (allocated(error)) exit
-            if (trial%ratio <= 1.0_wp .or. jump <= plan%measured*(1.0_wp + epsilon(jump))) exit
+            if (trial%ratio <= 1.0_wp) exit
+            if (jump <= plan%measured*(1.0_wp + epsilon(jump))) then
+               if (trial%ratio >= huge(1.0_wp)) call set_error(error, exit_integration, "held loads have no equilibrium after "// &
+                                                               to_text(march%cycles)//" cycles")
+               exit
+            end if
             life%rejected = life%rejected + 1
-            jump = max(jump*factor(trial%ratio, march%last > 0.0_wp), real(plan%measured, wp))
+            jump = max(jump*factor(trial%ratio, march%last > 0.0_wp, plan%starts), real(plan%measured, wp))
          end do
          if (allocated(error)) exit
-         wish = jump*factor(trial%ratio, march%last > 0.0_wp)
+         wish = jump*factor(trial%ratio, march%last > 0.0_wp, plan%starts)
          call take_jump(life, march, jump, trial)
-         call source%show(part_done(life, march))
+         call source%show(part_done(life, march%cycles, march%x))
       end do
       if (life%last == 0) life%last = life%n
-      if (.not. allocated(error)) call settling_errors(life, source, march%place, march%rates, error)
+      if (.not. allocated(error)) call settling_errors(life, source, march%place, march%now%rates, error)
    end subroutine find_life
 
    !> The start, and the rates there.
@@ -113,6 +119,8 @@ contains
       type(march_t), intent(out) :: march                !! where it starts
       type(error_t), allocatable, intent(out) :: error   !! the simulation failed
 
+      real(wp), allocatable :: loads(:, :)
+
       life%plan = plan
       life%reason = ""
       allocate (life%nodes(64))
@@ -120,12 +128,14 @@ contains
       associate (n => life%state%n)
          march%x = life%state%numbers(surfaces)
          march%place = march%x
-         allocate (march%rates(n, plan%starts), march%before(n, plan%starts), march%sums(n, plan%starts), march%error(n), &
-                   source=0.0_wp)
+         allocate (march%rates(n, plan%starts), march%sums(n, plan%starts), march%error(n), source=0.0_wp)
+         allocate (loads(plan%n_loads, plan%starts))
          allocate (march%values(size(plan%ends%extremes)), source=0.0_wp)
       end associate
-      call source%find(surfaces, 1, 1, march%rates, march%values, error)
+      call source%find(surfaces, 1, 1, march%rates, march%values, loads, error)
       if (allocated(error)) return
+      call new_held(life%state, march%x, march%rates, loads, march%now)
+      march%rates = march%now%rates
       life%simulated = 1
       call add_node(life, march)
       if (is_beyond(life, march%x, march%values)) call find_end(life, march%x, march%values)
@@ -193,11 +203,12 @@ contains
    end function bounded
 
    !> Factor for the next jump, or for the same once more.
-   pure real(wp) function factor(ratio, has_history)
+   pure real(wp) function factor(ratio, has_history, starts)
       real(wp), intent(in) :: ratio              !! error over what is allowed [1]
       logical, intent(in) :: has_history         !! the error over what is added falls as J^2, else as J
+      integer, intent(in) :: starts              !! of the ensemble; rates that scatter say little of much longer jumps
 
-      factor = huge(1.0_wp)
+      factor = merge(longest_growth, huge(1.0_wp), starts > 1)
       if (ratio <= no_error) return
       factor = max(shortest_part, min(longest_growth, careful*ratio**merge(-0.5_wp, -1.0_wp, has_history)))
    end function factor
@@ -205,14 +216,14 @@ contains
    !> Try a jump.
    subroutine try_jump(life, march, source, jump, trial, error)
       type(life_t), intent(inout) :: life                !! the life; counts the simulation
-      type(march_t), intent(in) :: march                 !! where it is
+      type(march_t), intent(inout) :: march              !! where it is; its loads remember where pins are
       class(rate_source_t), intent(inout) :: source      !! what gives the rates
       real(wp), intent(in) :: jump                       !! cycles [1]
       type(trial_t), intent(inout) :: trial              !! what came of it
       type(error_t), allocatable, intent(out) :: error   !! the simulation failed
 
-      real(wp), allocatable :: change(:, :)
-      real(wp) :: share
+      real(wp), allocatable :: change(:, :), loads(:, :), rates(:, :)
+      logical :: is_good
 
       if (life%simulated >= life%plan%simulations) then
          call set_error(error, exit_integration, "the limit of "//to_text(life%plan%simulations)//" simulated profiles is " &
@@ -220,128 +231,149 @@ contains
                         //"simulations in [life]; chaotic motion needs [ensemble] with more runs")
          return
       end if
-      change = jump*march%rates
-      if (march%last > 0.0_wp) change = change + (0.5_wp*jump**2/march%last)*(march%rates - march%before)
-      trial%place = march%x + max(mean_of(change), 0.0_wp)
-      if (life%plan%starts > 1) trial%place = march%x + jump*mean_of(march%rates)
-      trial%rates = march%rates
+      call predict(life, march, jump, trial, change, is_good)
+      if (.not. is_good) return
+      rates = march%rates
       trial%values = march%values
-      call source%find(life%state%worn(trial%place), life%simulated + 1, 1, trial%rates, trial%values, error)
+      allocate (loads(life%plan%n_loads, life%plan%starts))
+      call source%find(life%state%worn(trial%place), life%simulated + 1, 1, rates, trial%values, loads, error)
       if (allocated(error)) then
          error%message = error%message//new_line("a")//"  = the profile is that after "//to_text(march%cycles + jump)// &
                          " cycles, a jump of "//to_text(jump)
          return
       end if
       life%simulated = life%simulated + 1
-      share = 1.0_wp
-      if (march%last > 0.0_wp) share = -1.0_wp/(3.0_wp*(1.0_wp + march%last/jump))
-      trial%local = share*(0.5_wp*jump*(march%rates + trial%rates) - change)
-      change = 0.5_wp*jump*(trial%rates - march%rates)
-      trial%ratio = error_ratio(life, march%x, 0.5_wp*jump*(mean_of(march%rates) + mean_of(trial%rates)), trial%local, change)
+      call new_held(life%state, trial%place, rates, loads, trial%held)
+      call correct(life, march, jump, trial, change)
    end subroutine try_jump
 
-   !> Maximum over the surfaces of the error of depth, and of the change of the rates, over what is allowed. The change falls as J,
-   !> the error over what is added as J^2: the square of the first stands beside the second.
-   real(wp) function error_ratio(life, x, gain, local, change) result(ratio)
+   !> Predict the profiles at the end of a jump; where pins are not found the jump is to be made with fewer cycles.
+   subroutine predict(life, march, jump, trial, change, is_good)
+      type(life_t), intent(in) :: life                     !! the life
+      type(march_t), intent(inout) :: march                !! where it is
+      real(wp), intent(in) :: jump                         !! cycles [1]
+      type(trial_t), intent(inout) :: trial                !! place and ratio are set
+      real(wp), allocatable, intent(out) :: change(:, :)   !! (n, starts) what the predictor adds, with the drift [m^3, m]
+      logical, intent(out) :: is_good                      !! there is a prediction
+
+      real(wp), allocatable :: drift(:, :)
+
+      trial%ratio = huge(1.0_wp)
+      trial%path%wish = march%sub_jump
+      drift = 0.0_wp*march%rates
+      if (march%last > 0.0_wp) then
+         call march%before%at(life%state, march%x, drift, is_good)
+         drift = merge((march%rates - drift)/march%last, 0.0_wp, is_good)
+      end if
+      if (life%plan%starts > 1) then
+         call follow(life%state, march%x, jump, tolerance_of(life, march, jump), march%now, trial%path, is_good)
+      else
+         call follow(life%state, march%x, jump, tolerance_of(life, march, jump), march%now, trial%path, is_good, drift=drift)
+      end if
+      if (.not. is_good) return
+      change = trial%path%sums(:, :, trial%path%n)
+      trial%place = march%x + max(mean_of(change), 0.0_wp)
+      if (life%plan%starts > 1) change = change + (0.5_wp*jump**2)*drift
+   end subroutine predict
+
+   !> The jump under the loads at both of its ends, and its error.
+   subroutine correct(life, march, jump, trial, predicted)
+      type(life_t), intent(in) :: life               !! the life
+      type(march_t), intent(inout) :: march          !! where it is
+      real(wp), intent(in) :: jump                   !! cycles [1]
+      type(trial_t), intent(inout) :: trial          !! path, local errors and ratio are set
+      real(wp), intent(in) :: predicted(:, :)        !! (n, starts) what the predictor adds [m^3, m]
+
+      real(wp), allocatable :: change(:, :)
+      real(wp) :: share
+      logical :: is_good
+
+      trial%path%wish = march%sub_jump
+      call follow(life%state, march%x, jump, tolerance_of(life, march, jump), march%now, trial%path, is_good, b=trial%held)
+      if (.not. is_good) return
+      change = trial%path%sums(:, :, trial%path%n)
+      share = 1.0_wp
+      if (march%last > 0.0_wp) share = -1.0_wp/(3.0_wp*(1.0_wp + march%last/jump))
+      trial%local = beyond_scatter(share*(change - predicted))
+      trial%rates = trial%held%rates
+      call march%now%at(life%state, trial%place, trial%rates, is_good)
+      if (.not. is_good) return
+      trial%ratio = error_ratio(life, march%x, mean_of(change), trial%local, 0.5_wp*jump*(trial%held%rates - trial%rates))
+      call trial%held%at(life%state, march%x + mean_of(change), trial%rates, is_good)
+      if (.not. is_good) trial%ratio = huge(1.0_wp)
+   end subroutine correct
+
+   !> Tolerance of a jump, over what it adds.
+   real(wp) function tolerance_of(life, march, jump) result(tolerance)
       type(life_t), intent(in) :: life       !! the life
-      real(wp), intent(in) :: x(:)           !! (n) where the jump starts [m^3, m]
-      real(wp), intent(in) :: gain(:)        !! (n) what it adds [m^3, m]
-      real(wp), intent(in) :: local(:, :)    !! (n, starts) its local errors [m^3, m]
-      real(wp), intent(in) :: change(:, :)   !! (n, starts) what the change of the rates makes [m^3, m]
+      type(march_t), intent(in) :: march     !! where it is
+      real(wp), intent(in) :: jump           !! cycles [1]
 
-      type(worn_surface_t), allocatable :: surfaces(:)
-      real(wp), allocatable :: added(:), errors(:)
-      real(wp) :: most
-      integer :: k
+      tolerance = life%state%max_depth(march%x) + depth_of(life, march%x, jump*mean_of(march%rates))
+      tolerance = life%plan%tolerance + life%plan%depth_tolerance/max(tolerance, tiny(1.0_wp))
+   end function tolerance_of
 
-      ratio = 0.0_wp
-      surfaces = life%state%worn(x)
-      do k = 1, size(surfaces)
-         allocate (added(size(surfaces(k)%volume)))
-         call life%state%smooth_depths(k, x + gain, gain, added)
-         most = maxval(added)
-         if (most > 0.0_wp) then
-            associate (depths => surfaces(k)%depths() + added)
-               errors = merge(unexplained(life, k, x + gain, local), 0.0_wp, depths > deep*maxval(depths))
-               ratio = max(ratio, maxval(errors)/(most*(life%plan%tolerance + life%plan%depth_tolerance/maxval(depths))))
-            end associate
-            errors = unexplained(life, k, x + gain, change)
-            ratio = max(ratio, (sum(errors)/(most_change*sum(added)))**2)
-         end if
-         deallocate (added)
-      end do
-   end function error_ratio
-
-   !> Depths of a change of a surface, less what the scatter between starts explains.
-   function unexplained(life, k, x, change) result(errors)
-      type(life_t), intent(in) :: life       !! the life
-      integer, intent(in) :: k               !! number of the surface
-      real(wp), intent(in) :: x(:)           !! (n) where [m^3, m]
-      real(wp), intent(in) :: change(:, :)   !! (n, starts) the change [m^3, m]
-
-      real(wp) :: errors(size(life%state%surfaces(k)%volume))   !! (cells) magnitudes [m]
-
-      real(wp) :: depths(size(errors), size(change, 2)), scatter(size(errors))
-      integer :: m
-
-      do m = 1, size(change, 2)
-         call life%state%smooth_depths(k, x, change(:, m), depths(:, m))
-      end do
-      scatter = 0.0_wp
-      associate (n => size(change, 2))
-         if (n > 1) scatter = sqrt(sum((depths - spread(mean_of(depths), 2, n))**2, dim=2)/(n*(n - 1.0_wp)))
-      end associate
-      errors = max(abs(mean_of(depths)) - explained*scatter, 0.0_wp)
-   end function unexplained
-
-   !> Take a jump; a limit that it crosses ends the life there.
+   !> Take a jump, sub-jump by sub-jump; a limit that it crosses ends the life there.
    subroutine take_jump(life, march, jump, trial)
       type(life_t), intent(inout) :: life       !! the life
       type(march_t), intent(inout) :: march     !! where it is
       real(wp), intent(in) :: jump              !! cycles [1]
       type(trial_t), intent(in) :: trial        !! the jump
 
-      type(march_t) :: part
+      type(march_t) :: start
+      real(wp), allocatable :: before(:), values(:)
       real(wp) :: cycles
+      integer :: k
 
-      associate (node => life%nodes(life%n))
-         node%jump = jump
-         node%rates = reshape([mean_of(march%rates), mean_of(trial%rates)], [size(march%x), 2])
-         cycles = jump
-         if (life%last == 0) call find_end(life, march%x, trial%values, cycles)
-      end associate
-      if (life%last == 0 .and. life%reason /= "" .and. .not. life%ends_by_cycles) then
-         part = march
-         call advance(part, jump, cycles, trial)
-         call add_node(life, part)
-         life%last = life%n
-      end if
-      call advance(march, jump, jump, trial)
+      start = march
+      march%before = start%now
+      march%now = trial%held
       march%last = jump
-      march%before = march%rates
       march%rates = trial%rates
-      march%values = trial%values
       march%place = trial%place
-      if (life%last > 0 .and. .not. life%ends_by_cycles) return
-      call add_node(life, march)
-      if (life%last == 0 .and. life%reason /= "") life%last = life%n
+      march%sub_jump = trial%path%wish
+      do k = 1, trial%path%n
+         associate (path => trial%path, node => life%nodes(life%n))
+            node%jump = path%cycles(k) - path%cycles(k - 1)
+            before = mean_of(path%sums(:, :, k) - path%sums(:, :, k - 1))
+            node%rates = reshape([path%slope(:, k - 1), 2.0_wp*before/node%jump - path%slope(:, k - 1)], [size(before), 2])
+            cycles = node%jump
+            values = start%values + (path%cycles(k)/jump)*(trial%values - start%values)
+            if (life%last == 0) call find_end(life, march%x, values, cycles)
+            call advance(life, start, jump, k, cycles/node%jump, trial, march)
+         end associate
+         call add_node(life, march)
+         if (life%last > 0 .or. life%reason == "") cycle
+         life%last = life%n
+         if (.not. life%ends_by_cycles) return
+      end do
+      march%values = trial%values
    end subroutine take_jump
 
-   !> Go a part of a jump.
-   subroutine advance(march, jump, cycles, trial)
-      type(march_t), intent(inout) :: march     !! where it is
+   !> Go a part of a sub-jump, within which volumes are quadratic in the cycles.
+   subroutine advance(life, start, jump, k, part, trial, march)
+      type(life_t), intent(in) :: life          !! the life; its last node is the start of the sub-jump
+      type(march_t), intent(in) :: start        !! where the jump starts
       real(wp), intent(in) :: jump              !! cycles of the whole jump [1]
-      real(wp), intent(in) :: cycles            !! cycles of the part [1]
+      integer, intent(in) :: k                  !! number of the sub-jump
+      real(wp), intent(in) :: part              !! of it, 1: all [1]
       type(trial_t), intent(in) :: trial        !! the jump
+      type(march_t), intent(inout) :: march     !! at the start of the sub-jump; cycles, x, sums, error and values are set
 
-      real(wp), allocatable :: change(:, :)
+      real(wp) :: share
 
-      change = cycles*march%rates + (0.5_wp*cycles**2/jump)*(trial%rates - march%rates)
-      march%sums = march%sums + change
-      march%x = march%x + mean_of(change)
-      march%error = march%error + (cycles/jump)**3*mean_of(trial%local)
-      march%values = march%values + (cycles/jump)*(trial%values - march%values)
-      march%cycles = march%cycles + cycles
+      associate (path => trial%path, node => life%nodes(life%n))
+         share = (path%cycles(k - 1) + part*node%jump)/jump
+         if (part >= 1.0_wp) then
+            march%x = start%x + mean_of(path%sums(:, :, k))
+         else
+            march%x = march%x + part*node%jump*(node%rates(:, 1) + 0.5_wp*part*(node%rates(:, 2) - node%rates(:, 1)))
+         end if
+         march%sums = start%sums + path%sums(:, :, k - 1) + part*(path%sums(:, :, k) - path%sums(:, :, k - 1))
+      end associate
+      march%error = start%error + share**3*mean_of(trial%local)
+      march%values = start%values + share*(trial%values - start%values)
+      march%cycles = start%cycles + share*jump
    end subroutine advance
 
    !> Append a node with its errors.
@@ -364,26 +396,5 @@ contains
          call measure_errors(life%state, march%x, march%error, march%sums, node)
       end associate
    end subroutine add_node
-
-   !> How far the life is, by the nearest limit.
-   real(wp) function part_done(life, march)
-      type(life_t), intent(in) :: life          !! the life
-      type(march_t), intent(in) :: march        !! where it is
-
-      associate (ends => life%plan%ends)
-         part_done = max(march%cycles/(ends%cycles*life%plan%stretch), life%state%max_depth(march%x)/ends%depth)
-         if (ends%clearance < huge(1.0_wp)) then
-            part_done = max(part_done, maxval(life%state%added_clearance(march%x)/(ends%clearance - life%plan%clearances)))
-         end if
-      end associate
-   end function part_done
-
-   !> Mean over the starts.
-   pure function mean_of(list) result(mean)
-      real(wp), intent(in) :: list(:, :)        !! (n, starts) one of each start [any]
-      real(wp) :: mean(size(list, 1))           !! (n) their mean [any]
-
-      mean = sum(list, dim=2)/size(list, 2)
-   end function mean_of
 
 end module life_jumps

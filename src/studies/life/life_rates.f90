@@ -25,7 +25,7 @@ module life_rates
 contains
 
    !> Simulate from a start of the ensemble.
-   subroutine simulate(job, plan, span, surfaces, start, state, rates, values, reason)
+   subroutine simulate(job, plan, span, surfaces, start, state, rates, values, loads, reason)
       type(job_t), intent(in) :: job                       !! the scene and its limits
       type(life_plan_t), intent(in) :: plan                !! what is asked of the life
       type(span_t), intent(in) :: span                     !! the measured cycles
@@ -34,11 +34,13 @@ contains
       type(life_state_t), intent(in) :: state              !! the surfaces
       real(wp), intent(out) :: rates(:)                    !! (n) volumes and distances per cycle [m^3, m]
       real(wp), intent(out) :: values(:)                   !! (conditions) extremes of their channels [any]
+      real(wp), intent(out) :: loads(:)                    !! (n_loads) nodes of the loads per cycle [m, rad, 1, m^3]
       character(:), allocatable, intent(out) :: reason     !! why it failed; blank: it did not
 
       type(extreme_recorder_t) :: keeper
       type(job_t) :: one
       type(outcome_t) :: outcome
+      type(worn_surface_t), allocatable :: worn(:)
       integer :: k
 
       one = job
@@ -62,6 +64,7 @@ contains
       keeper%from = span%from
       rates = 0.0_wp
       values = 0.0_wp
+      loads = 0.0_wp
       call run_job(one, keeper, outcome)
       reason = outcome%reason
       if (reason == "" .and. outcome%summary%time_end < span%to*(1.0_wp - 1.0e-9_wp)) then
@@ -69,11 +72,31 @@ contains
                   real_text(span%to, 6)//" s"
       end if
       if (reason /= "") return
-      rates = (state%numbers(in_order(outcome%summary%worn, surfaces)) - state%numbers(surfaces))/plan%measured
+      worn = in_order(outcome%summary%worn, surfaces)
+      rates = (state%numbers(worn) - state%numbers(surfaces))/plan%measured
+      if (size(loads) > 0) call take_loads(worn, plan%measured, loads)
       do k = 1, size(values)
          values(k) = merge(keeper%maximum(k), keeper%minimum(k), plan%ends%extremes(k)%is_above)
       end do
    end subroutine simulate
+
+   !> Nodes of the loads of all contacts, volumes per cycle; a contact that did not wear has nodes without volumes.
+   pure subroutine take_loads(worn, measured, loads)
+      type(worn_surface_t), intent(in) :: worn(:)   !! (surfaces) bearing and journal of each contact
+      integer, intent(in) :: measured               !! cycles
+      real(wp), intent(inout) :: loads(:)           !! (6 nodes contacts) set where something wore [m, rad, 1, m^3]
+
+      real(wp), allocatable :: nodes(:, :)
+      integer :: before, k
+
+      do k = 1, size(worn), 2
+         nodes = worn(k)%loads
+         if (size(nodes) == 0) cycle
+         nodes(5:, :) = nodes(5:, :)/measured
+         before = size(loads)/(size(worn)/2)*(k/2)
+         loads(before + 1:before + size(nodes)) = [nodes]
+      end do
+   end subroutine take_loads
 
    !> Surfaces that are worn at the start of the deck and do not wear: their joints have no wear law.
    function others(given, surfaces) result(list)

@@ -32,6 +32,7 @@ module life_results
       integer :: starts = 1                          !! starts of the ensemble; 1: the start of the deck
       real(wp) :: tolerance = 1.0e-4_wp              !! error of a jump over what it adds to the depth [1]
       real(wp) :: depth_tolerance = 1.0e-9_wp        !! error of a jump that is accepted [m]
+      integer :: n_loads = 0                         !! numbers of the loads of a simulation; 0: none are known
       integer :: simulations = 10000                 !! most profiles that are simulated
       real(wp) :: stretch = 1.0_wp                   !! times the cycles at the end up to which the profiles are followed [1]
    end type life_plan_t

@@ -16,7 +16,7 @@ module rate_source
 
    abstract interface
       !> What surfaces of some profiles lose in a cycle, from each start of the ensemble.
-      subroutine find_interface(self, surfaces, number, settling, rates, values, error)
+      subroutine find_interface(self, surfaces, number, settling, rates, values, loads, error)
          import :: error_t, rate_source_t, worn_surface_t, wp
          implicit none (type, external)
          class(rate_source_t), intent(inout) :: self        !! the source
@@ -25,6 +25,7 @@ module rate_source
          integer, intent(in) :: settling                    !! settling cycles, as a multiple of those of the plan
          real(wp), intent(out) :: rates(:, :)               !! (n, starts) volumes and distances per cycle [m^3, m]
          real(wp), intent(out) :: values(:)                 !! (conditions) mean extremes of their channels [any]
+         real(wp), intent(out) :: loads(:, :)               !! (n_loads, starts) nodes of the loads [m, rad, 1, m^3]
          type(error_t), allocatable, intent(out) :: error   !! a simulation failed
       end subroutine find_interface
    end interface

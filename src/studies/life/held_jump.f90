@@ -1,0 +1,174 @@
+!> Profiles over a jump of cycles under held loads (`held_loads`), in sub-jumps whose error is controlled.
+!>
+!> dx/dtau = (1 - tau/J) v_a(x) + tau/J v_b(x) + tau d,   0 < tau < J
+!>
+!> v_a and v_b under the loads at the start and at the end of the jump, or v_a alone with a drift d. By the pair of orders 3 and 2
+!> of Bogacki and Shampine: the error of a sub-jump is at most a part of the tolerance of what it adds to the volumes, or of what a
+!> twentieth of the jump adds: rates have small jumps where the edges of contact pass cells.
+!> The weights of the method are positive, so that no cell is filled; sums of volumes are those of the rates to round-off.
+!> Source: P. Bogacki, L. F. Shampine, Appl. Math. Lett. 2 (1989) 321-325.
+module held_jump
+   use held_loads, only: held_t
+   use kinds, only: wp
+   use life_state, only: life_state_t
+   implicit none (type, external)
+   private
+   public :: follow, mean_of, path_t
+
+   integer, parameter :: most_steps = 2000          !! sub-jumps of a jump, rejected ones counted
+   real(wp), parameter :: part = 0.25_wp            !! of the tolerance that sub-jumps may use [1]
+   real(wp), parameter :: few = 0.05_wp             !! part of a jump below which a sub-jump is not made to gain accuracy [1]
+   real(wp), parameter :: shortest = 1.0e-7_wp      !! part of a jump that a sub-jump is at least [1]
+   real(wp), parameter :: careful = 0.9_wp          !! part of the sub-jump that would just be accepted [1]
+   real(wp), parameter :: longest_growth = 4.0_wp   !! of a sub-jump over the one before [1]
+   real(wp), parameter :: shortest_part = 0.2_wp    !! of a sub-jump that is made again [1]
+   real(wp), parameter :: failed_part = 0.25_wp            !! of a sub-jump in which a pin was not found [1]
+
+   !> Profiles over a jump.
+   type :: path_t
+      integer :: n = 0                           !! sub-jumps
+      real(wp), allocatable :: cycles(:)         !! (0:n) from the start of the jump [1]
+      real(wp), allocatable :: sums(:, :, :)     !! (n numbers, starts, 0:n) what has been lost by then [m^3, m]
+      real(wp), allocatable :: slope(:, :)       !! (n numbers, 0:n) mean rates there [m^3, m]
+      real(wp) :: wish = huge(1.0_wp)            !! next sub-jump [1]
+   end type path_t
+
+contains
+
+   !> Follow the profiles over a jump.
+   subroutine follow(state, x, jump, tolerance, a, path, is_good, b, drift)
+      type(life_state_t), intent(in) :: state              !! the surfaces
+      real(wp), intent(in) :: x(:)                         !! (n) at the start [m^3, m]
+      real(wp), intent(in) :: jump                         !! cycles [1]
+      real(wp), intent(in) :: tolerance                    !! of volumes, over what is added [1]
+      type(held_t), intent(inout) :: a                     !! loads at the start
+      type(path_t), intent(inout) :: path                  !! set; its wish is the first sub-jump
+      logical, intent(out) :: is_good                      !! the end was reached
+      type(held_t), intent(inout), optional :: b           !! loads at the end
+      real(wp), intent(in), optional :: drift(:, :)        !! (n, starts) growth of the rates per cycle [m^3, m]
+
+      real(wp), dimension(size(x), size(a%rates, 2)) :: k1, k2, k3, k4, sums, trial
+      real(wp) :: h, ratio, tau
+      integer :: tried
+      logical :: is_last
+
+      call begin(path)
+      sums = 0.0_wp
+      tau = 0.0_wp
+      call rates_of(tau, sums, k1, is_good)
+      if (is_good) call append(path, tau, sums, mean_of(k1))
+      h = min(path%wish, jump)
+      do tried = 1, most_steps
+         if (.not. is_good) return
+         is_last = jump - tau - h < 1.0e-9_wp*jump
+         if (is_last) h = jump - tau
+         call rates_of(tau + 0.5_wp*h, sums + 0.5_wp*h*k1, k2, is_good)
+         if (is_good) call rates_of(tau + 0.75_wp*h, sums + 0.75_wp*h*k2, k3, is_good)
+         if (is_good) then
+            trial = sums + (h/9.0_wp)*(2.0_wp*k1 + 3.0_wp*k2 + 4.0_wp*k3)
+            call rates_of(tau + h, trial, k4, is_good)
+         end if
+         if (.not. is_good) then
+            h = failed_part*h
+            is_good = h > shortest*jump
+            cycle
+         end if
+         ratio = error_over(mean_of(trial - sums), h*mean_of(-10.0_wp*k1 + 12.0_wp*k2 + 16.0_wp*k3 - 18.0_wp*k4)/144.0_wp) &
+                 /max(1.0_wp, few*jump/h)
+         if (ratio <= 1.0_wp) then
+            tau = merge(jump, tau + h, is_last)
+            sums = trial
+            k1 = k4
+            call append(path, tau, sums, mean_of(k1))
+         end if
+         h = h*max(shortest_part, min(longest_growth, careful*max(ratio, 1.0e-9_wp)**(-1.0_wp/3.0_wp)))
+         if (ratio <= 1.0_wp) path%wish = h
+         if (is_last .and. ratio <= 1.0_wp) return
+         is_good = h > shortest*jump
+      end do
+      is_good = .false.
+
+   contains
+
+      !> Rates after some cycles of the jump.
+      subroutine rates_of(cycles, lost, rates, is_found)
+         real(wp), intent(in) :: cycles        !! since the start of the jump [1]
+         real(wp), intent(in) :: lost(:, :)    !! (n, starts) what has been lost [m^3, m]
+         real(wp), intent(out) :: rates(:, :)  !! (n, starts) per cycle [m^3, m]
+         logical, intent(out) :: is_found      !! each pin was found
+
+         real(wp) :: more(size(rates, 1), size(rates, 2)), y(size(x))
+
+         y = x + max(mean_of(lost), 0.0_wp)
+         call a%at(state, y, rates, is_found)
+         if (present(drift)) rates = rates + cycles*drift
+         if (.not. (present(b) .and. is_found)) return
+         call b%at(state, y, more, is_found)
+         rates = (1.0_wp - cycles/jump)*rates + (cycles/jump)*more
+      end subroutine rates_of
+
+      !> Error over what is allowed, maximum over the surfaces.
+      real(wp) function error_over(gain, error) result(most)
+         real(wp), intent(in) :: gain(:)    !! (n) what the sub-jump adds [m^3, m]
+         real(wp), intent(in) :: error(:)   !! (n) its error [m^3, m]
+
+         integer :: k
+
+         most = 0.0_wp
+         do k = 1, size(state%surfaces)
+            associate (first => state%before(k) + 1, last => state%before(k) + size(state%surfaces(k)%volume))
+               associate (all => sum(abs(gain(first:last))))
+                  if (.not. all <= 0.0_wp) most = max(most, sum(abs(error(first:last)))/(part*tolerance*all))
+               end associate
+            end associate
+         end do
+      end function error_over
+
+   end subroutine follow
+
+   !> An empty path.
+   subroutine begin(path)
+      type(path_t), intent(inout) :: path   !! its wish is kept
+
+      path%n = -1
+      if (allocated(path%cycles)) deallocate (path%cycles, path%sums, path%slope)
+   end subroutine begin
+
+   !> Append to a path.
+   subroutine append(path, cycles, sums, slope)
+      type(path_t), intent(inout) :: path     !! grown
+      real(wp), intent(in) :: cycles          !! since the start of the jump [1]
+      real(wp), intent(in) :: sums(:, :)      !! (n, starts) what has been lost [m^3, m]
+      real(wp), intent(in) :: slope(:)        !! (n) mean rates [m^3, m]
+
+      type(path_t) :: longer
+
+      if (.not. allocated(path%cycles)) then
+         allocate (path%cycles(0:7), path%sums(size(sums, 1), size(sums, 2), 0:7), path%slope(size(slope), 0:7))
+      else if (path%n == ubound(path%cycles, 1)) then
+         associate (n => path%n)
+            allocate (longer%cycles(0:2*n + 1), longer%sums(size(sums, 1), size(sums, 2), 0:2*n + 1), &
+                      longer%slope(size(slope), 0:2*n + 1))
+            longer%cycles(:n) = path%cycles
+            longer%sums(:, :, :n) = path%sums
+            longer%slope(:, :n) = path%slope
+         end associate
+         call move_alloc(longer%cycles, path%cycles)
+         call move_alloc(longer%sums, path%sums)
+         call move_alloc(longer%slope, path%slope)
+      end if
+      path%n = path%n + 1
+      path%cycles(path%n) = cycles
+      path%sums(:, :, path%n) = sums
+      path%slope(:, path%n) = slope
+   end subroutine append
+
+   !> Mean over the starts.
+   pure function mean_of(list) result(mean)
+      real(wp), intent(in) :: list(:, :)        !! (n, starts) one of each start [any]
+      real(wp) :: mean(size(list, 1))           !! (n) their mean [any]
+
+      mean = sum(list, dim=2)/size(list, 2)
+   end function mean_of
+
+end module held_jump
