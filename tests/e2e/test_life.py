@@ -75,11 +75,10 @@ def volume(radius, shaft, length, depth):
     return length * (shaft**2 * (a - math.sin(a) * math.cos(a)) - radius**2 * (b - math.sin(b) * math.cos(b)))
 
 
-@pytest.mark.parametrize("radius, shaft, first, depth, close", [
-    (10, 9.5, 10, 16, 3e-2), (10, 9.9, 20, 50, 1e-3), (20, 19.7, 20, 60, 1e-3),
-    pytest.param(10, 9.5, 10, 100, 1e-3, marks=pytest.mark.slow),
+@pytest.mark.parametrize("radius, shaft, first, depth, close, close_arc", [
+    (10, 9.5, 10, 16, 3e-2, 3e-2), (10, 9.9, 20, 50, 1e-3, 1.1e-3), (20, 19.7, 20, 60, 1e-3, 1e-3), (10, 9.5, 10, 100, 1e-3, 1e-3),
 ])
-def test_bush(gudgeon, radius, shaft, first, depth, close):
+def test_bush(gudgeon, radius, shaft, first, depth, close, close_arc):
     """Time, volume and arc at a depth from a first depth, by default settings: the closed form; what is left is the overlap of the
     surfaces, some 1 um, against what is worn."""
     summary, place = life_of(gudgeon, BUSH, "--set", f"R={radius}mm", "--set", f"r={shaft}mm", "--set", f"first_depth={first}um",
@@ -91,7 +90,7 @@ def test_bush(gudgeon, radius, shaft, first, depth, close):
     assert_close(wear["bearing"]["depth_max"]["value"], depth, relative=1e-9, what="depth")
     assert_close(wear["time"], time, relative=close, what="time")
     assert_close(wear["bearing"]["volume"]["value"], end, relative=close, what="volume")
-    assert_close(wear["bearing"]["arc"]["value"], 2 * arcs(radius, shaft, depth)[1], relative=1.5 * close, what="arc")
+    assert_close(wear["bearing"]["arc"]["value"], 2 * arcs(radius, shaft, depth)[1], relative=close_arc, what="arc")
     assert summary["life"]["profiles"] <= 20, "few simulations under held loads"
     for measure in ("depth_max", "volume", "arc"):
         assert all(value == 0 for value in wear["journal"][measure].values()), "the shaft does not wear"
