@@ -44,7 +44,7 @@ CIRCLE = "[clearance.cam]\nname cam follower profile radius[mm] material law fri
 
 @pytest.mark.parametrize("friction", ["none", "slip", "stick"])
 def test_circle_is_a_disc(gudgeon, friction):
-    """A profile of one radius is clearance.discs: motion, contacts and what they lose."""
+    """A profile of one radius is clearance.discs: motion, contacts and what they lose; compilers round the two differently."""
     discs = run(gudgeon, two_bodies(DISCS, friction), "30 ms")
     cam = run(gudgeon, two_bodies(CIRCLE.format(profile="30mm"), friction), "30 ms")
     assert len(discs.contacts) == len(cam.contacts) >= 1
@@ -52,7 +52,7 @@ def test_circle_is_a_disc(gudgeon, friction):
         assert_close(cam.contacts[name], discs.contacts[name], relative=1e-9, absolute=1e-13, what=name)
     for name in ("position", "velocity", "angular_velocity"):
         expected = discs.read(f"bodies/{name}")
-        assert_close(cam.read(f"bodies/{name}"), expected, absolute=(1e-10 if friction == "slip" else 1e-12) * abs(expected).max(), what=name)
+        assert_close(cam.read(f"bodies/{name}"), expected, absolute=(1e-10 if friction == "slip" else 3e-12) * abs(expected).max(), what=name)
 
 
 def test_circle_through_points(gudgeon):
