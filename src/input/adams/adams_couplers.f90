@@ -56,7 +56,7 @@ contains
       type(statement_t), intent(in) :: statement          !! the statement
       type(joint_t), intent(out) :: joints(most)          !! (most) those that there are are set
       integer, intent(out) :: n                           !! how many
-      character(:), allocatable, intent(out) :: message   !! why there are none; blank: there are
+      character(:), allocatable, intent(out) :: message   !! what is wrong with the statement; blank: nothing
       type(diagnostics_t), intent(inout) :: mistakes      !! collects what is wrong
 
       real(wp), allocatable :: id(:)

@@ -19,7 +19,7 @@ module rows
    !> The first `n_solve` rows are solved for; those after them only fix the motion of bodies that are known
    !> functions of time, and are evaluated when their reactions are requested.
    !>
-   !> Components: arrays that the loops over rows take as they are, each by itself.
+   !> Components: arrays over the rows, each of which the loops of the solvers use alone.
    type :: rows_t
       integer :: n_v = n_v_planar               !! rates of a body
       integer :: n = 0                          !! number of rows

@@ -104,7 +104,7 @@ contains
       is_flat = item%word("contact") == "flat"
    end function is_flat
 
-   !> Whether a row gives a radius over the angle; zero is none.
+   !> Whether a row gives a radius over the angle. A radius of zero counts as omitted.
    pure logical function has_radius(item)
       type(item_t), intent(in) :: item  !! the row
 
@@ -200,7 +200,7 @@ contains
          is_number = all(ieee_is_finite(r))
          if (is_number) is_number = r(1) > 0.0_wp
          if (is_number) cycle
-         radius = "no number"
+         radius = "not finite"
          if (ieee_is_finite(r(1))) radius = real_text(1.0e3_wp*r(1), 4)//" mm"
          fault = fault_t("profile", "the radius of the profile is "//radius//" at "//real_text(360.0_wp*k/n_angle, 4)//" deg", &
                          "it must be positive, with two derivatives, all around")

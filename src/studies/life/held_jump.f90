@@ -30,7 +30,7 @@ module held_jump
       real(wp), allocatable :: cycles(:)         !! (0:n) from the start of the jump [1]
       real(wp), allocatable :: sums(:, :, :)     !! (n numbers, starts, 0:n) what has been lost by then [m^3, m]
       real(wp), allocatable :: slope(:, :)       !! (n numbers, 0:n) mean rates there [m^3, m]
-      real(wp) :: wish = huge(1.0_wp)            !! next sub-jump [1]
+      real(wp) :: allowed = huge(1.0_wp)         !! length of the next sub-jump by its error [1]
    end type path_t
 
 contains
@@ -42,7 +42,7 @@ contains
       real(wp), intent(in) :: jump                         !! cycles [1]
       real(wp), intent(in) :: tolerance                    !! of volumes, over what is added [1]
       type(held_t), intent(inout) :: a                     !! loads at the start
-      type(path_t), intent(inout) :: path                  !! set; its wish is the first sub-jump
+      type(path_t), intent(inout) :: path                  !! set; `allowed` is the length of the first sub-jump
       logical, intent(out) :: is_good                      !! the end was reached
       type(held_t), intent(inout), optional :: b           !! loads at the end
       real(wp), intent(in), optional :: drift(:, :)        !! (n, starts) growth of the rates per cycle [m^3, m]
@@ -57,7 +57,7 @@ contains
       tau = 0.0_wp
       call rates_of(tau, sums, k1, is_good)
       if (is_good) call append(path, tau, sums, mean_of(k1))
-      h = min(path%wish, jump)
+      h = min(path%allowed, jump)
       do tried = 1, most_steps
          if (.not. is_good) return
          is_last = jump - tau - h < 1.0e-9_wp*jump
@@ -82,7 +82,7 @@ contains
             call append(path, tau, sums, mean_of(k1))
          end if
          h = h*max(shortest_part, min(longest_growth, careful*max(ratio, 1.0e-9_wp)**(-1.0_wp/3.0_wp)))
-         if (ratio <= 1.0_wp) path%wish = h
+         if (ratio <= 1.0_wp) path%allowed = h
          if (is_last .and. ratio <= 1.0_wp) return
          is_good = h > shortest*jump
       end do
@@ -128,7 +128,7 @@ contains
 
    !> An empty path.
    subroutine begin(path)
-      type(path_t), intent(inout) :: path   !! its wish is kept
+      type(path_t), intent(inout) :: path   !! `allowed` is kept
 
       path%n = -1
       if (allocated(path%cycles)) deallocate (path%cycles, path%sums, path%slope)

@@ -82,13 +82,13 @@ contains
 
       type(march_t) :: march
       type(trial_t) :: trial
-      real(wp) :: jump, wish
+      real(wp) :: jump, allowed
 
       call begin(plan, surfaces, source, life, march, error)
       if (allocated(error)) return
-      wish = first_jump(life, march)
+      allowed = first_jump(life, march)
       do while (.not. is_over(life, march))
-         jump = bounded(life, march, wish)
+         jump = bounded(life, march, allowed)
          do
             call try_jump(life, march, source, jump, trial, error)
             if (allocated(error)) exit
@@ -102,7 +102,7 @@ contains
             jump = max(jump*factor(trial%ratio, march%last > 0.0_wp, plan%starts), real(plan%measured, wp))
          end do
          if (allocated(error)) exit
-         wish = jump*factor(trial%ratio, march%last > 0.0_wp, plan%starts)
+         allowed = jump*factor(trial%ratio, march%last > 0.0_wp, plan%starts)
          call take_jump(life, march, jump, trial)
          call source%show(part_done(life, march%cycles, march%x))
       end do
@@ -187,14 +187,14 @@ contains
    end function depth_of
 
    !> A jump within what is left to the limits; the measured cycles at least.
-   real(wp) function bounded(life, march, wish) result(jump)
+   real(wp) function bounded(life, march, allowed) result(jump)
       type(life_t), intent(in) :: life       !! the life
       type(march_t), intent(in) :: march     !! where it is
-      real(wp), intent(in) :: wish           !! cycles that the error allows [1]
+      real(wp), intent(in) :: allowed        !! cycles that the error allows [1]
 
       real(wp) :: left
 
-      jump = max(wish, real(life%plan%measured, wp))
+      jump = max(allowed, real(life%plan%measured, wp))
       if (life%last == 0) jump = min(jump, max(approach(life, march%x, mean_of(march%rates)), real(life%plan%measured, wp)))
       if (life%plan%ends%cycles >= huge(1.0_wp)) return
       left = life%plan%ends%cycles*merge(1.0_wp, life%plan%stretch, life%last == 0) - march%cycles
@@ -259,7 +259,7 @@ contains
       real(wp), allocatable :: drift(:, :)
 
       trial%ratio = huge(1.0_wp)
-      trial%path%wish = march%sub_jump
+      trial%path%allowed = march%sub_jump
       drift = 0.0_wp*march%rates
       if (march%last > 0.0_wp) then
          call march%before%at(life%state, march%x, drift, is_good)
@@ -288,7 +288,7 @@ contains
       real(wp) :: share
       logical :: is_good
 
-      trial%path%wish = march%sub_jump
+      trial%path%allowed = march%sub_jump
       call follow(life%state, march%x, jump, tolerance_of(life, march, jump), march%now, trial%path, is_good, b=trial%held)
       if (.not. is_good) return
       change = trial%path%sums(:, :, trial%path%n)
@@ -331,7 +331,7 @@ contains
       march%last = jump
       march%rates = trial%rates
       march%place = trial%place
-      march%sub_jump = trial%path%wish
+      march%sub_jump = trial%path%allowed
       do k = 1, trial%path%n
          associate (path => trial%path, node => life%nodes(life%n))
             node%jump = path%cycles(k) - path%cycles(k - 1)
