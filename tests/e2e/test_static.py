@@ -279,3 +279,14 @@ def test_load_that_is_no_number(gudgeon, gudgeon_debug, build):
     done = call(program, "check", written(scratch(), text), expect=4)
     assert "the load on 'l4' is not finite at t = 0" in done.stderr
     assert "DLASCL" not in done.stdout + done.stderr
+
+
+def test_body_that_falls_beside_one_that_rests(gudgeon):
+    """A ball that nothing holds has no equilibrium, though another one rests; how far it goes is no excuse for its weight."""
+    text = (ROOT / "inputs/bouncing_ball.deck").read_text()
+    text = text.replace("[analysis", "[analysis.static]\n\n[analysis", 1)
+    rests = run(gudgeon, text, "--analysis", "static")
+    assert "neutrally stable in 2 of 3 freedoms" in rests.summary["equilibrium"]
+    falls = text.replace("\n[points]", "other    1          0.1               3      3.0      0            0\n\n[points]", 1)
+    done = call(gudgeon, "run", written(scratch(), falls), "--analysis", "static", expect=4)
+    assert "no static equilibrium was found" in done.stderr and "unbalanced loads act on 'other'" in done.stderr

@@ -31,7 +31,7 @@ module static
    use static_kinsol, only: polish
    use static_film, only: settle_in_films
    use static_problem, only: balance_t, evaluate_balance, free_stiffness, is_balanced, load_scale, look_at, net_load, &
-      position_scale, rounding_load, square_frequencies
+      position_scale, square_frequencies
    use static_relaxation, only: relax
    use steady_stability, only: find_eigenvalues, gather_films, is_steady, mode_words, no_growth
    use text, only: append_text, real_text, to_text
@@ -104,7 +104,7 @@ contains
       end if
       equilibrium%residual = norm2(balance%load)
       equilibrium%acting = load_scale(system)
-      equilibrium%rounding = rounding_load(system, balance)
+      equilibrium%rounding = balance%rounding
       if (.not. is_settled) then
          call refuse(system, balance, equilibrium, error)
          return
@@ -194,7 +194,7 @@ contains
       real(wp) :: load, moved(size(system%linkage%mass)), q_new(size(q)), rest(size(system%linkage%mass))
       integer :: outcome
 
-      load = max(load_scale(system), rounding_load(system, balance)/to_round_off)
+      load = max(load_scale(system), balance%rounding/to_round_off)
       if (load <= 0.0_wp) return
       q_new = q
       rest = 0.0_wp

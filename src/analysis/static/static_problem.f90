@@ -23,7 +23,7 @@ module static_problem
    implicit none (type, external)
    private
    public :: balance_t, evaluate_balance, free_stiffness, is_balanced, is_nearly_balanced, load_scale, look_at, net_load
-   public :: position_scale, rounding_load, square_frequencies, unbalanced_load
+   public :: position_scale, square_frequencies, unbalanced_load
 
    real(wp), parameter :: difference = 1.0e-7_wp  !! step of the central differences, of the size or a radian [1]
    real(wp), parameter :: roundings = 10.0_wp     !! of the positions, that a residual is allowed [1]
@@ -35,7 +35,7 @@ module static_problem
       real(wp), allocatable :: stiffness(:)   !! (freedoms) eigenvalues of the free tangent stiffness, ascending [N.m]
       real(wp), allocatable :: tangent(:, :)  !! (freedoms, freedoms) free tangent stiffness, of films not symmetric, N^T K N [N.m]
       real(wp), allocatable :: modes(:, :)    !! (n_v bodies, freedoms) the motions that belong to them [1]
-      real(wp) :: steepest = 0.0_wp           !! maximum change of the load along a free motion [N.m]
+      real(wp) :: rounding = 0.0_wp           !! load that the rounding of the positions puts out of balance [N.m]
       real(wp) :: speed = 1.0_wp              !! of the drivers where there are films, over that of the deck [1]
       integer(i8) :: n_evaluations = 0_i8     !! evaluations of the loads so far
    end type balance_t
@@ -105,14 +105,27 @@ contains
       load_scale = max(net_load(system), max_acting(system))
    end function load_scale
 
-   !> What the rounding of the positions puts out of balance: some roundings of stiffness times length, the greater of the size of
-   !> the bodies and their distance from the origin.
-   pure real(wp) function rounding_load(system, balance)
+   !> What the rounding of the positions puts out of balance [N.m]: some roundings of the change of the load along each mode, times
+   !> the greater of the size of the bodies and the distance from the origin of those that move in it. A body that nothing holds and
+   !> that goes far away adds nothing.
+   pure real(wp) function rounding_load(system, slope, modes)
       class(mechanism_t), intent(in) :: system   !! the system at a position
-      type(balance_t), intent(in) :: balance     !! with its stiffness
+      real(wp), intent(in) :: slope(:, :)        !! (n_v bodies, freedoms) change of the load along each mode [N.m]
+      real(wp), intent(in) :: modes(:, :)        !! (n_v bodies, freedoms) unit motions [1]
 
-      rounding_load = roundings*eps*balance%steepest* &
-                      max(1.0_wp, maxval(abs(system%linkage%motion%r(:, 1:)))/system%linkage%scales%length)
+      real(wp) :: reach
+      integer :: b, k
+
+      rounding_load = 0.0_wp
+      associate (n_v => system%linkage%coordinates%n_v, r => system%linkage%motion%r)
+         do k = 1, size(modes, 2)
+            reach = 1.0_wp
+            do b = 1, system%linkage%bodies%n
+               reach = max(reach, norm2(modes(n_v*(b - 1) + 1:n_v*b, k))*norm2(r(:, b))/system%linkage%scales%length)
+            end do
+            rounding_load = max(rounding_load, roundings*eps*norm2(slope(:, k))*reach)
+         end do
+      end associate
    end function rounding_load
 
    !> The largest of weights, present net loads and present net reactions.
@@ -171,7 +184,6 @@ contains
       end associate
       call look_at(system, q, balance%speed)
       balance%n_evaluations = balance%n_evaluations + int(2*n + 1, i8)
-      balance%steepest = maxval([0.0_wp, norm2(slope, dim=1)])
       k_free = matmul(transpose(balance%free), slope)
       balance%tangent = k_free
       k_free = 0.5_wp*(k_free + transpose(k_free))
@@ -179,6 +191,7 @@ contains
       allocate (balance%stiffness(n), source=0.0_wp)
       if (n > 0) call dsyev("V", "U", n, k_free, n, balance%stiffness, work, size(work), info)
       balance%modes = matmul(balance%free, k_free)
+      balance%rounding = rounding_load(system, matmul(slope, k_free), balance%modes)
    end subroutine free_stiffness
 
    !> Whether the residual is within a part of the forces that act, and what the rounding of the positions puts out of balance.
@@ -187,7 +200,7 @@ contains
       type(balance_t), intent(in) :: balance     !! with its stiffness
       real(wp), intent(in) :: part               !! residual allowed, of the forces that act [1]
 
-      is_balanced = norm2(balance%load) <= part*load_scale(system) + rounding_load(system, balance)
+      is_balanced = norm2(balance%load) <= part*load_scale(system) + balance%rounding
    end function is_balanced
 
    !> Whether an equilibrium is near enough for Newton's iteration. By the net loads, where they do not vanish with the residual:
