@@ -194,3 +194,49 @@ def test_nothing_to_study(gudgeon):
     for text, words in ((BALL[:start] + BALL[end:], "nothing scatters"),
                         (BALL[:end] + "[analysis" + BALL.split("[analysis")[1], "no requests of a run")):
         assert words in call(gudgeon, "tolerance", written(scratch(), text), expect=2).stderr
+
+
+def test_indices_by_a_polynomial(gudgeon):
+    """Sobol' points and a polynomial through 64 members: the mean of the throw and its indices are exact, without further runs."""
+    text = BALL.replace("members = 300\npoints = 60\n", "members = 64\nindices = polynomial\nplan = sobol\n")
+    summary, out = study(gudgeon, text)
+    of, span = summary["tolerance"], 0.5
+    by_h, by_v = 0.1**2 / 3, (0.5 * span) ** 2 / 3
+    final, high = of["ball.position.y.final"], of["ball.position.y.max"]
+    assert final["index"]["h"]["value"] == pytest.approx([by_h / (by_h + by_v)], rel=1e-12)
+    assert final["index"]["v"]["total"] == pytest.approx([by_v / (by_h + by_v)], rel=1e-12)
+    assert final["index"]["k"]["value"] == [0] and final["index_missed"] == 0
+    # h + v^2/(2 g): with v = 4 (1 + x), variance of 0.8 (2 x + x^2)
+    x = 0.125
+    by_v = 0.8**2 * (4 * x**2 / 3 + x**4 * 4 / 45)
+    assert high["index"]["h"]["value"] == pytest.approx([by_h / (by_h + by_v)], rel=1e-9)
+    assert high["mean"]["sampled"] == pytest.approx([1.8 + 0.8 * x**2 / 3], rel=1e-6)
+    with h5py.File(out / "tolerance.h5") as file:
+        assert file["tolerance_requests/missed"][...].max() < 1e-12
+    assert len((out / "sweep.csv").read_text().splitlines()) == 1 + 1 + 2 * 3 + 64
+
+
+def test_polynomials_are_refused(gudgeon, root):
+    """At the kinematic level, of an ensemble, and more numbers than a Sobol' sequence has: in words."""
+    four_bar = (root / "inputs/tolerance_four_bar.deck").read_text()
+    done = call(gudgeon, "tolerance", written(scratch(), four_bar + "\n[tolerance.study]\nindices = polynomial\n"), expect=2)
+    assert "indices = polynomial is of the dynamic level" in done.stderr
+    several = BALL.replace("points = 60", "indices = polynomial") + "[ensemble]\nruns = 2\n"
+    done = call(gudgeon, "tolerance", written(scratch(), several), expect=2)
+    assert "indices = polynomial needs one run of a member" in done.stderr
+    many = "\n".join(f"q{k} = 1 m" for k in range(54))
+    rows = "\n".join(f"q{k} 0.1m uniform" for k in range(54))
+    text = BALL.replace("[parameters]", "[parameters]\n" + many).replace("k 0.6N triangular", "k 0.6N triangular\n" + rows)
+    done = call(gudgeon, "tolerance", written(scratch(), text.replace("points = 60", "points = 60\nplan = sobol")), expect=2)
+    assert "plan = sobol takes up to 53 random numbers, and a member has 57" in done.stderr
+
+
+def test_a_polynomial_that_misses_too_much(gudgeon):
+    """In chaos a polynomial of the parameters tells nothing: no indices, and a warning says how much it misses."""
+    text = SLIDER_CRANK.read_text()
+    text = text[: text.index("[ensemble]")] + text[text.index("[statistics]") :]
+    text = text.replace("motor.moment.rms", "slider.velocity.x.final").replace("members  = 40", "members = 40\nindices = polynomial")
+    summary, _ = study(gudgeon, text)
+    rms = summary["tolerance"]["slider.acceleration.x.rms"]
+    assert rms["index_missed"] > 0.2 and rms["index"]["c"]["value"] == [None] and rms["index"]["c"]["total"] == [None]
+    assert any("of the variance of slider.acceleration.x.rms: it has no indices" in words for words in summary["warnings"])

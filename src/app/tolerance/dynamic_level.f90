@@ -23,6 +23,7 @@ module dynamic_level
    use tolerance_files, only: write_study
    use tolerance_report, only: note_runs, report_tolerances
    use tolerance_results, only: tolerance_study_t
+   use tolerance_setup, only: check_sampling
    implicit none (type, external)
    private
    public :: study_runs
@@ -50,6 +51,7 @@ contains
       member = options
       member%change%analysis = trim(analysis_names(analysis_dynamic))
       call set_up_numbers(loaded, study, member%runs%observed, error)
+      if (.not. allocated(error)) call check_sampling(study, starts_of(loaded), error)
       if (allocated(error)) return
       call new_design(study, starts_of(loaded), design)
       call cases_of_design(study, design, loaded)

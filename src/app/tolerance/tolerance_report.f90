@@ -7,6 +7,7 @@ module tolerance_report
    use load, only: loaded_t
    use options, only: options_t
    use output_plan, only: output_plan_t
+   use polynomial_study, only: most_missed
    use recorder, only: status_complete
    use report_page, only: report_name
    use result_table, only: result_table_t
@@ -57,6 +58,8 @@ contains
       type(tolerance_study_t), intent(in) :: study              !! the study
       type(text_t), allocatable, intent(inout) :: warnings(:)   !! (any) grown
 
+      integer :: k
+
       if (.not. study%derivatives%has_curvatures) then
          call append_text(warnings, "too few members or too many failed runs for some derivatives: they are stated as zero")
       end if
@@ -64,7 +67,13 @@ contains
          call append_text(warnings, to_text(study%members%open)//" of "//to_text(study%members%n)//" members failed: see "// &
                           "sweep.csv; the yield counts them as failed parts")
       end if
-      if (study%indices%open > 0) then
+      if (allocated(study%indices%missed)) then
+         do k = 1, size(study%requests)
+            if (study%indices%missed(k) > most_missed) call append_text(warnings, "a polynomial misses "// &
+               real_text(min(100.0_wp*study%indices%missed(k), 100.0_wp), 2)//" % of the variance of "//study%requests(k)%name// &
+               ": it has no indices; give more members, or use indices = plan")
+         end do
+      else if (study%indices%open > 0) then
          call append_text(warnings, to_text(study%indices%open)//" of "//to_text(study%plan%sampling%points)//" points of the "// &
                           "indices have members that failed: the indices are those of the others")
       end if

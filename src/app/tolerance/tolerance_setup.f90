@@ -9,15 +9,17 @@ module tolerance_setup
    use groups_of_catalogue, only: group_motions, group_reactions, group_requests
    use load, only: loaded_t
    use mechanism_catalogue, only: build_catalogue
+   use member_draws, only: random_numbers
    use read_tolerance, only: has_tolerances, read_tolerance_plan
    use scene, only: analysis_kinematic
-   use text, only: append_text, text_t
-   use tolerance_plan, only: limit_t, pin_disc
+   use sobol_points, only: most_dimensions
+   use text, only: append_text, text_t, to_text
+   use tolerance_plan, only: indices_by_polynomial, limit_t, pin_disc, plan_sobol
    use tolerance_results, only: found_pin_t, request_t, tolerance_study_t
    use tolerance_words, only: names_of_pins
    implicit none (type, external)
    private
-   public :: add_limits, read_plan, set_up_study
+   public :: add_limits, check_sampling, read_plan, set_up_study
 
 contains
 
@@ -63,8 +65,31 @@ contains
       else if (size(study%requests) == 0) then
          call set_error(error, exit_usage, "no channel is studied"//new_line("a")// &
                         "  = name some as requests of [tolerance.study], or give rows of [request] or [tolerance.limit]")
+      else
+         call check_sampling(study, 0, error)
       end if
    end subroutine set_up_study
+
+   !> Refuse what the sampling of a study cannot do.
+   subroutine check_sampling(study, runs_per_member, error)
+      type(tolerance_study_t), intent(in) :: study           !! contributors and pins are set
+      integer, intent(in) :: runs_per_member                 !! 0: of the kinematic level
+      type(error_t), allocatable, intent(inout) :: error     !! says what, and what else there is
+
+      associate (sampling => study%plan%sampling)
+         if (sampling%plan == plan_sobol .and. random_numbers(study) > most_dimensions) then
+            call set_error(error, exit_usage, "plan = sobol takes up to "//to_text(most_dimensions)// &
+                           " random numbers, and a member has "//to_text(random_numbers(study))//new_line("a")// &
+                           "  = use plan = latin_hypercube")
+         else if (sampling%indices == indices_by_polynomial .and. runs_per_member == 0) then
+            call set_error(error, exit_usage, "indices = polynomial is of the dynamic level: here each member is a position"// &
+                           new_line("a")//"  = omit it, or use level = dynamic")
+         else if (sampling%indices == indices_by_polynomial .and. runs_per_member > 1) then
+            call set_error(error, exit_usage, "indices = polynomial needs one run of a member, and [ensemble] has several"// &
+                           new_line("a")//"  = omit it: the scatter within the motion is split from that of the parts instead")
+         end if
+      end associate
+   end subroutine check_sampling
 
    !> Joints with clearance: planar revolute ones; others are ideal.
    subroutine find_pins(loaded, study, warnings)

@@ -202,11 +202,12 @@ contains
          plan%level = number_of(info, study, "level")
          sampling%members = nint(study%number("members"))
          sampling%seed = nint(study%number("seed"))
-         sampling%is_hypercube = number_of(info, study, "plan") == 2
+         sampling%plan = number_of(info, study, "plan")
          sampling%method = number_of(info, study, "method")
          sampling%accuracy = study%number("accuracy")
          sampling%budget = study%number("budget")
          sampling%checked = nint(study%number("checked"))
+         sampling%indices = number_of(info, study, "indices")
          sampling%points = nint(study%number("points"))
          sampling%resamples = nint(study%number("resamples"))
          sampling%bins = nint(study%number("bins"))

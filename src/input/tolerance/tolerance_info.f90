@@ -90,8 +90,8 @@ contains
                      //"or JOINT.impacts", default="")
       call add_number(info, "members", dim_none, "mechanisms that are sampled; 0: 10000, of the dynamic level 200", default="0", &
                       lower=0.0_wp, upper=1.0e8_wp)
-      call add_word(info, "plan", "sampling: independent members, or a Latin hypercube, whose means scatter less than their " &
-                    //"intervals state", default="monte_carlo", choices="monte_carlo latin_hypercube")
+      call add_word(info, "plan", "sampling: independent members, or a Latin hypercube or a Sobol' sequence, whose means scatter " &
+                    //"less than their intervals state", default="monte_carlo", choices="monte_carlo latin_hypercube sobol")
       call add_number(info, "seed", dim_none, "seed of the random numbers, which depend only on it and the number of the member", &
                       default="1", lower=0.0_wp, upper=2.0e9_wp)
       call add_word(info, "method", "members by the expansion of second order, by assembling each, or auto: by the expansion " &
@@ -102,6 +102,8 @@ contains
                       //"the expansion is taken, with a warning", default="60 s", lower=0.0_wp)
       call add_number(info, "checked", dim_none, "members that are assembled to find the error of the expansion", default="100", &
                       lower=1.0_wp, upper=1.0e6_wp)
+      call add_word(info, "indices", "Sobol' indices: by members of a plan of their own, or, of the dynamic level, by a " &
+                    //"polynomial through the members, without further runs", default="plan", choices="plan polynomial")
       call add_number(info, "points", dim_none, "points of the plan of Sobol' indices; it has points*(contributors + 2) " &
                       //"members; 0: 1000, of the dynamic level 50", default="0", lower=0.0_wp, upper=1.0e5_wp)
       call add_number(info, "resamples", dim_none, "bootstrap resamples for the intervals of the indices", default="200", &

@@ -7,8 +7,9 @@ module tolerance_plan
    use tolerated, only: tolerated_t
    implicit none (type, external)
    private
-   public :: level_auto, level_dynamic, level_kinematic, limit_t, method_auto, method_exact, method_expansion, pin_circle, &
-      pin_disc, pin_force, pin_t, pin_worst, tolerance_plan_t
+   public :: indices_by_plan, indices_by_polynomial, level_auto, level_dynamic, level_kinematic, limit_t, method_auto, &
+      method_exact, method_expansion, pin_circle, pin_disc, pin_force, pin_t, pin_worst, plan_hypercube, plan_sobol, &
+      tolerance_plan_t
 
    integer, parameter :: pin_disc = 1     !! anywhere in the circle of the clearance, uniform
    integer, parameter :: pin_circle = 2   !! on the circle, uniform
@@ -18,6 +19,13 @@ module tolerance_plan
    integer, parameter :: method_auto = 1       !! by the expansion if it is accurate
    integer, parameter :: method_expansion = 2  !! by the expansion of second order
    integer, parameter :: method_exact = 3      !! each member is assembled
+
+   integer, parameter :: plan_monte_carlo = 1   !! independent members
+   integer, parameter :: plan_hypercube = 2     !! a Latin hypercube
+   integer, parameter :: plan_sobol = 3         !! points of a Sobol' sequence
+
+   integer, parameter :: indices_by_plan = 1         !! by members of a plan of their own
+   integer, parameter :: indices_by_polynomial = 2   !! by a polynomial through the members
 
    integer, parameter :: level_auto = 1        !! kinematic where the deck has [analysis.kinematic], else dynamic
    integer, parameter :: level_kinematic = 2   !! positions by a kinematic analysis
@@ -48,11 +56,12 @@ module tolerance_plan
    type :: sampling_t
       integer :: members = 0                    !! mechanisms that are sampled; 0: as the level has
       integer :: seed = 0                       !! of the random numbers
-      logical :: is_hypercube = .false.         !! a Latin hypercube, not independent members
+      integer :: plan = plan_monte_carlo        !! one of the above
       integer :: method = method_auto           !! one of the above
       real(wp) :: accuracy = 0.0_wp             !! accepted error of the expansion, of a standard deviation [1]
       real(wp) :: budget = 0.0_wp               !! time to assemble all members, if the method is chosen [s]
       integer :: checked = 0                    !! members that are assembled to find it
+      integer :: indices = indices_by_plan      !! one of the above
       integer :: points = 0                     !! of the plan of Sobol' indices; 0: as the level has
       integer :: resamples = 0                  !! for their intervals
       integer :: bins = 0                       !! of histograms

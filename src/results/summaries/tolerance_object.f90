@@ -58,6 +58,7 @@ contains
       if (allocated(study%allocations)) call one%put_object("cheapest", cheapest())
       if (allocated(study%splits)) call one%put_object("variance", variances())
       call one%put_object("index", indices())
+      if (allocated(study%indices%missed)) call one%put_real("index_missed", study%indices%missed(r))
       call one%put_object("histogram", histogram())
       call one%put_real("expansion_error", study%errors(r))
       text = one%get()

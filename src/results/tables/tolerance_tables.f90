@@ -64,6 +64,10 @@ contains
             call table%put("failures_high", "1", "upper end of it", failures(3, :), heading="to", digits=3, formats=in_files)
          end associate
       end if
+      if (allocated(study%indices%missed)) then
+         call table%put("missed", "1", "part of the variance that the polynomial of the indices misses; NaN: nothing scatters", &
+                        study%indices%missed, heading="missed", digits=2, formats=in_files)
+      end if
       call table%put("expansion_error", "rows", "maximum error of the expansion in checked members", study%errors, &
                      heading="error", digits=2, formats=in_files)
 

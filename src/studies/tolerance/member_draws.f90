@@ -3,21 +3,22 @@
 !> A member has a random number for each parameter (two of a fit), for each pin one on its circle or two in it, and for each batch
 !> of parameters. They follow from
 !> the seed, what they are for and the number of the member alone. In a Latin hypercube of n members the numbers of a column are
-!> (o_m - u_m)/n, o a random order of 1 to n.
+!> (o_m - u_m)/n, o a random order of 1 to n. In a Sobol' sequence they are those of a point of it.
 !> Source: M. D. McKay, R. J. Beckman, W. J. Conover, Technometrics 21 (1979) 239-245.
 module member_draws
    use counter_random, only: random_order, uniform_at
    use kinds, only: i8, two_pi, wp
    use normal_distribution, only: normal_quantile
-   use tolerance_plan, only: pin_circle, pin_disc, pin_force
+   use sobol_points, only: sobol_t
+   use tolerance_plan, only: pin_circle, pin_disc, pin_force, plan_hypercube, plan_sobol
    use tolerance_results, only: tolerance_study_t
    use tolerated, only: joint_number, most_random
    implicit none (type, external)
    private
-   public :: draw_t, stream_a, stream_b, stream_check, stream_members, stream_rare, stream_resamples
+   public :: draw_t, random_numbers, stream_a, stream_b, stream_check, stream_members, stream_rare, stream_resamples
 
    integer, parameter :: stream_members = 1     !! numbers of members
-   integer, parameter :: stream_order = 2       !! orders of a Latin hypercube
+   integer, parameter :: stream_order = 2       !! orders of a Latin hypercube, scrambling of a Sobol' sequence
    integer, parameter :: stream_a = 3           !! plan A of Sobol' indices
    integer, parameter :: stream_b = 4           !! plan B
    integer, parameter :: stream_resamples = 5   !! resamples
@@ -30,23 +31,34 @@ module member_draws
       integer :: n = 0                         !! random numbers of a member
       integer, allocatable :: first(:)         !! (contributors + 1) first number of each
       integer :: before_batches = 0            !! contributors before the batches
-      integer, allocatable :: orders(:, :)     !! (members, numbers) of a Latin hypercube; unallocated: independent members
+      integer, allocatable :: orders(:, :)     !! (members, numbers) of a Latin hypercube; unallocated: another plan
+      type(sobol_t), allocatable :: sobol      !! the sequence; unallocated: another plan
    contains
       procedure :: begin => draw_begin
+      procedure :: count => draw_count
       procedure :: numbers => draw_numbers
       procedure :: make => draw_make
    end type draw_t
 
 contains
 
-   !> Count the random numbers.
-   subroutine draw_begin(self, study)
+   !> Random numbers that a member takes.
+   pure integer function random_numbers(study)
+      type(tolerance_study_t), intent(in) :: study       !! parameters and pins
+
+      type(draw_t) :: draw
+
+      call draw%count(study)
+      random_numbers = draw%n
+   end function random_numbers
+
+   !> Count the random numbers of each contributor.
+   pure subroutine draw_count(self, study)
       class(draw_t), intent(inout) :: self               !! the draws
       type(tolerance_study_t), intent(in) :: study       !! parameters and pins
 
       integer :: k, n
 
-      self%seed = study%plan%sampling%seed
       n = size(study%plan%parameters)
       allocate (self%first(n + size(study%pins) + size(study%plan%batches) + 1))
       self%first(1) = 1
@@ -63,7 +75,22 @@ contains
          self%first(k + 1) = self%first(k) + 1
       end do
       self%n = self%first(size(self%first)) - 1
-      if (.not. study%plan%sampling%is_hypercube) return
+   end subroutine draw_count
+
+   !> Prepare the plan of the members.
+   subroutine draw_begin(self, study)
+      class(draw_t), intent(inout) :: self               !! the draws
+      type(tolerance_study_t), intent(in) :: study       !! parameters and pins
+
+      integer :: k
+
+      self%seed = study%plan%sampling%seed
+      call self%count(study)
+      if (study%plan%sampling%plan == plan_sobol) then
+         allocate (self%sobol)
+         call self%sobol%begin(self%n, self%seed, stream_order)
+      end if
+      if (study%plan%sampling%plan /= plan_hypercube) return
       allocate (self%orders(study%plan%sampling%members, self%n))
       do k = 1, self%n
          call random_order(self%seed, stream_order, k - 1, self%orders(:, k))
@@ -79,6 +106,10 @@ contains
 
       integer :: k
 
+      if (stream == stream_members .and. allocated(self%sobol)) then
+         call self%sobol%point(member - 1_i8, u)
+         return
+      end if
       do k = 1, self%n
          u(k) = uniform_at(self%seed, stream, member - 1_i8, k - 1)
       end do

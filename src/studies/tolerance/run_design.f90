@@ -1,12 +1,13 @@
 !> Which mechanisms the dynamic level runs: a plan of cases, each with the deviations of all parameters.
 !>
 !> The nominal case comes first. Where each case has one run there follow two on both sides of it for each parameter, a standard
-!> deviation away, for derivatives. Then come the members, and where each case has one run the plans of Sobol' indices: A, A with a
-!> contributor of B, for each, and B. Contributors are parameters and batches. Where cases have several runs, each from another
-!> start, their scatter is split instead.
+!> deviation away, for derivatives. Then come the members, and where each case has one run the plans of Sobol' indices, unless these
+!> come from a polynomial: A, A with a contributor of B, for each, and B. Contributors are parameters and batches. Where cases have
+!> several runs, each from another start, their scatter is split instead.
 module run_design
    use kinds, only: i8, wp
    use member_draws, only: draw_t, stream_a, stream_b, stream_members
+   use tolerance_plan, only: indices_by_plan
    use tolerance_results, only: tolerance_study_t
    implicit none (type, external)
    private
@@ -41,7 +42,7 @@ contains
       n = size(study%plan%parameters) + size(study%plan%batches)
       design%n_start = n_start
       design%n_member = study%plan%sampling%members
-      if (n_start == 1) design%n_point = study%plan%sampling%points
+      if (n_start == 1 .and. study%plan%sampling%indices == indices_by_plan) design%n_point = study%plan%sampling%points
       design%steps = study%plan%parameters%sigma
       if (n_start > 1) design%steps = 0.0_wp
       call draw%begin(study)

@@ -11,9 +11,11 @@ module simulated_study
    use kinds, only: i8, not_a_number, wp
    use lapack, only: dgelsd
    use member_values, only: block_t
+   use polynomial_study, only: take_polynomials
    use run_design, only: run_design_t
    use sample_moments, only: sample_t
    use sampled_members, only: begin_members, end_members, find_capabilities, take_block
+   use tolerance_plan, only: indices_by_polynomial
    use tolerance_results, only: tolerance_study_t
    use tolerance_study, only: compare_plans
    use variance_split, only: split_variance
@@ -187,7 +189,7 @@ contains
       end associate
    end subroutine take_members
 
-   !> Sobol' indices, if there are plans.
+   !> Sobol' indices, by a polynomial or by plans, if there are some.
    subroutine take_plans(study, design, values, is_failed)
       type(tolerance_study_t), intent(inout) :: study   !! the study
       type(run_design_t), intent(in) :: design          !! the cases
@@ -198,6 +200,10 @@ contains
       integer, allocatable :: cases(:)
       integer :: k, m, n
 
+      if (design%n_start == 1 .and. study%plan%sampling%indices == indices_by_polynomial) then
+         call take_polynomials(study, design, values, is_failed)
+         return
+      end if
       n = size(study%contributors)
       if (design%n_point == 0) then
          study%indices%points = 0

@@ -84,10 +84,11 @@ module tolerance_results
 
    !> Sobol' indices.
    type :: indices_t
-      integer :: points = 0                                !! of the plan
+      integer :: points = 0                                !! of the plan; of a polynomial, members
       real(wp), allocatable :: first(:, :, :, :)           !! (3, contributors, requests, times) value, ends of its interval [1]
       real(wp), allocatable :: total(:, :, :, :)           !! (3, contributors, requests, times) the same of total indices [1]
       integer(i8) :: open = 0                              !! members of the plan that cannot be assembled; their points are omitted
+      real(wp), allocatable :: missed(:)                   !! (requests) part of the variance a polynomial misses; else unset [1]
    end type indices_t
 
    !> A study.
