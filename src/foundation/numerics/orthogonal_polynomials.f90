@@ -18,8 +18,8 @@ module orthogonal_polynomials
       real(wp) :: mean = 0.0_wp                !! mu [any]
       real(wp) :: sigma = 0.0_wp               !! s; 0: one value, the constant alone [any]
       integer :: degree = 0                    !! highest one
-      real(wp) :: a(0:max_degree) = 0.0_wp     !! a_k [1]
-      real(wp) :: b(0:max_degree) = 0.0_wp     !! b_k [1]
+      real(wp) :: a(0:max_degree) = 0.0_wp     !! (0:max_degree) a_k [1]
+      real(wp) :: b(0:max_degree) = 0.0_wp     !! (0:max_degree) b_k [1]
    contains
       procedure :: values
    end type family_t

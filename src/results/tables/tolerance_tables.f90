@@ -55,15 +55,7 @@ contains
       call table%put("capability_low", "1", "lower end of its interval of 95 %", study%members%capability(2, :), &
                      formats=in_files)
       call table%put("capability_high", "1", "upper end of it", study%members%capability(3, :), formats=in_files)
-      if (allocated(study%members%failures)) then
-         associate (failures => study%members%failures)
-            call table%put("failures", "1", "failures by importance sampling; NaN: no limits", failures(1, :), &
-                           heading="failures", digits=4, formats=in_files)
-            call table%put("failures_low", "1", "lower end of its interval of 95 %", failures(2, :), heading="95 % from", &
-                           digits=3, formats=in_files)
-            call table%put("failures_high", "1", "upper end of it", failures(3, :), heading="to", digits=3, formats=in_files)
-         end associate
-      end if
+      if (allocated(study%members%failures)) call put_failures(study%members%failures)
       if (allocated(study%indices%missed)) then
          call table%put("missed", "1", "part of the variance that the polynomial of the indices misses; NaN: nothing scatters", &
                         study%indices%missed, heading="missed", digits=2, formats=in_files)
@@ -72,6 +64,17 @@ contains
                      heading="error", digits=2, formats=in_files)
 
    contains
+
+      !> The columns of rare failures.
+      subroutine put_failures(failures)
+         real(wp), intent(in) :: failures(:, :)   !! (3, requests) part that fails, ends of its interval [1]
+
+         call table%put("failures", "1", "failures by importance sampling; NaN: no limits", failures(1, :), &
+                        heading="failures", digits=4, formats=in_files)
+         call table%put("failures_low", "1", "lower end of its interval of 95 %", failures(2, :), heading="95 % from", &
+                        digits=3, formats=in_files)
+         call table%put("failures_high", "1", "upper end of it", failures(3, :), heading="to", digits=3, formats=in_files)
+      end subroutine put_failures
 
       !> A column with the values at the times of the rows.
       subroutine put(name, help, values, heading)

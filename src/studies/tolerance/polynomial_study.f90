@@ -88,8 +88,8 @@ contains
       end do
    end subroutine find_families
 
-   !> Random numbers and weights that give the moments of a distribution: Gauss's rule in panels that are halved towards both ends; of
-   !> measured values one number in each of their intervals.
+   !> Random numbers and weights that give the moments of a distribution: Gauss's rule in panels that are halved towards both
+   !> ends; of measured values one number in each of their intervals.
    pure subroutine find_nodes(study, owner, u, w)
       type(tolerance_study_t), intent(in) :: study      !! parameters
       integer, intent(in) :: owner                      !! number of the contributor

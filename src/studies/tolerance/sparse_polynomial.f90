@@ -6,11 +6,13 @@
 !> degree; the one that fits the remainder best is added, and as many are kept as make the error of cross-validation least: each
 !> fifth of the members is predicted by terms and coefficients from the others, with errors d,
 !> $$ \varepsilon = \sum_i d_i^2 \Big/ \sum_i (f_i - \bar f)^2 . $$
-!> Intervals of 95 %: each member, of residual r and leverage h, changes the coefficients by R^{-1} q_i r_i/(1 - h_i), Q R the factors
-!> of the matrix of terms, and the part of the variance that the polynomial misses may belong to the contributor or to the others:
+!> Intervals of 95 %: each member, of residual r and leverage h, changes the coefficients by R^{-1} q_i r_i/(1 - h_i), Q R the
+!> factors of the matrix of terms, and the part of the variance that the polynomial misses may belong to the contributor or to the
+!> others:
 !> $$ (1 - \varepsilon)(S - 1.96 s), \quad (1 - \varepsilon)(S + 1.96 s) + \varepsilon . $$
 !> Sources: G. Blatman, B. Sudret, J. Comput. Phys. 230 (2011) 2345-2367 (sparse polynomials); B. Sudret, Reliab. Eng.
-!> Syst. Saf. 93 (2008) 964-979 (indices); M. Stone, J. R. Stat. Soc. B 36 (1974) 111-147 (cross-validation); Y. C. Pati, R. Rezaiifar, P. S. Krishnaprasad, Asilomar (1993) (order of terms).
+!> Syst. Saf. 93 (2008) 964-979 (indices); M. Stone, J. R. Stat. Soc. B 36 (1974) 111-147 (cross-validation); Y. C. Pati,
+!> R. Rezaiifar, P. S. Krishnaprasad, Asilomar (1993) (order of terms).
 !> Limits: smooth results. In chaotic motion it misses most of the variance.
 module sparse_polynomial
    use kinds, only: wp
