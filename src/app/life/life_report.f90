@@ -11,6 +11,7 @@ module life_report
    use output_plan, only: output_plan_t
    use recorder, only: status_complete, status_failed
    use study_summary, only: add_output, show_summaries, start_summary
+   use table_list, only: list_of
    use text, only: counted, real_text, text_t, to_text
    use text_buffer, only: buffer_t
    use text_of_table, only: add_table
@@ -118,7 +119,7 @@ contains
       associate (node => life%nodes(life%last))
          call put_wear(json, life%state%surfaces, node%measures, max(node%measures - node%half(), 0.0_wp), &
                        node%measures + node%half(), node%cycles, node%cycles*life%plan%cycle)
-         call put_tables(json, [table_of_life(life), table_of_surfaces_at_end(life), table_of_budget(life)])
+         call put_tables(json, list_of(table_of_life(life), table_of_surfaces_at_end(life), table_of_budget(life)))
          worn = life%state%worn(node%x)
          call put_tables(json, tables_of_wear(worn))
       end associate

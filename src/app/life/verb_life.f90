@@ -21,12 +21,14 @@ module verb_life
    use options, only: options_t
    use output_plan, only: output_plan_t
    use recorder, only: status_complete, status_failed
+   use result_table, only: result_table_t
    use run_place, only: directory_of
    use run_plan, only: tell_origin
    use scene_echo, only: echo_scene
    use sweep_journal, only: differences, origin_of_sweep_t
    use sweep_work, only: origin_of_sweep
    use table_file, only: write_table_file
+   use table_list, only: append_tables, list_of
    use text, only: text_t
    use text_file, only: replace_file
    use text_table, only: file_heading
@@ -118,6 +120,7 @@ contains
       type(text_t), allocatable, intent(inout) :: warnings(:)    !! (m) grown
       type(error_t), allocatable, intent(out) :: error           !! a file cannot be written
 
+      type(result_table_t), allocatable :: tables(:)
       type(text_t), allocatable :: names(:)
       type(worn_surface_t), allocatable :: worn(:)
       character(:), allocatable :: folder
@@ -126,9 +129,10 @@ contains
       worn = life%state%worn(life%nodes(life%last)%x)
       call replace_file(plan%directory//"/deck.echo", echo_scene(loaded%deck, loaded%scene), error)
       if (.not. allocated(error)) then
-         call write_table_file("life.h5", "gudgeon life", plan, state, &
-                               [table_of_life(life), table_of_surfaces_at_end(life), table_of_budget(life), &
-                                table_of_jumps(life), tables_of_life_profiles(life), tables_of_wear(worn)], error)
+         tables = list_of(table_of_life(life), table_of_surfaces_at_end(life), table_of_budget(life), table_of_jumps(life))
+         call append_tables(tables, tables_of_life_profiles(life))
+         call append_tables(tables, tables_of_wear(worn))
+         call write_table_file("life.h5", "gudgeon life", plan, state, tables, error)
       end if
       if (.not. allocated(error)) call replace_file(plan%directory//"/life.csv", csv_text(table_of_jumps(life)), error)
       if (allocated(error)) return

@@ -12,7 +12,7 @@ module legacy_way
    use errors, only: error_t, exit_usage, set_error
    use integration_settings, only: choice_t, new_option
    use integrator_controls, only: onset_interpolate, onset_reject
-   use item, only: item_t
+   use item, only: item_t, option_t
    use kind_info, only: dim_frequency, kind_info_t
    use kinds, only: wp
    use scene, only: analysis_dynamic, scene_t
@@ -32,6 +32,7 @@ contains
       type(scene_t), intent(inout) :: scene                !! changed
       type(error_t), allocatable, intent(out) :: error     !! it has no dynamic analysis
 
+      type(option_t) :: gains(2)
       integer :: c, i, k
 
       if (scene%analysis /= analysis_dynamic) then
@@ -45,8 +46,9 @@ contains
          settings%is_apart = .false.
          if (.not. settings%controls%fixed_step > 0.0_wp) settings%controls%fixed_step = usual_step
          if (.not. scene%settings%dynamic%is_given("stabilise")) then
-            settings%stabilisation = choice_t("baumgarte", [new_option("alpha", usual_gain, dim_frequency), &
-                                                            new_option("beta", usual_gain, dim_frequency)])
+            gains(1) = new_option("alpha", usual_gain, dim_frequency)
+            gains(2) = new_option("beta", usual_gain, dim_frequency)
+            settings%stabilisation = choice_t("baumgarte", gains)
          end if
          if (way == "procedure1") then
             settings%controls%onset = onset_interpolate

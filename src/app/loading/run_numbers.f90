@@ -34,7 +34,7 @@ contains
       type(number_t), allocatable :: others(:)
       type(scalar_t), allocatable :: scalars(:)
       type(selection_t) :: selection
-      type(text_t), allocatable :: known(:)
+      type(text_t), allocatable :: known(:), named(:)
       integer :: dot, k
 
       allocate (numbers(0))
@@ -67,7 +67,9 @@ contains
       end do
       if (size(numbers) > 0) return
       message = "'"//word//"' is not a number of a run"
-      if (dot > 0) known = [known, named_channel(word(:dot - 1), word(dot + 1:))]
+      named = [text_t ::]
+      if (dot > 0) named = named_channel(word(:dot - 1), word(dot + 1:))
+      known = [known, named]
       if (len(nearest_word(word, known)) > 0) hint = "did you mean '"//nearest_word(word, known)//"'? "//forms
    end subroutine find_run_numbers
 

@@ -13,6 +13,7 @@ module fit_report
    use output_plan, only: output_plan_t
    use recorder, only: status_complete
    use study_summary, only: add_output, show_summaries, start_summary
+   use table_list, only: list_of
    use text, only: append_text, counted, real_text, text_t, to_text
    use text_buffer, only: buffer_t
    use text_of_table, only: add_table
@@ -114,7 +115,7 @@ contains
 
       call start_summary(json, loaded%path, plan, status_complete, "")
       call put_fit(json, fit)
-      call put_tables(json, [table_of_search(fit), table_of_correlations(fit), table_of_sensors(fit)])
+      call put_tables(json, list_of(table_of_search(fit), table_of_correlations(fit), table_of_sensors(fit)))
       call json%put_list("figures", pictures)
       call json%put_list("warnings", warnings)
       object = json%get()

@@ -11,6 +11,7 @@ module orbit_report
    use output_plan, only: output_plan_t
    use recorder, only: status_complete
    use study_summary, only: add_output, show_summaries, start_summary
+   use table_list, only: list_of
    use text, only: counted, real_text, text_t, to_text
    use text_buffer, only: buffer_t
    use text_of_table, only: add_table
@@ -35,7 +36,7 @@ contains
 
       call start_summary(json, loaded%path, plan, status_complete, "")
       call put_orbit(json, study, names)
-      if (study%plan%parameter /= "") call put_tables(json, [table_of_branch(study)])
+      if (study%plan%parameter /= "") call put_tables(json, list_of(table_of_branch(study)))
       call json%put_list("warnings", warnings)
       call show_summaries(options, plan%directory, text_of(plan, study, names, pictures, warnings), json%get(), error)
    end subroutine report_orbit

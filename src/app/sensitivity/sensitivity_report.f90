@@ -13,6 +13,7 @@ module sensitivity_report
    use sensitivity_results, only: sensitivity_t
    use sensitivity_tables, only: table_of_derivatives, table_of_motion, table_of_parameters, table_of_results
    use study_summary, only: add_output, show_summaries, start_summary
+   use table_list, only: list_of
    use text, only: counted, real_text, text_t, to_text
    use text_buffer, only: buffer_t
    use text_of_table, only: add_table
@@ -95,7 +96,7 @@ contains
 
       call start_summary(json, loaded%path, plan, status_complete, "")
       call put_sensitivity(json, study)
-      call put_tables(json, [table_of_motion(study), table_of_parameters(study), table_of_results(study)])
+      call put_tables(json, list_of(table_of_motion(study), table_of_parameters(study), table_of_results(study)))
       call json%put_list("warnings", warnings)
       object = json%get()
    end function object_of

@@ -30,6 +30,7 @@ module verb_fit
    use scene_echo, only: echo_scene
    use study_request, only: check_derivable, echo_of_rows, echo_of_section, open_study
    use table_file, only: write_table_file
+   use table_list, only: list_of
    use text, only: text_t
    use text_file, only: replace_file
    use text_table, only: file_heading
@@ -153,8 +154,8 @@ contains
       call replace_file(plan%directory//"/deck.echo", echo_scene(loaded%deck, loaded%scene)//echo_of_tables(loaded), error)
       if (.not. allocated(error)) then
          call write_table_file("fit.h5", "gudgeon fit", plan, status_complete, &
-                               [table_of_unknowns(fit), table_of_correlations(fit), table_of_sensors(fit), table_of_data(fit)], &
-                               error)
+                               list_of(table_of_unknowns(fit), table_of_correlations(fit), table_of_sensors(fit), &
+                                       table_of_data(fit)), error)
       end if
       if (.not. allocated(error)) call replace_file(plan%directory//"/fit.csv", csv_text(table_of_data(fit)), error)
       if (allocated(error) .or. write /= "all") return

@@ -22,6 +22,7 @@ module verb_modes
    use scene_echo, only: echo_scene
    use study_request, only: echo_of_section, open_study
    use table_file, only: write_table_file
+   use table_list, only: append_tables, list_of
    use text, only: text_t
    use text_file, only: replace_file
    use text_table, only: file_heading
@@ -82,8 +83,9 @@ contains
       allocate (pictures(0))
       call replace_file(plan%directory//"/deck.echo", echo_scene(loaded%deck, loaded%scene)// &
                         echo_of_section(loaded, modes_section()), error)
-      tables = [table_of_modes(study), tables_of_matrices(study)]
-      if (study%plan%parameter /= "") tables = [tables, table_of_campbell(study), table_of_stability(study)]
+      tables = list_of(table_of_modes(study))
+      call append_tables(tables, tables_of_matrices(study))
+      if (study%plan%parameter /= "") call append_tables(tables, list_of(table_of_campbell(study), table_of_stability(study)))
       if (.not. allocated(error)) call write_table_file("modes.h5", "gudgeon modes", plan, status_complete, tables, error)
       if (.not. allocated(error)) call replace_file(plan%directory//"/modes.csv", csv_text(table_of_modes(study)), error)
       if (allocated(error) .or. study%plan%parameter == "") return

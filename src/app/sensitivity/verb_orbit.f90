@@ -23,6 +23,7 @@ module verb_orbit
    use scene_echo, only: echo_scene
    use study_request, only: check_derivable, open_study
    use table_file, only: write_table_file
+   use table_list, only: list_of
    use text, only: text_t
    use text_file, only: replace_file
    use text_table, only: file_heading
@@ -103,8 +104,8 @@ contains
                         echo_settings(orbit_section(), loaded%orbit%keys), error)
       if (.not. allocated(error)) then
          call write_table_file("orbit.h5", "gudgeon orbit", plan, status_complete, &
-                               [table_of_multipliers(study), table_of_onsets(study, names), table_of_branch(study), &
-                                table_of_bifurcations(study)], error)
+                               list_of(table_of_multipliers(study), table_of_onsets(study, names), table_of_branch(study), &
+                                       table_of_bifurcations(study)), error)
       end if
       if (allocated(error) .or. study%plan%parameter == "") return
       call replace_file(plan%directory//"/branch.csv", csv_text(table_of_branch(study)), error)

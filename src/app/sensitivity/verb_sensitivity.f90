@@ -21,6 +21,7 @@ module verb_sensitivity
    use sensitivity_tables, only: table_of_derivatives, table_of_parameters, table_of_results
    use study_request, only: check_derivable, open_study
    use table_file, only: write_table_file
+   use table_list, only: list_of
    use text, only: text_t
    use text_file, only: replace_file
    implicit none (type, external)
@@ -73,7 +74,7 @@ contains
                         echo_settings(sensitivity_section(), loaded%sensitivity%keys), error)
       if (.not. allocated(error)) then
          call write_table_file("sensitivity.h5", "gudgeon sensitivity", plan, status_complete, &
-                               [table_of_derivatives(study), table_of_results(study), table_of_parameters(study)], error)
+                               list_of(table_of_derivatives(study), table_of_results(study), table_of_parameters(study)), error)
       end if
       table = table_of_derivatives(study)
       if (.not. allocated(error)) call replace_file(plan%directory//"/sensitivity.csv", csv_text(table), error)

@@ -10,6 +10,7 @@ module tolerance_files
    use scene_echo, only: echo_scene
    use study_request, only: echo_of_rows, echo_of_section
    use table_file, only: write_table_file
+   use table_list, only: append_tables, list_of
    use text, only: text_t
    use text_file, only: replace_file
    use text_table, only: file_heading
@@ -41,10 +42,10 @@ contains
       allocate (pictures(0))
       call replace_file(plan%directory//"/deck.echo", echo_scene(loaded%deck, loaded%scene)//echo_of_tables(loaded), error)
       if (.not. allocated(error)) then
-         tables = [table_of_requests(study), table_of_contributors(study), table_of_times(study), &
-                   table_of_derivatives(study), table_of_histograms(study)]
-         if (allocated(study%allocations)) tables = [tables, table_of_widths(study)]
-         if (allocated(study%splits)) tables = [tables, table_of_splits(study)]
+         tables = list_of(table_of_requests(study), table_of_contributors(study), table_of_times(study), &
+                          table_of_derivatives(study), table_of_histograms(study))
+         if (allocated(study%allocations)) call append_tables(tables, list_of(table_of_widths(study)))
+         if (allocated(study%splits)) call append_tables(tables, list_of(table_of_splits(study)))
          call write_table_file("tolerance.h5", "gudgeon tolerance", plan, status_complete, tables, error)
       end if
       if (.not. allocated(error)) then

@@ -14,6 +14,7 @@ module tolerance_report
    use study_page, only: study_page_text
    use study_summary, only: add_output, show_summaries, start_summary
    use sweep_results, only: sweep_results_t
+   use table_list, only: append_tables, list_of
    use text, only: append_text, counted, real_text, text_t, to_text
    use text_buffer, only: buffer_t
    use text_file, only: replace_file
@@ -130,10 +131,10 @@ contains
       type(tolerance_study_t), intent(in) :: study           !! the study
       type(result_table_t), allocatable :: tables(:)         !! (2 or more) in their order
 
-      tables = [table_of_requests(study)]
-      if (allocated(study%splits)) tables = [tables, table_of_splits(study)]
-      tables = [tables, table_of_contributors(study)]
-      if (allocated(study%allocations)) tables = [tables, table_of_widths(study)]
+      tables = list_of(table_of_requests(study))
+      if (allocated(study%splits)) call append_tables(tables, list_of(table_of_splits(study)))
+      call append_tables(tables, list_of(table_of_contributors(study)))
+      if (allocated(study%allocations)) call append_tables(tables, list_of(table_of_widths(study)))
    end function tables_of
 
    !> What was studied.

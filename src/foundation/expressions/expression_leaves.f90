@@ -8,7 +8,7 @@ module expression_leaves
    use expression_symbols, only: symbol_function, symbol_number, symbol_word
    use kinds, only: pi, wp
    use numbers, only: number_length
-   use text, only: join, to_text
+   use text, only: join, text_t, to_text
    use units, only: exponent_length, largest_quantity, parse_unit, read_quantity, unit_t
    implicit none (type, external)
    private
@@ -56,6 +56,7 @@ contains
       integer, intent(in) :: first             !! its first character
       integer, intent(in) :: last              !! its last character
 
+      type(text_t), allocatable :: known(:)
       character(:), allocatable :: message, otherwise, variables
 
       message = "unknown parameter '"//name//"'"
@@ -65,8 +66,9 @@ contains
          message = "unknown variable or parameter '"//name//"'"
          otherwise = "variables here: "//variables//"; or "//otherwise
       end if
-      call fail(parser, first, last, message, suggestion(name, [parser%symbols%names_of(functions=.false.), parser%variables], &
-                                                         otherwise))
+      known = parser%symbols%names_of(functions=.false.)
+      known = [known, parser%variables]
+      call fail(parser, first, last, message, suggestion(name, known, otherwise))
    end subroutine refuse_name
 
    !> The value of a parameter.

@@ -157,7 +157,7 @@ contains
       class(integration_t), intent(in) :: self    !! the settings
       type(item_t), intent(inout) :: item         !! [analysis.dynamic] as the deck has it
 
-      type(option_t) :: none(0)
+      type(option_t) :: limit(1), none(0)
       character(:), allocatable :: onset
 
       call put_word("method", self%method, none)
@@ -167,7 +167,8 @@ contains
       call put_word("groups", trim(merge("apart   ", "together", self%is_apart)), none)
       onset = trim(onset_words(self%controls%onset))
       if (onset == "reject") then
-         call put_word("contact_onset", onset, [new_option("limit", self%controls%onset_limit, dim_length)])
+         limit(1) = new_option("limit", self%controls%onset_limit, dim_length)
+         call put_word("contact_onset", onset, limit)
       else
          call put_word("contact_onset", onset, none)
       end if

@@ -18,7 +18,7 @@ module worn_by_arc
    use kind_info, only: add_number, dim_angle, dim_length, kind_info_t
    use kinds, only: pi, wp
    use text, only: real_text
-   use worn_kind, only: add_surface_columns, cell_edge, worn_kind_t, worn_mistake_t
+   use worn_kind, only: add_surface_columns, cell_edge, set_mistake, worn_kind_t, worn_mistake_t
    use worn_surface, only: worn_surface_t
    implicit none (type, external)
    private
@@ -105,16 +105,16 @@ contains
       type(worn_mistake_t), allocatable, intent(out) :: mistake    !! what is wrong
 
       if (surface%is_hole .and. radius > surface%radius*(1.0_wp + same)) then
-         mistake = worn_mistake_t("radius", 0, "the radius of the arc exceeds that of the bearing, "//in_mm(surface%radius), &
+         call set_mistake(mistake, "radius", 0, "the radius of the arc exceeds that of the bearing, "//in_mm(surface%radius), &
                                   "a circle that is worn into a hole is not larger than the hole")
       else if (surface%is_hole .and. depth > radius) then
-         mistake = worn_mistake_t("depth", 0, "the arc is deeper than its radius, "//in_mm(radius), &
+         call set_mistake(mistake, "depth", 0, "the arc is deeper than its radius, "//in_mm(radius), &
                                   "give a depth of at most the radius")
       else if (.not. surface%is_hole .and. radius < surface%radius*(1.0_wp - same)) then
-         mistake = worn_mistake_t("radius", 0, "the radius of the arc is smaller than that of the journal, "// &
+         call set_mistake(mistake, "radius", 0, "the radius of the arc is smaller than that of the journal, "// &
                                   in_mm(surface%radius), "a circle that is worn into a pin is not smaller than the pin")
       else if (.not. (surface%is_hole .or. depth < surface%radius)) then
-         mistake = worn_mistake_t("depth", 0, "the journal is worn through", "the depth of a journal is smaller than its radius")
+         call set_mistake(mistake, "depth", 0, "the journal is worn through", "the depth of a journal is smaller than its radius")
       end if
    end subroutine check_circle
 

@@ -12,7 +12,7 @@ module worn_by_profile
    use kinds, only: pi, wp
    use number_lists, only: file_to_lists
    use text, only: to_text
-   use worn_kind, only: add_surface_columns, cell_edge, round_area, worn_kind_t, worn_mistake_t
+   use worn_kind, only: add_surface_columns, cell_edge, round_area, set_mistake, worn_kind_t, worn_mistake_t
    use worn_surface, only: worn_surface_t
    implicit none (type, external)
    private
@@ -58,7 +58,7 @@ contains
 
       call file_to_lists(item, lists, twice)
       if (twice > 0) then
-         mistake = worn_mistake_t(trim(item%values(twice)%column), 0, "the profile is already given by a file", &
+         call set_mistake(mistake, trim(item%values(twice)%column), 0, "the profile is already given by a file", &
                                   "give columns angle and depth, or column file")
          return
       end if
@@ -161,7 +161,7 @@ contains
          character(*), intent(in) :: message   !! what is wrong
          character(*), intent(in) :: help      !! what to do
 
-         mistake = worn_mistake_t(column, place, message, help)
+         call set_mistake(mistake, column, place, message, help)
       end subroutine complain
 
    end subroutine check_samples

@@ -8,7 +8,7 @@ module worn_by_run
    use kinds, only: wp
    use run_profiles, only: columns_of_profiles
    use text, only: split_blank, text_t
-   use worn_kind, only: worn_kind_t, worn_mistake_t
+   use worn_kind, only: set_mistake, worn_kind_t, worn_mistake_t
    use worn_surface, only: worn_surface_t
    implicit none (type, external)
    private
@@ -73,7 +73,7 @@ contains
       type(worn_mistake_t), allocatable, intent(out) :: mistake    !! a pin without a radius
 
       surface%volume = resampled(surface%volume, cells)
-      if (surface%is_through()) mistake = worn_mistake_t("run", 0, "the journal of '"//surface%joint//"' is worn through", &
+      if (surface%is_through()) call set_mistake(mistake, "run", 0, "the journal of '"//surface%joint//"' is worn through", &
                                                          "take an earlier state of it")
    end subroutine run_fill
 

@@ -9,7 +9,7 @@ module worn_kind
    use worn_surface, only: worn_surface_t
    implicit none (type, external)
    private
-   public :: add_surface_columns, cell_edge, round_area, worn_kind_t, worn_mistake_t
+   public :: add_surface_columns, cell_edge, round_area, set_mistake, worn_kind_t, worn_mistake_t
 
    !> What is wrong with a row.
    type :: worn_mistake_t
@@ -48,6 +48,21 @@ module worn_kind
    end interface
 
 contains
+
+   !> Say what is wrong.
+   pure subroutine set_mistake(mistake, column, place, message, help)
+      type(worn_mistake_t), allocatable, intent(inout) :: mistake   !! made
+      character(*), intent(in) :: column                            !! where; blank: the whole row
+      integer, intent(in) :: place                                  !! number of the list's entry, 0: all of the cell
+      character(*), intent(in) :: message                           !! one line
+      character(*), intent(in) :: help                              !! what to do, may be blank
+
+      if (.not. allocated(mistake)) allocate (mistake)
+      mistake%column = column
+      mistake%place = place
+      mistake%message = message
+      mistake%help = help
+   end subroutine set_mistake
 
    !> Columns of a row that is one surface.
    subroutine add_surface_columns(info)

@@ -6,7 +6,7 @@ module worn_uniform
    use item, only: item_t
    use kind_info, only: add_number, dim_length, kind_info_t
    use kinds, only: pi, wp
-   use worn_kind, only: add_surface_columns, round_area, worn_kind_t, worn_mistake_t
+   use worn_kind, only: add_surface_columns, round_area, set_mistake, worn_kind_t, worn_mistake_t
    use worn_surface, only: worn_surface_t
    implicit none (type, external)
    private
@@ -44,7 +44,7 @@ contains
 
       depth = item%number("depth")
       if (.not. (surface%is_hole .or. depth < surface%radius)) then
-         mistake = worn_mistake_t("depth", 0, "the journal is worn through", "the depth of a journal is smaller than its radius")
+         call set_mistake(mistake, "depth", 0, "the journal is worn through", "the depth of a journal is smaller than its radius")
          return
       end if
       allocate (surface%volume(cells))

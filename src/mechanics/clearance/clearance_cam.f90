@@ -155,20 +155,20 @@ contains
       type(fault_t) :: fault
       type(profile_t) :: profile
 
-      fault = fault_t("", "", "")
+      call fault%set("", "", "")
       if (has_points(item) .and. has_radius(item)) then
-         fault = fault_t("profile", "the profile is given twice", "give profile, or points")
+         call fault%set("profile", "the profile is given twice", "give profile, or points")
       else if (.not. (has_points(item) .or. has_radius(item))) then
-         fault = fault_t("cam", "cam '"//item%name//"' has no profile", "give column profile, or points: x and y, or a file")
+         call fault%set("cam", "cam '"//item%name//"' has no profile", "give column profile, or points: x and y, or a file")
       else if (has_points(item)) then
          call check_points(item, .true., fault)
       end if
       if (is_flat(item) .and. item%number("radius") > 0.0_wp) then
-         fault = fault_t("radius", "a flat face has no radius", "omit column radius, or use contact = roller")
+         call fault%set("radius", "a flat face has no radius", "omit column radius, or use contact = roller")
       else if (is_flat(item) .and. max(item%reference("material"), item%reference("follower_material")) == 0) then
-         fault = fault_t("cam", "cam '"//item%name//"' has no material", "give column material")
+         call fault%set("cam", "cam '"//item%name//"' has no material", "give column material")
       else if (item%number("radius") > 0.0_wp .and. max(item%reference("material"), item%reference("follower_material")) == 0) then
-         fault = fault_t("cam", "cam '"//item%name//"' has no material", "give column material")
+         call fault%set("cam", "cam '"//item%name//"' has no material", "give column material")
       end if
       if (fault%column == "" .and. has_radius(item)) call check_radius(item, fault)
       if (fault%column == "") then
@@ -202,8 +202,8 @@ contains
          if (is_number) cycle
          radius = "not finite"
          if (ieee_is_finite(r(1))) radius = real_text(1.0e3_wp*r(1), 4)//" mm"
-         fault = fault_t("profile", "the radius of the profile is "//radius//" at "//real_text(360.0_wp*k/n_angle, 4)//" deg", &
-                         "it must be positive, with two derivatives, all around")
+         call fault%set("profile", "the radius of the profile is "//radius//" at "//real_text(360.0_wp*k/n_angle, 4)//" deg", &
+                        "it must be positive, with two derivatives, all around")
          return
       end do
    end subroutine check_radius
@@ -221,15 +221,15 @@ contains
       radius = item%number("radius")
       call find_hollow(profile, u, curvature)
       if (is_flat(item)) then
-         if (.not. curvature > 0.0_wp) fault = fault_t("profile", "the profile is not convex at "//angle_text(profile, u)// &
-                                                       ", where a flat face would touch at two places", &
-                                                       "use contact = roller, or a convex profile")
+         if (.not. curvature > 0.0_wp) call fault%set("profile", "the profile is not convex at "//angle_text(profile, u)// &
+                                                      ", where a flat face would touch at two places", &
+                                                      "use contact = roller, or a convex profile")
          return
       end if
       if (.not. curvature*radius > -1.0_wp) then
-         fault = fault_t("profile", "a roller of radius "//real_text(1.0e3_wp*radius, 4)//" mm is too large for the hollow of " &
-                         //"the profile at "//angle_text(profile, u)//", whose radius of curvature is " &
-                         //real_text(-1.0e3_wp/curvature, 4)//" mm", "use a smaller roller, or a wider hollow")
+         call fault%set("profile", "a roller of radius "//real_text(1.0e3_wp*radius, 4)//" mm is too large for the hollow of " &
+                        //"the profile at "//angle_text(profile, u)//", whose radius of curvature is " &
+                        //real_text(-1.0e3_wp/curvature, 4)//" mm", "use a smaller roller, or a wider hollow")
          return
       end if
       if (.not. radius > 0.0_wp) return
@@ -238,9 +238,9 @@ contains
          p = profile%q(k, :) + radius*[foot%tangent(2), -foot%tangent(1)]
          call find_nearest(profile, p, elsewhere)
          if (norm2(p - elsewhere%q) >= radius*(1.0_wp - same)) cycle
-         fault = fault_t("profile", "a roller of radius "//real_text(1.0e3_wp*radius, 4)//" mm on the profile at " &
-                         //angle_text(profile, profile%u(k))//" touches at "//angle_text(profile, elsewhere%u)//" too", &
-                         "use a smaller roller, or a wider hollow")
+         call fault%set("profile", "a roller of radius "//real_text(1.0e3_wp*radius, 4)//" mm on the profile at " &
+                        //angle_text(profile, profile%u(k))//" touches at "//angle_text(profile, elsewhere%u)//" too", &
+                        "use a smaller roller, or a wider hollow")
          return
       end do
    end subroutine check_follower

@@ -109,19 +109,19 @@ contains
       type(fault_t) :: fault
       logical :: is_given(3)
 
-      fault = fault_t("", "", "")
+      call fault%set("", "", "")
       is_given = [item%is_given("length"), item%is_given("arc_radius"), has_points(item)]
       if (count(is_given) == 0) then
-         fault = fault_t("slot", "slot '"//item%name//"' has no centreline", one)
+         call fault%set("slot", "slot '"//item%name//"' has no centreline", one)
       else if (count(is_given) > 1) then
-         fault = fault_t("slot", "the centreline of slot '"//item%name//"' is given twice", one)
+         call fault%set("slot", "the centreline of slot '"//item%name//"' is given twice", one)
       else if (item%is_given("arc_radius") .neqv. item%number("arc") > 0.0_wp) then
-         fault = fault_t(merge("arc_radius", "arc       ", item%is_given("arc_radius")), "an arc has a radius and an angle", one)
+         call fault%set(merge("arc_radius", "arc       ", item%is_given("arc_radius")), "an arc has a radius and an angle", one)
       else if (item%flag("closed") .and. .not. is_given(3)) then
-         fault = fault_t("closed", "only a groove through points is closed by this column", "an arc of 360 deg is closed")
+         call fault%set("closed", "only a groove through points is closed by this column", "an arc of 360 deg is closed")
       else if (.not. 2.0_wp*item%number("radius") < item%number("width")) then
-         fault = fault_t("radius", "the pin has a diameter of "//real_text(2.0e3_wp*item%number("radius"), 6)//" mm, the slot is " &
-                         //real_text(1.0e3_wp*item%number("width"), 6)//" mm wide", "a pin is thinner than its slot")
+         call fault%set("radius", "the pin has a diameter of "//real_text(2.0e3_wp*item%number("radius"), 6)//" mm, the slot is " &
+                        //real_text(1.0e3_wp*item%number("width"), 6)//" mm wide", "a pin is thinner than its slot")
       else if (is_given(3)) then
          call check_points(item, item%flag("closed"), fault)
       end if
@@ -147,9 +147,9 @@ contains
          bend = max(bend, abs(curvature_at(profile, profile%u(k))))
       end do
       if (0.5_wp*bend*item%number("width") < 1.0_wp) return
-      fault = fault_t("width", "the slot is "//real_text(1.0e3_wp*item%number("width"), 4)//" mm wide, and the radius of " &
-                      //"curvature of its centreline goes down to "//real_text(1.0e3_wp/bend, 4)//" mm", &
-                      "half the width must be less than that")
+      call fault%set("width", "the slot is "//real_text(1.0e3_wp*item%number("width"), 4)//" mm wide, and the radius of " &
+                     //"curvature of its centreline goes down to "//real_text(1.0e3_wp/bend, 4)//" mm", &
+                     "half the width must be less than that")
    end subroutine check_bend
 
 end module clearance_slot

@@ -24,9 +24,23 @@ module profile_columns
       character(:), allocatable :: column   !! where; blank: nothing is wrong
       character(:), allocatable :: message  !! what is wrong
       character(:), allocatable :: help     !! what to do
+   contains
+      procedure :: set => fault_set
    end type fault_t
 
 contains
+
+   !> Say what is wrong.
+   pure subroutine fault_set(self, column, message, help)
+      class(fault_t), intent(inout) :: self   !! the fault
+      character(*), intent(in) :: column      !! where; blank: nothing is wrong
+      character(*), intent(in) :: message     !! what is wrong
+      character(*), intent(in) :: help        !! what to do
+
+      self%column = column
+      self%message = message
+      self%help = help
+   end subroutine fault_set
 
    !> Columns of points.
    subroutine add_point_columns(info, what)
@@ -149,29 +163,29 @@ contains
       integer :: k
 
       if (.not. (item%is_given("x") .and. item%is_given("y"))) then
-         fault = fault_t(merge("x", "y", item%is_given("x")), "the points have one coordinate", "give both x and y, or a file")
+         call fault%set(merge("x", "y", item%is_given("x")), "the points have one coordinate", "give both x and y, or a file")
          return
       end if
       associate (x => item%values(place_of(item, "x")), y => item%values(place_of(item, "y")))
          if (.not. (same_dimension(x%dimensions(1), dim_length) .and. same_dimension(y%dimensions(1), dim_length))) then
-            fault = fault_t(merge("y", "x", same_dimension(x%dimensions(1), dim_length)), "a coordinate is not a length", &
-                            "give a unit of lengths, as mm")
+            call fault%set(merge("y", "x", same_dimension(x%dimensions(1), dim_length)), "a coordinate is not a length", &
+                           "give a unit of lengths, as mm")
          else if (size(x%table) /= size(y%table)) then
-            fault = fault_t("y", to_text(size(y%table))//" ordinates of "//to_text(size(x%table))//" points", "")
+            call fault%set("y", to_text(size(y%table))//" ordinates of "//to_text(size(x%table))//" points", "")
          else if (size(x%table) < min_samples) then
-            fault = fault_t("x", "there are "//to_text(size(x%table))//" points, a smooth curve needs at least " &
-                            //to_text(min_samples), "")
+            call fault%set("x", "there are "//to_text(size(x%table))//" points, a smooth curve needs at least " &
+                           //to_text(min_samples), "")
          end if
       end associate
       if (fault%column /= "") return
       call take_points(item, is_closed, s)
       do k = 2, size(s, 1)
          if (norm2(s(k, :) - s(k - 1, :)) > same*maxval(abs(s))) cycle
-         fault = fault_t("x", "points "//to_text(k - 1)//" and "//to_text(k)//" coincide", "leave one of them out")
+         call fault%set("x", "points "//to_text(k - 1)//" and "//to_text(k)//" coincide", "leave one of them out")
          return
       end do
-      if (size(s, 1) <= min_samples .and. is_closed) fault = fault_t("x", "there are "//to_text(size(s, 1) - 1)// &
-                                                             " different points, a closed curve needs at least 4", "")
+      if (size(s, 1) <= min_samples .and. is_closed) call fault%set("x", "there are "//to_text(size(s, 1) - 1)// &
+                                                            " different points, a closed curve needs at least 4", "")
    end subroutine check_points
 
    !> Whether a profile is a closed curve that winds once, and a polar one smooth where it closes.
@@ -186,16 +200,16 @@ contains
          call profile%polar%evaluate(profile%range(1), start(1), start(2), start(3))
          call profile%polar%evaluate(profile%range(2), end(1), end(2), end(3))
          if (.not. abs(end(1) - start(1)) <= same*start(1)) then
-            fault = fault_t("profile", "the profile does not close: its radius is "//real_text(1.0e3_wp*start(1), 6) &
-                            //" mm at 0 and "//real_text(1.0e3_wp*end(1), 6)//" mm at 360 deg", &
-                            "the radius repeats after a turn; give a function a period")
+            call fault%set("profile", "the profile does not close: its radius is "//real_text(1.0e3_wp*start(1), 6) &
+                           //" mm at 0 and "//real_text(1.0e3_wp*end(1), 6)//" mm at 360 deg", &
+                           "the radius repeats after a turn; give a function a period")
          else if (.not. abs(end(2) - start(2)) <= smooth*start(1)) then
-            fault = fault_t("profile", "the profile has a corner where it closes, at 0", &
-                            "the slope of the radius repeats after a turn")
+            call fault%set("profile", "the profile has a corner where it closes, at 0", &
+                           "the slope of the radius repeats after a turn")
          end if
          return
       else if (profile%form == profile_arc) then
-         if (.not. profile%radius > 0.0_wp) fault = fault_t("profile", "the radius of the profile is not positive", "")
+         if (.not. profile%radius > 0.0_wp) call fault%set("profile", "the radius of the profile is not positive", "")
          return
       end if
       turned = 0.0_wp
@@ -203,8 +217,8 @@ contains
       do k = 1, size(profile%u)
          turned = turned + h*curvature_at(profile, profile%u(k))*pace_at(k)
       end do
-      if (abs(turned - 2.0_wp*pi) > 0.5_wp*pi) fault = fault_t("x", "the profile through the points crosses itself", &
-                                                               "give the points in the order of the profile")
+      if (abs(turned - 2.0_wp*pi) > 0.5_wp*pi) call fault%set("x", "the profile through the points crosses itself", &
+                                                              "give the points in the order of the profile")
 
    contains
 

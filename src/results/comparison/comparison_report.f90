@@ -5,6 +5,7 @@ module comparison_report
    use json_table, only: put_tables
    use json_text, only: json_object_t
    use kinds, only: i8
+   use table_list, only: list_of
    use text, only: counted, real_text, text_t, to_text
    use text_buffer, only: buffer_t
    use text_of_table, only: add_table
@@ -79,7 +80,7 @@ contains
       call json%put_logical("by_statistics", found%by_statistics)
       call json%put_integer("instants", int(size(found%t), i8))
       call json%put_integer("different", int(found%n_different, i8))
-      call put_tables(json, [table_of_channels(found), table_of_pairs(found)])
+      call put_tables(json, list_of(table_of_channels(found), table_of_pairs(found)))
       call json%put_list("not_compared", found%missing)
       call json%put_list("figures", figures)
       call json%put_list("warnings", warnings)

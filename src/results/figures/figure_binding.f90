@@ -74,13 +74,14 @@ contains
       character(:), allocatable, intent(inout) :: hint       !! what may have been meant
 
       character(:), allocatable :: meant, nearest
-      type(text_t) :: calls(figure_portrait:figure_animation)
+      type(text_t) :: calls(figure_portrait:figure_animation), endings(1)
       integer :: k
 
       if (starts_with(hint, question)) return
       meant = word
+      endings(1)%s = orbit_ending(2:)
       k = index(word, ".", back=.true.)
-      if (k > 1 .and. nearest_word(word(k + 1:), [text_t(orbit_ending(2:))]) == orbit_ending(2:)) then
+      if (k > 1 .and. nearest_word(word(k + 1:), endings) == orbit_ending(2:)) then
          meant = word(:k - 1)//orbit_ending
       else
          do k = figure_portrait, figure_animation

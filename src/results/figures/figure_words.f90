@@ -16,7 +16,7 @@ module figure_words
    use film_fields, only: field_request_t
    use kinds, only: i8
    use motion_words, only: film_hint, motion_hint, motion_request_t, read_moment, read_motion
-   use text, only: segment, starts_with, text_t, to_text
+   use text, only: append_text, segment, starts_with, text_t, to_text
    use text_buffer, only: buffer_t
    use text_list, only: text_list_t
    implicit none (type, external)
@@ -111,7 +111,7 @@ contains
       else if (figure%kind == figure_history) then
          call read_phrase(word, figure%phrase, mistake)
       else if (figure%kind == figure_orbit) then
-         figure%arguments = [text_t(word(:len(word) - len(orbit_ending)))]
+         call append_text(figure%arguments, word(:len(word) - len(orbit_ending)))
       else
          call read_call(called(word), figure, mistake)
       end if
@@ -171,7 +171,8 @@ contains
       else if (figure%kind == figure_histogram) then
          hint = figure%arguments(1)%s
          dot = index(hint, ".")
-         figure%arguments = [text_t(hint(:dot - 1)), text_t(segment(hint, dot + 1))]
+         figure%arguments(1)%s = hint(:dot - 1)
+         call append_text(figure%arguments, segment(hint, dot + 1))
       end if
    end subroutine read_call
 

@@ -181,11 +181,24 @@ contains
       do while (len(rest) > note_letters)
          cut = index(rest(:note_letters), " ", back=.true.)
          if (cut == 0) cut = note_letters
-         notes = [notes, note_t(tol_sweep, now, rest(:cut))]
+         call append_row(rest(:cut))
          rest = segment(rest, cut + 1)
          now = 0
       end do
-      notes = [notes, note_t(tol_sweep, now, rest)]
+      call append_row(rest)
+
+   contains
+
+      !> Append a row.
+      subroutine append_row(words_of_row)
+         character(*), intent(in) :: words_of_row   !! what it says
+
+         type(note_t) :: row
+
+         row = note_t(tol_sweep, now, words_of_row)
+         notes = [notes, row]
+      end subroutine append_row
+
    end subroutine append_rows
 
 end module precision_legend

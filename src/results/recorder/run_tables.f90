@@ -19,6 +19,7 @@ module run_tables
    use statistics, only: number_t, statistics_t
    use statistics_tables, only: tables_of_statistics
    use summary_table, only: table_of_cost, table_of_summary
+   use table_list, only: append_tables, list_of
    use wear_tables, only: tables_of_wear
    implicit none (type, external)
    private
@@ -38,16 +39,19 @@ contains
       type(event_list_t), intent(in) :: events           !! all events
       type(result_table_t), allocatable :: tables(:)     !! (any) the results
 
-      tables = [table_of_summary(summary), table_of_cost(summary)]
-      tables = [tables, tables_of_films(summary%linear), tables_of_wear(summary%worn)]
-      if (plan%accuracy%asked > 0.0_wp) tables = [tables, table_of_accuracy(plan%accuracy, growth_words(plan%accuracy%growth))]
+      tables = list_of(table_of_summary(summary), table_of_cost(summary))
+      call append_tables(tables, tables_of_films(summary%linear))
+      call append_tables(tables, tables_of_wear(summary%worn))
+      if (plan%accuracy%asked > 0.0_wp) then
+         call append_tables(tables, list_of(table_of_accuracy(plan%accuracy, growth_words(plan%accuracy%growth))))
+      end if
       if (allocated(plan%horizon%t)) then
-         tables = [tables, table_of_horizon(plan%horizon)]
+         call append_tables(tables, list_of(table_of_horizon(plan%horizon)))
          tables(size(tables))%group = ""  ! in run.h5 since the start
       end if
-      tables = [tables, tables_of_statistics(statistics, numbers, catalogue, events, summary%time_end)]
-      tables = [tables, largest_forces(extremes, catalogue), joint_extremes(joints, extremes%has_course()), &
-                channel_extremes(extremes, catalogue), first_impacts(events)]
+      call append_tables(tables, tables_of_statistics(statistics, numbers, catalogue, events, summary%time_end))
+      call append_tables(tables, list_of(largest_forces(extremes, catalogue), joint_extremes(joints, extremes%has_course()), &
+                                         channel_extremes(extremes, catalogue), first_impacts(events)))
    end function tables_of_run
 
 end module run_tables

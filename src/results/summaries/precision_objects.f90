@@ -8,6 +8,7 @@ module precision_objects
    use precision_results, only: error_names, n_statistic, precision_t, tol_run_done, tol_run_failed, tol_run_other, tol_run_unrun, &
       statistic_names
    use precision_text, only: settings_text
+   use table_list, only: list_of
    implicit none (type, external)
    private
    public :: precision_json
@@ -41,7 +42,7 @@ contains
          call json%put_real("growth_rate_interval", study%growth%rate_interval)
          call json%put_real("growth_power", study%growth%power)
       end if
-      if (allocated(study%horizon%t)) call put_tables(json, [table_of_horizon(study%horizon)])
+      if (allocated(study%horizon%t)) call put_tables(json, list_of(table_of_horizon(study%horizon)))
       call json%put_list("bends", bends_of(study))
       if (study%choice%tol_sweep == 0) return
       associate (tol_sweep => study%tol_sweeps(study%choice%tol_sweep), &

@@ -2,6 +2,7 @@
 module films_table
    use linearised, only: linearised_t
    use result_table, only: in_text_files, result_table_t
+   use table_list, only: list_of
    use text, only: text_t
    implicit none (type, external)
    private
@@ -18,7 +19,7 @@ contains
 
       allocate (tables(0))
       if (.not. allocated(linear%films)) return
-      tables = [table_of_films(linear), table_of_eigenvalues(linear), table_of_onset(linear)]
+      tables = list_of(table_of_films(linear), table_of_eigenvalues(linear), table_of_onset(linear))
    end function tables_of_films
 
    !> The films.

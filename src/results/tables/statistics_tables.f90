@@ -7,6 +7,7 @@ module statistics_tables
    use kinds, only: wp
    use result_table, only: as_members, in_hdf5, result_table_t
    use statistics, only: number_t, statistics_t
+   use table_list, only: append_tables, list_of
    use text, only: join, real_text, text_t
    implicit none (type, external)
    private
@@ -23,16 +24,21 @@ contains
       real(wp), intent(in) :: t_end                      !! last instant reached [s]
       type(result_table_t), allocatable :: tables(:)     !! (any) they
 
+      type(text_t), allocatable :: joints(:)
+
       allocate (tables(0))
       if (.not. statistics%plan%is_wanted) return
-      tables = [table_of_numbers(statistics%plan%after, numbers)]
-      if (statistics%n_poincare > 0) tables = [tables, table_of_names("strobe_names", "channels sampled once per period", &
-                                                                      names_of(statistics%channels, catalogue)), &
-                                               table_of_sections(statistics, catalogue)]
-      if (size(statistics%spectra) > 0) tables = [tables, table_of_names("spectrum_names", "channels of the spectra", &
-                                                                         names_of(statistics%spectra, catalogue)), &
-                                                  table_of_spectra(statistics, catalogue)]
-      if (size(joints_of(catalogue)) > 0) tables = [tables, table_of_histograms(statistics, catalogue, events, t_end)]
+      tables = list_of(table_of_numbers(statistics%plan%after, numbers))
+      if (statistics%n_poincare > 0) call append_tables(tables, list_of( &
+         table_of_names("strobe_names", "channels sampled once per period", names_of(statistics%channels, catalogue)), &
+         table_of_sections(statistics, catalogue)))
+      if (size(statistics%spectra) > 0) call append_tables(tables, list_of( &
+         table_of_names("spectrum_names", "channels of the spectra", names_of(statistics%spectra, catalogue)), &
+         table_of_spectra(statistics, catalogue)))
+      joints = joints_of(catalogue)
+      if (size(joints) > 0) then
+         call append_tables(tables, list_of(table_of_histograms(statistics, catalogue, events, t_end)))
+      end if
    end function tables_of_statistics
 
    !> The numbers.

@@ -2,6 +2,7 @@
 module wear_tables
    use kinds, only: wp
    use result_table, only: in_hdf5, result_table_t
+   use table_list, only: list_of
    use text, only: text_t
    use worn_surface, only: worn_surface_t
    implicit none (type, external)
@@ -18,7 +19,7 @@ contains
       allocate (tables(0))
       if (.not. allocated(worn)) return
       if (size(worn) == 0) return
-      tables = [table_of_surfaces(worn), table_of_profiles(worn)]
+      tables = list_of(table_of_surfaces(worn), table_of_profiles(worn))
    end function tables_of_wear
 
    !> The surfaces.

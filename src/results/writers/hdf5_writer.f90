@@ -33,6 +33,7 @@ module hdf5_writer
    use recorder, only: status_failed, summary_t
    use result_table, only: result_table_t
    use archive, only: archive_t
+   use table_list, only: list_of
    use text, only: text_t, to_text
    implicit none (type, external)
    private
@@ -109,7 +110,7 @@ contains
       if (status >= 0) call h5gclose_f(group, closed)
       call make_provenance(self%file, plan, status)
       if (allocated(plan%horizon%t)) then
-         call write_tables(self%file, [table_of_horizon(plan%horizon), table_of_digits(plan%horizon)], status)
+         call write_tables(self%file, list_of(table_of_horizon(plan%horizon), table_of_digits(plan%horizon)), status)
       end if
       if (status >= 0) call flush_file(self, status)
       call note_files()

@@ -18,6 +18,7 @@ module precision_file
    use precision_table, only: table_of_settings, table_of_tol_runs
    use recorder, only: status_complete
    use result_table, only: result_table_t
+   use table_list, only: list_of
    use text, only: append_text, text_t
    use whole_file, only: begin_whole_file, end_whole_file
    implicit none (type, external)
@@ -42,13 +43,13 @@ contains
       if (status >= 0) then
          call text_attribute(file, "machine", study%machine%processor, status)
          call text_attribute(file, "compile_flags", study%machine%flags, status)
-         call write_tables(file, [table_of_settings(study)], status)
+         call write_tables(file, list_of(table_of_settings(study)), status)
          call write_tol_runs(file, study, status)
          call write_reference(file, study, status)
          call write_statistics(file, study, status)
          call write_growth(file, study, status)
          if (allocated(study%horizon%t)) then
-            call write_tables(file, [table_of_horizon(study%horizon), table_of_digits(study%horizon)], status)
+            call write_tables(file, list_of(table_of_horizon(study%horizon), table_of_digits(study%horizon)), status)
          end if
          call write_choice(file, study, status)
          call make_provenance(file, plan, status)
@@ -75,7 +76,7 @@ contains
       call text_dataset(file, "errors/names", names, .false., "types of error", status)
       call text_dataset(file, "errors/units", units, .false., "their units", status)
       call text_dataset(file, "errors/long_names", words, .false., "descriptions", status)
-      call write_tables(file, [table_of_tol_runs(study)], status)
+      call write_tables(file, list_of(table_of_tol_runs(study)), status)
    end subroutine write_tol_runs
 
    !> The reference.

@@ -17,6 +17,7 @@ module sweep_file
    use posix, only: path_exists
    use sweep_results, only: sweep_results_t
    use sweep_tables, only: table_of_cases, table_of_runs
+   use table_list, only: list_of
    use text, only: join, text_t, to_text
    use whole_file, only: begin_whole_file, end_whole_file
    implicit none (type, external)
@@ -44,7 +45,7 @@ contains
       if (status >= 0) then
          call write_parameters(file, results, status)
          call write_runs(file, results, status)
-         call write_tables(file, [table_of_cases(results)], status)
+         call write_tables(file, list_of(table_of_cases(results)), status)
          call make_provenance(file, plan, status)
          call write_cost(file, results, status)
          if (size(run_directories) > 0) call copy_channels(file, results, run_directories, status)
@@ -99,7 +100,7 @@ contains
       integer, allocatable :: owners(:)
       integer :: k, m
 
-      call write_tables(file, [table_of_runs(results)], status)
+      call write_tables(file, list_of(table_of_runs(results)), status)
       call text_dataset(file, "runs/names", results%names, .false., "names of the statistics", status)
       call text_dataset(file, "runs/units", results%units, .false., "their units", status)
       m = sum([(size(results%runs(k)%poincare_times), k=1, size(results%runs))])

@@ -44,7 +44,8 @@ contains
       integer :: k
 
       one = job
-      one%scene%worn = [surfaces, others(job%scene%worn, surfaces)]
+      worn = others(job%scene%worn, surfaces)
+      one%scene%worn = [surfaces, worn]
       one%levels = levels_as_written
       one%perturbed%start = start
       one%limits%wear_from = span%from

@@ -24,7 +24,7 @@ module sensitivity_column
    use observed, only: observed_t
    use step_map, only: section_t, section_time, step_map_t
    use text, only: real_text
-   use varied_system, only: variation_t, varied_t
+   use varied_system, only: free_mechanisms, variation_t, varied_t
    implicit none (type, external)
    private
    public :: column_t, derivative
@@ -130,7 +130,7 @@ contains
       integer :: k
 
       do k = 0, finest
-         if (associated(self%made(k)%beside)) deallocate (self%made(k)%beside)
+         if (associated(self%made(k)%beside)) call free_mechanisms(self%made(k)%beside)
       end do
       nullify (self%beside)
    end subroutine free_column
@@ -155,7 +155,7 @@ contains
                if (self%reason /= "") exit
             end do
             if (self%reason /= "") then
-               deallocate (made%beside)
+               call free_mechanisms(made%beside)
                self%is_active = .false.
                if (is_lasting) self%n_finer = finest
                return

@@ -19,7 +19,7 @@ module varied_system
    use velocity_jumps, only: velocity_jumps_t
    implicit none (type, external)
    private
-   public :: instants_of, variation_t, varied_t, want_only
+   public :: free_mechanisms, instants_of, variation_t, varied_t, want_only
 
    integer, parameter :: n_instant_compared = 1000    !! instants of functions of time that are compared
    real(wp), parameter :: same_instant = 8.0_wp*eps   !! difference of instants that is round-off, of the time [1]
@@ -101,6 +101,26 @@ contains
          is_lasting = reason /= ""
       end associate
    end subroutine make_varied
+
+   !> Free mechanisms with all that they hold, which `deallocate` of a pointer does not do (gfortran 12).
+   subroutine free_mechanisms(list)
+      type(varied_t), pointer, intent(inout) :: list(:)   !! (any) the mechanisms; null afterwards
+
+      integer :: k
+
+      do k = 1, size(list)
+         call forget(list(k))
+      end do
+      deallocate (list)
+
+   contains
+
+      !> Free what a mechanism holds.
+      subroutine forget(one)
+         type(varied_t), intent(out) :: one   !! the mechanism
+      end subroutine forget
+
+   end subroutine free_mechanisms
 
    !> Report some channels only.
    subroutine want_only(system, channels, catalogue)
