@@ -53,6 +53,11 @@ module output_marker
 
 contains
 
+   !> No marker is open.
+   subroutine forget(marker)
+      type(open_marker_t), intent(out) :: marker   !! that of this process
+   end subroutine forget
+
    !> Say in a marker whose directory this is, and which files are in it already.
    integer function begin_marker(directory, older) result(code)
       character(*), intent(in) :: directory           !! as all paths of its files start
@@ -62,7 +67,7 @@ contains
       character(:), allocatable :: name
       integer :: k, n, previous
 
-      here = open_marker_t()
+      call forget(here)
       n = 0
       name = random_name()
       if (present(older)) then
@@ -86,7 +91,7 @@ contains
       end do
       code = write_at(directory//"/"//marker_name, lines%get(), 0_i8)
       if (code /= 0) then
-         here = open_marker_t()
+         call forget(here)
          return
       end if
       here%length = lines%length()
@@ -200,7 +205,7 @@ contains
       end do
       call lines%line(last_line)
       ignored = append(lines)
-      here = open_marker_t()
+      call forget(here)
    end subroutine end_marker
 
    !> Whether what is under a name of a marker is what the run made there; or it is a directory, or nothing.
