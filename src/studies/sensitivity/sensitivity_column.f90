@@ -33,8 +33,8 @@ module sensitivity_column
    integer, parameter :: finest = 15               !! e is at least so many times finer
    real(wp), parameter :: rough = 2.0e-5_wp        !! D_2 - D_1 of a step, of D, that is too much [1]
    real(wp), parameter :: smooth = 5.0e-7_wp       !! the same, below which e may be greater [1]
-   real(wp), parameter :: round_off = 8.0_wp*eps   !! of states, of the scales [1]
-   real(wp), parameter :: visible = 1.0e-10_wp     !! distance of states beside, of the scales, below which that is noise [1]
+   real(wp), parameter :: round_off = 8.0_wp*eps   !! of states, of them or of the scales [1]
+   real(wp), parameter :: visible = 1.0e-10_wp     !! distance of states beside, likewise, below which that is noise [1]
    integer, parameter :: patience = 10             !! smooth steps after which e is made greater
 
    !> Mechanisms beside for an e.
@@ -247,11 +247,12 @@ contains
    logical function is_rough(self)
       class(column_t), intent(inout) :: self   !! the column; smooth steps are counted
 
-      real(wp) :: d_1, d_2, difference(2), length(2), measure, noise
+      real(wp) :: d_1, d_2, difference(2), length(2), magnitude(2), measure, noise
       integer :: i, kind
 
       difference = 0.0_wp
       length = 0.0_wp
+      magnitude = 1.0_wp
       associate (b => self%beside, n_position => self%beside(1)%system%linkage%n_position)
          do i = 1, size(self%scale)
             d_1 = (b(1)%y(i) - b(2)%y(i))/(b(1)%e - b(2)%e)/self%scale(i)
@@ -259,13 +260,14 @@ contains
             kind = merge(1, 2, i <= n_position)
             difference(kind) = max(difference(kind), abs(d_2 - d_1))
             length(kind) = max(length(kind), abs(d_2))
+            magnitude(kind) = max(magnitude(kind), abs(b(3)%y(i))/self%scale(i))
          end do
          measure = 0.0_wp
          noise = 0.0_wp
          do kind = 1, 2
-            if (length(kind)*abs(b(1)%e) <= visible) cycle
+            if (length(kind)*abs(b(1)%e) <= visible*magnitude(kind)) cycle
             measure = max(measure, difference(kind)/length(kind))
-            noise = max(noise, round_off/(length(kind)*abs(b(1)%e)))
+            noise = max(noise, round_off*magnitude(kind)/(length(kind)*abs(b(1)%e)))
          end do
          is_rough = .not. measure <= max(rough, noise)
       end associate
