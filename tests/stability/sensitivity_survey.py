@@ -33,10 +33,11 @@ from support import Run, changed, written  # noqa: E402
 LIMIT = 60  # seconds for one command
 SCENES = 200
 TOLERANCE, TIGHT, OF_RUNS = "1e-11", "1e-13", "1e-13"
-WIDEST = 4e-3  # first change of a parameter, of it [1]
+WIDEST = 1e-3  # first change of a parameter, of it [1]
 LEVELS = 5  # changes
 SURE = 3.0  # times what the reference does not know
 ROUND_OFF = 1e-13  # of a result of a run [1]
+OF_PEAK = 1e-8  # what a run may miss of a peak or an extreme, of it [1]
 WITHIN, OF_MEDIAN = 0.99, 10.0  # derivatives within their errors; errors over differences, in the median
 COLUMNS = ("scene", "result", "parameter", "value", "error", "reference", "unsure", "tight", "reason", "verdict")
 
@@ -100,14 +101,16 @@ def reference_of(program, scene, name, words, directory):
         for j in range(k):
             row.append(row[j] + (row[j] - rows[-1][j])/(16**(j + 1) - 1))
         rows.append(row)
+    missing = np.where([re.match(r"(max|min)\(|.*\.peak_", word) is not None for word in words], OF_PEAK, ROUND_OFF)
     best, unsure = np.full(len(words), math.nan), np.full(len(words), math.inf)
     for k in range(1, LEVELS):
-        noise = ROUND_OFF*size/(value*WIDEST/4**k)
+        noise = missing*size/(value*WIDEST/4**k)
         for j in range(1, k + 1):
             away = np.maximum(np.abs(rows[k][j] - rows[k][j - 1]), np.abs(rows[k][j] - rows[k - 1][j - 1])) + noise
             better = away < unsure
             best[better], unsure[better] = rows[k][j][better], away[better]
-    return best, unsure
+    fine = np.abs(rows[-1][0] - rows[-2][0]) + noise  # what the finest differences do not know
+    return best, np.maximum(unsure, np.abs(best - rows[-1][0]) - fine)
 
 
 def judge(pair, reference, unsure):
