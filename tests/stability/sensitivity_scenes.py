@@ -76,28 +76,38 @@ def names_of(text, top):
 
 def vary(rng, text, count):
     """The text with `count` numbers multiplied by parameters q1, q2, ... of the value 1, all rows of their column at once."""
-    lines, found = tables(text)
-    places, unit_of = {}, {}
-    for section, names, rows in found:
+    places = sorted(place for place in places_of(text) if place.split(".")[0] != "friction" or
+                    place.split(".")[1] == re.search(r"(?m)^friction += +(\w+)|\Z", text)[1])
+    chosen = [places[k] for k in rng.choice(len(places), min(count, len(places)), replace=False)]
+    return multiplied(text, chosen), {f"q{n + 1}": (1.0, "") for n in range(len(chosen))}
+
+
+def places_of(text):
+    """Columns that a parameter may multiply, by section and name: (line, number of the cell) of their numbers, unit."""
+    places = {}
+    for section, names, rows in tables(text)[1]:
         for k, word in enumerate(names):
             name, _, unit = word.rstrip("]").partition("[")
-            if name not in COLUMNS.get(section.split(".")[0], ()) or section == "friction.brown_mcphee" and "smooth" not in text:
-                continue
             cells = [(line, k) for line, row in rows if len(row) > k and re.fullmatch(r"-?[\d.]+(e-?\d+)?", row[k]) and float(row[k])]
-            if cells and (section.split(".")[0] != "friction" or rows[0][1][0] in text.split("friction = ")[1].split()[0]):
-                places[f"{section}.{name}"], unit_of[f"{section}.{name}"] = cells, " " + unit if unit else ""
-    chosen = [sorted(places)[k] for k in rng.choice(len(places), min(count, len(places)), replace=False)]
-    rows = {line: cells for _, _, table in found for line, cells in table}
+            if name in COLUMNS.get(section.split(".")[0], ()) and cells:
+                places[f"{section}.{name}"] = (cells, " " + unit if unit else "")
+    return places
+
+
+def multiplied(text, chosen):
+    """The text with these columns multiplied by parameters q1, q2, ... of the value 1."""
+    lines, found = tables(text)
+    rows, places = {line: cells for _, _, table in found for line, cells in table}, places_of(text)
     for n, place in enumerate(chosen):
-        for line, k in places[place]:
-            rows[line][k] = "{q%d*%s%s}" % (n + 1, rows[line][k], unit_of[place])
+        cells, unit = places[place]
+        for line, k in cells:
+            rows[line][k] = "{q%d*%s%s}" % (n + 1, rows[line][k], unit)
             lines[line] = " ".join(rows[line])
     text = "\n".join(lines) + "\n"
     declared = "".join(f"q{n + 1} = 1 # {place}\n" for n, place in enumerate(chosen))
     if "[parameters]" not in text:
         text = text.replace("[scene]\n", "[parameters]\n[scene]\n", 1)
-    text = re.sub(r"(?m)^\[parameters\].*\n", lambda head: head[0] + declared, text)
-    return text, {f"q{n + 1}": (1.0, "") for n in range(len(chosen))}
+    return re.sub(r"(?m)^\[parameters\].*\n", lambda head: head[0] + declared, text)
 
 
 def results_of(rng, text, end):
