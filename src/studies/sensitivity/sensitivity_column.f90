@@ -187,7 +187,7 @@ contains
 
       real(wp) :: g(size(self%gap), 4)
       real(wp) :: best, measure
-      integer :: i, k, n_best, status
+      integer :: k, n_best, status
       logical :: is_accepted, is_visible(2)
 
       best = huge(1.0_wp)
@@ -226,6 +226,19 @@ contains
          call self%make(variation)
          if (.not. self%is_active) return
       end do
+      call derive_end(self, section, touched, g)
+      call self%try_greater(variation)
+   end subroutine follow_step
+
+   !> Derivatives at the end of a step from the states beside.
+   subroutine derive_end(self, section, touched, g)
+      class(column_t), intent(inout) :: self            !! the column
+      type(section_t), intent(in) :: section            !! where the step ends
+      integer, intent(in) :: touched(:, :)              !! (3, any) contacts that start or end: set, contact of it, number
+      real(wp), intent(in) :: g(:, :)                   !! (events, 4) event functions beside [any]
+
+      integer :: i
+
       associate (b => self%beside)
          self%theta = self%theta + derivative(b%h, b%e)
          if (section%kind == section_time) self%theta = 0.0_wp
@@ -242,8 +255,7 @@ contains
             end associate
          end do
       end associate
-      call self%try_greater(variation)
-   end subroutine follow_step
+   end subroutine derive_end
 
    !> Try a greater e, now and then.
    subroutine try_greater(self, variation)
