@@ -93,7 +93,8 @@ def reference_of(program, scene, name, words, directory):
         ends = []
         for sign in (1, -1):
             out = directory / f"{name}_{k}_{sign}"
-            wrong = command(program, "run", deck, out, "--write", "channels", "--set", f"{name}={value*(1 + sign*WIDEST/4**k)!r} {unit}".strip())
+            change = f"{name}={value*(1 + sign*WIDEST/4**k)!r} {unit}".strip()
+            wrong = command(program, "run", deck, out, "--write", "channels", "--set", change)
             if wrong:
                 return np.full(len(words), math.nan), np.full(len(words), math.nan)
             ends.append(results_of_run(Run(out), words))
