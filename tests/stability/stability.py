@@ -19,6 +19,7 @@ os.environ.setdefault("OPENBLAS_NUM_THREADS", "1")
 from cases import CASES, ROOT  # noqa: E402
 import random_loops  # noqa: E402
 import random_statics  # noqa: E402
+import sensitivity_survey  # noqa: E402
 from friction_runs import run_friction  # noqa: E402
 from random_runs import run_random  # noqa: E402
 from runs import Result, solve  # noqa: E402
@@ -130,7 +131,7 @@ def main():
     parser.add_argument("--csv", type=pathlib.Path, default=ROOT / "outputs" / "stability.csv", help="where the table goes")
     parser.add_argument("--required", action="store_true", help="leave out the ways that are shown only")
     parser.add_argument("only", nargs="*", help="words: run the cases whose name or deck contains one; "
-                        "random: random scenes; friction: those that rub")
+                        "random: random scenes; friction: those that rub; sensitivity: derivatives of such")
     options = parser.parse_args()
     program = options.build / "gudgeon"
     if not program.exists():
@@ -148,6 +149,8 @@ def main():
         wrong += random_statics.wrong_scenes(program.resolve()) + random_loops.wrong_scenes(program.resolve())
     if not options.only or "friction" in options.only:
         wrong += wrong_scenes(program.resolve(), run_friction, "random scenes with Coulomb's friction")
+    if not options.only or "sensitivity" in options.only:
+        wrong += sensitivity_survey.wrong_derivatives(program.resolve())
     for words in wrong:
         print(f"wrong: {words}")
     sys.exit(1 if failed or wrong else 0)

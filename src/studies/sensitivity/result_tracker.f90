@@ -1,7 +1,8 @@
 !> Results of a motion and their derivatives, as steps and events bring them about.
 !>
 !> Of an extreme at a smooth place the derivative is that at this place (envelope theorem); of one at an event, that along with the
-!> event. Between, a channel is looked at in three places of each step.
+!> event. Between, a channel is looked at in some places of each step; its slopes at both ends say whether an extreme lies between
+!> an end and the place next to it.
 module result_tracker
    use catalogue, only: catalogue_t
    use contact_peaks, only: trend_t
@@ -20,7 +21,8 @@ module result_tracker
    private
    public :: tracker_t
 
-   integer, parameter :: n_place = 4   !! equal parts of a step in which extremes are sought
+   integer, parameter :: n_place = 8   !! parts of a step in which extremes are sought
+   real(wp), parameter :: places(0:n_place) = [0.0_wp, 0.05_wp, 0.1_wp, 0.3_wp, 0.5_wp, 0.7_wp, 0.9_wp, 0.95_wp, 1.0_wp]  !! [1]
 
    !> A result that is looked for.
    type :: tracker_t
@@ -127,13 +129,13 @@ contains
       if (self%what%place > 0 .and. self%asked%kind /= result_value) then
          self%before(0) = self%before(n_place)
          do k = 1, n_place
-            call method%state_at(system, merge(method%t, method%step%t0 + method%step%h*k/n_place, k == n_place), y)
-            call report_state(system, method%step%t0 + method%step%h*k/n_place, y, ydot, 0.0_wp, catalogue, status)
+            call method%state_at(system, merge(method%t, method%step%t0 + method%step%h*places(k), k == n_place), y)
+            call report_state(system, method%step%t0 + method%step%h*places(k), y, ydot, 0.0_wp, catalogue, status)
             self%before(k) = catalogue%values(self%what%place)
          end do
-         do k = 1, n_place - 1
+         do k = 0, n_place
             if (.not. is_top(self, k)) cycle
-            place = real(k, wp)/n_place
+            place = places(k)
             call find_flat_place(system, method, catalogue, self%what, place, x, y, ydot, status)
             if (status /= 0 .or. .not. is_beyond(self, x, found)) cycle
             call take(self, method%step%t0 + place*method%step%h, x, found)
@@ -172,7 +174,8 @@ contains
 
    end subroutine in_step
 
-   !> Whether the values of a channel have an extreme of the kind that is asked for at a place of the step.
+   !> Whether the values of a channel have an extreme of the kind that is asked for at a place of the step; at the first and the
+   !> last place, between it and its neighbour.
    pure logical function is_top(self, k)
       class(tracker_t), intent(in) :: self    !! the result, values in the step known
       integer, intent(in) :: k                !! number of the place
@@ -180,11 +183,18 @@ contains
       real(wp) :: sign
 
       sign = merge(-1.0_wp, 1.0_wp, self%asked%kind == result_minimum)
-      is_top = all(ieee_is_finite(self%before(k - 1:k + 1)))
-      if (.not. is_top) return
-      is_top = sign*(self%before(k) - self%before(k - 1)) >= 0.0_wp .and. sign*(self%before(k) - self%before(k + 1)) >= 0.0_wp
-      if (is_top) is_top = abs(self%before(k + 1) - self%before(k - 1)) > 0.0_wp &
-                           .or. abs(self%before(k) - self%before(k - 1)) > 0.0_wp
+      associate (x => self%before)
+         is_top = all(ieee_is_finite(x(max(k - 2, 0):min(k + 2, n_place))))
+         if (.not. is_top) return
+         if (k == 0) then
+            is_top = sign*(x(1) - x(0)) <= 0.0_wp .and. sign*(4.0_wp*x(1) - 3.0_wp*x(0) - x(2)) > 0.0_wp
+         else if (k == n_place) then
+            is_top = sign*(x(k - 1) - x(k)) <= 0.0_wp .and. sign*(4.0_wp*x(k - 1) - 3.0_wp*x(k) - x(k - 2)) > 0.0_wp
+         else
+            is_top = sign*(x(k) - x(k - 1)) >= 0.0_wp .and. sign*(x(k) - x(k + 1)) >= 0.0_wp
+            if (is_top) is_top = abs(x(k + 1) - x(k - 1)) > 0.0_wp .or. abs(x(k) - x(k - 1)) > 0.0_wp
+         end if
+      end associate
    end function is_top
 
    !> Derivatives of a result within the step.

@@ -13,7 +13,12 @@
 !> of them. As a contact parts, steps beside end at equal penetrations, so that they separate with it.
 !>
 !> The derivative is the central difference over +-e and +-e/2, extrapolated: D = D_2 + (D_2 - D_1)/3. D_2 - D_1 says whether e is
-!> small enough; else the mechanisms beside are made with a quarter of it.
+!> small enough; so do second differences, of which less remains than of a kink that lies between:
+!>
+!> $$ Q_e = (y(e) - 2 y(0) + y(-e))/e, \qquad Q_{e/2} - Q_e/2 = O(e^3) . $$
+!>
+!> Else the mechanisms beside are made with a quarter of e. Where that makes the differences greater they are round-off, and the e
+!> before is taken. Every few steps a greater e is tried: round-off over e is not extrapolated away.
 !>
 !> Source: H. G. Bock, Numerical treatment of inverse problems in chemical reaction kinetics, Springer Series in Chemical Physics
 !> 18 (1981) 102-125 (internal differentiation). Limits: kinks of laws between events are passed over.
@@ -32,10 +37,12 @@ module sensitivity_column
    real(wp), parameter :: finer = 0.25_wp          !! ratio of e to the next one [1]
    integer, parameter :: finest = 15               !! e is at least so many times finer
    real(wp), parameter :: rough = 2.0e-5_wp        !! D_2 - D_1 of a step, of D, that is too much [1]
-   real(wp), parameter :: smooth = 5.0e-7_wp       !! the same, below which e may be greater [1]
-   real(wp), parameter :: round_off = 8.0_wp*eps   !! of states, of the scales [1]
-   real(wp), parameter :: visible = 1.0e-10_wp     !! distance of states beside, of the scales, below which that is noise [1]
-   integer, parameter :: patience = 10             !! smooth steps after which e is made greater
+   real(wp), parameter :: noisy = 5.0e-2_wp        !! the same, above which it is not taken for round-off [1]
+   real(wp), parameter :: growing = 2.0_wp         !! growth of it with a finer e that is round-off [1]
+   real(wp), parameter :: round_off = 8.0_wp*eps   !! of states, of them or of the scales [1]
+   real(wp), parameter :: visible = 1.0e-10_wp     !! distance of states beside, likewise, below which that is noise [1]
+   integer, parameter :: patience = 10             !! steps after which a greater e is tried
+   integer, parameter :: failed = -30              !! count of steps after a greater e was too great
 
    !> Mechanisms beside for an e.
    type :: made_t
@@ -59,7 +66,8 @@ module sensitivity_column
       type(varied_t), pointer :: beside(:) => null()  !! (4) mechanisms with p + e, p - e, p + e/2, p - e/2
       type(made_t), private :: made(0:finest)      !! (0:finest) those of each e, once they were made
       real(wp), allocatable, private :: scale(:)   !! (positions + rates) of the error norm [any]
-      integer, private :: n_smooth = 0             !! smooth steps one after another
+      integer, private :: n_smooth = 0             !! steps with the same e
+      logical, private :: is_tried = .false.       !! a greater e is being tried
    contains
       procedure :: begin => begin_column
       procedure :: free => free_column
@@ -68,7 +76,8 @@ module sensitivity_column
       procedure :: probe
       procedure :: differ
       procedure, private :: make
-      procedure, private :: is_rough
+      procedure, private :: try_greater
+      procedure, private :: find_roughness
    end type column_t
 
 contains
@@ -177,8 +186,12 @@ contains
       integer, intent(in) :: touched(:, :)              !! (3, any) contacts that start or end: set, contact of it, number
 
       real(wp) :: g(size(self%gap), 4)
-      integer :: i, k, status
+      real(wp) :: best, measure
+      integer :: k, n_best, status
+      logical :: is_accepted, is_visible(2)
 
+      best = huge(1.0_wp)
+      n_best = -1
       do
          do k = 1, 4
             call map%start_beside(method, self%beside(k), self%s, self%theta, behind, status)
@@ -187,9 +200,20 @@ contains
             if (size(self%gap) > 0) call self%beside(k)%system%events(self%beside(k)%t, self%beside(k)%y, g(:, k), map%rate)
             call find_rates(self%beside(k), touched)
          end do
+         is_accepted = .false.
          if (status == 0) then
-            if (.not. self%is_rough()) exit
+            call self%find_roughness(method%step%y1, n_best < 0, is_visible, measure)
+            is_accepted = measure <= rough .or. self%n_finer == n_best
+            if (.not. is_accepted .and. best <= noisy .and. measure > growing*best) then
+               self%n_finer = n_best
+               call self%make(variation)
+               cycle
+            else if (measure < best) then
+               best = measure
+               n_best = self%n_finer
+            end if
          end if
+         if (is_accepted) exit
          if (self%n_finer == finest) then
             self%is_active = .false.
             self%reason = "motions with the parameter changed by "//real_text(self%beside(1)%e, 2)// &
@@ -197,10 +221,24 @@ contains
             return
          end if
          self%n_finer = self%n_finer + 1
-         self%n_smooth = 0
+         self%n_smooth = merge(failed, 0, self%is_tried)
+         self%is_tried = .false.
          call self%make(variation)
          if (.not. self%is_active) return
       end do
+      call derive_end(self, section, touched, g)
+      call self%try_greater(variation)
+   end subroutine follow_step
+
+   !> Derivatives at the end of a step from the states beside.
+   subroutine derive_end(self, section, touched, g)
+      class(column_t), intent(inout) :: self            !! the column
+      type(section_t), intent(in) :: section            !! where the step ends
+      integer, intent(in) :: touched(:, :)              !! (3, any) contacts that start or end: set, contact of it, number
+      real(wp), intent(in) :: g(:, :)                   !! (events, 4) event functions beside [any]
+
+      integer :: i
+
       associate (b => self%beside)
          self%theta = self%theta + derivative(b%h, b%e)
          if (section%kind == section_time) self%theta = 0.0_wp
@@ -217,15 +255,26 @@ contains
             end associate
          end do
       end associate
+   end subroutine derive_end
+
+   !> Try a greater e, now and then.
+   subroutine try_greater(self, variation)
+      class(column_t), intent(inout) :: self            !! the column
+      type(variation_t), intent(inout) :: variation     !! how mechanisms beside are made
+
+      self%n_smooth = self%n_smooth + 1
+      self%is_tried = .false.
       if (self%n_smooth < patience .or. self%n_finer == 0) return
       self%n_finer = self%n_finer - 1
       self%n_smooth = 0
       call self%make(variation)
+      self%is_tried = self%is_active
       if (self%is_active) return
       self%n_finer = self%n_finer + 1  ! a bound of the parameter is near
+      self%n_smooth = failed
       self%is_active = .true.
       call self%make(variation)
-   end subroutine follow_step
+   end subroutine try_greater
 
    !> Penetration rates of contacts that start or end, at the end of a step beside.
    subroutine find_rates(beside, touched)
@@ -243,34 +292,38 @@ contains
       end do
    end subroutine find_rates
 
-   !> Whether e is too great for the step: D_2 - D_1 over D, in the norm of errors, of positions or of rates.
-   logical function is_rough(self)
-      class(column_t), intent(inout) :: self   !! the column; smooth steps are counted
+   !> How much e is too great for the step: D_2 - D_1 and Q_2 - Q_1/2 over D_2, in the norm of errors, of positions or of rates.
+   !> It is at least what round-off makes; states beside that differ by no more than that, with the greatest e, do not count.
+   subroutine find_roughness(self, y, is_first, is_visible, measure)
+      class(column_t), intent(in) :: self          !! the column
+      real(wp), intent(in) :: y(:)                 !! (n) state of the motion at the end of the step [any]
+      logical, intent(in) :: is_first              !! this is the greatest e tried in the step
+      logical, intent(inout) :: is_visible(2)      !! positions, rates: they count; set with the greatest e
+      real(wp), intent(out) :: measure             !! how much [1]
 
-      real(wp) :: d_1, d_2, difference(2), length(2), measure, noise
+      real(wp) :: d(4), difference(2), length(2), magnitude(2)
       integer :: i, kind
 
       difference = 0.0_wp
       length = 0.0_wp
+      magnitude = 1.0_wp
       associate (b => self%beside, n_position => self%beside(1)%system%linkage%n_position)
          do i = 1, size(self%scale)
-            d_1 = (b(1)%y(i) - b(2)%y(i))/(b(1)%e - b(2)%e)/self%scale(i)
-            d_2 = (b(3)%y(i) - b(4)%y(i))/(b(3)%e - b(4)%e)/self%scale(i)
+            d = [b(1)%y(i) - y(i), b(2)%y(i) - y(i), b(3)%y(i) - y(i), b(4)%y(i) - y(i)]/(b%e*self%scale(i))
             kind = merge(1, 2, i <= n_position)
-            difference(kind) = max(difference(kind), abs(d_2 - d_1))
-            length(kind) = max(length(kind), abs(d_2))
+            difference(kind) = max(difference(kind), 0.5_wp*abs(d(3) + d(4) - d(1) - d(2)), &
+                                   abs(d(3) - d(4) - 0.5_wp*(d(1) - d(2))))
+            length(kind) = max(length(kind), 0.5_wp*abs(d(3) + d(4)))
+            magnitude(kind) = max(magnitude(kind), abs(y(i))/self%scale(i))
          end do
-         measure = 0.0_wp
-         noise = 0.0_wp
-         do kind = 1, 2
-            if (length(kind)*abs(b(1)%e) <= visible) cycle
-            measure = max(measure, difference(kind)/length(kind))
-            noise = max(noise, round_off/(length(kind)*abs(b(1)%e)))
-         end do
-         is_rough = .not. measure <= max(rough, noise)
+         if (is_first) is_visible = length*abs(b(1)%e) > visible*magnitude
+         difference = max(difference, round_off*magnitude/abs(b(1)%e))
       end associate
-      self%n_smooth = merge(self%n_smooth + 1, 0, measure < max(smooth, noise))
-   end function is_rough
+      measure = 0.0_wp
+      do kind = 1, 2
+         if (is_visible(kind)) measure = max(measure, difference(kind)/max(length(kind), tiny(1.0_wp)))
+      end do
+   end subroutine find_roughness
 
    !> The mechanism of the deck has handled events: those beside follow.
    subroutine remember_events(self, variation)
