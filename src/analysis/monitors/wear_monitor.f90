@@ -246,6 +246,8 @@ contains
       real(wp) :: worn_angle
 
       if (wear%is_worn) then
+         part = 0.0_wp
+         if (wear%arc%n == 0) return   ! apart: there may be no storage for points
          call law%worn_points(wear%force, pair%radius_i*pair%length, wear%arc%hole(:wear%arc%n), wear%direction(of_bearing), &
                               wear%arc%width(:wear%arc%n), wear%arc%d(:wear%arc%n), part)
          return

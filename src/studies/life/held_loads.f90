@@ -4,7 +4,9 @@
 !> A simulation gives nodes (`wear_loads`): places of the pin, exponents p of the normal law, volumes. Held is the elastic normal
 !> force of each node,  f = delta^p d(delta)/de.  On another profile the pin is where f is the same: two equations for e, by
 !> Newton's method with the derivative  delta^p (H/M' + (p - 3/2)/delta g g^T),  g = d(delta)/de,  H = 2 int u u^T dtheta  over the
-!> overlap (`surface_overlap`). There the node takes its volumes in proportion to the overlap.
+!> overlap (`surface_overlap`). A step is halved where it loses the contact, or where the missing force at its end points back more
+!> than it pointed along it at its start: where the energy is convex such steps converge. At its place a node takes its volumes in
+!> proportion to the overlap.
 !>
 !> Where a light load has no such place, on surfaces that touch in several arcs, the pin is where f is nearest. The error of a jump,
 !> found from loads that are simulated at its end, holds what that makes.
@@ -14,6 +16,7 @@
 !> with the rates v_s that were simulated with the profiles x_s: at x_s the model is exact.
 !> Signs: rates are not negative. Source: this program. Limits: bearings and journals in the plane.
 module held_loads
+   use held_slopes, only: slopes_t
    use kinds, only: wp
    use life_state, only: life_state_t
    use overlap_rays, only: pin_t
@@ -30,6 +33,7 @@ module held_loads
 
    integer, parameter :: most_iterations = 40         !! of Newton's method
    real(wp), parameter :: close = 1.0e-6_wp           !! what may be left of the force, relative [1]
+   real(wp), parameter :: enough = 0.9_wp             !! part of a step's work that the missing force may take back at its end [1]
    integer, parameter :: every = 2                    !! of so many nodes one is taken
    real(wp), parameter :: longest = 1.0e-3_wp         !! step of Newton's method over |e|, beside two penetrations [1]
    real(wp), parameter :: hertz = 1.5_wp              !! exponent with which the foundation is linear [1]
@@ -41,6 +45,7 @@ module held_loads
       real(wp), allocatable :: defect(:, :)         !! (n, starts) what the model lacks of them [m^3]
       real(wp), allocatable :: nodes(:, :, :, :)    !! (6, nodes, contacts, starts) see `wear_loads` [m, rad, 1, m^3]
       real(wp), allocatable :: force(:, :, :, :)    !! (2, nodes, contacts, starts) f [m^p]
+      type(slopes_t) :: slopes                      !! derivatives of the mean of the rates that were found last
    contains
       procedure :: at => rates_at
    end type held_t
@@ -67,6 +72,7 @@ contains
          held%nodes(5:, :, :, :) = every*held%nodes(5:, :, :, :)
          held%force = 0.0_wp*held%nodes(:2, :, :, :)
       end associate
+      call held%slopes%clear()
       if (size(loads) == 0) return
       call take_volumes(state, held)
       call find_pairs(state, x, pairs)
@@ -111,6 +117,7 @@ contains
 
       rates = self%rates
       is_good = .true.
+      call self%slopes%clear()
       if (size(self%nodes) == 0) return
       call find_pairs(state, x, pairs)
       do m = 1, size(rates, 2)
@@ -176,28 +183,31 @@ contains
       end do
    end subroutine keep_forces
 
-   !> Merge nodes under one load into the first of them: a load that is constant has one node.
+   !> Merge nodes under nearly one load into the first of them, whose force becomes their mean: a load that is constant but for a
+   !> vibration has one node. What that changes is of second order in the differences.
    pure subroutine merge_nodes(held)
       type(held_t), intent(inout) :: held   !! volumes and forces of merged nodes are zero
 
-      real(wp), parameter :: same = 1.0e-4_wp   ! part of the force, and angle of a pin that wears [1, rad]
+      real(wp), parameter :: same = 1.0e-2_wp, same_angle = 1.0e-4_wp  ! part of the force, angle of a pin that wears [1, rad]
       integer :: c, first, k, m
 
       do m = 1, size(held%nodes, 4)
          do c = 1, size(held%nodes, 3)
-            first = 1
-            do k = 2, size(held%nodes, 2)
-               associate (here => held%nodes(:, first, c, m), node => held%nodes(:, k, c, m), force => held%force(:, k, c, m))
-                  if (norm2(force - held%force(:, first, c, m)) <= same*norm2(force) .and. &
-                      (abs(node(3) - here(3)) <= same .or. .not. node(6) > 0.0_wp)) then
-                     here(5:) = here(5:) + node(5:)
-                     node(5:) = 0.0_wp
-                     force = 0.0_wp
-                  else
-                     first = k
-                  end if
-               end associate
-            end do
+            associate (nodes => held%nodes(:, :, c, m), forces => held%force(:, :, c, m))
+               do k = 2, size(nodes, 2)
+                  do first = 1, k - 1
+                     if (.not. (sum(nodes(5:, first)) > 0.0_wp .and. sum(nodes(5:, k)) > 0.0_wp)) cycle
+                     if (norm2(forces(:, k) - forces(:, first)) > same*norm2(forces(:, k))) cycle
+                     if (nodes(6, k) > 0.0_wp .and. abs(nodes(3, k) - nodes(3, first)) > same_angle) cycle
+                     forces(:, first) = (sum(nodes(5:, first))*forces(:, first) + sum(nodes(5:, k))*forces(:, k)) &
+                                        /(sum(nodes(5:, first)) + sum(nodes(5:, k)))
+                     nodes(5:, first) = nodes(5:, first) + nodes(5:, k)
+                     nodes(5:, k) = 0.0_wp
+                     forces(:, k) = 0.0_wp
+                     exit
+                  end do
+               end do
+            end associate
          end do
       end do
    end subroutine merge_nodes
@@ -227,6 +237,7 @@ contains
                      call add_swept_points(rates(i + 1:i + n_i), arc%hole(:n), width, arc%d(:n)*width, none, node(5))
                      call add_swept_points(rates(j + 1:j + n_j), arc%pin(:n), width, arc%d(:n)*width, none, node(6))
                   end associate
+                  call held%slopes%add(arc, node(4), node(5:)/size(held%rates, 2), [i, j], [n_i, n_j])
                end associate
             end do
          end associate
@@ -244,39 +255,47 @@ contains
       logical, intent(out) :: is_good          !! it was found
 
       type(overlap_t) :: overlap
-      real(wp) :: best, left(2), magnitude, place(2), step(2)
+      real(wp) :: best, guess(2), here(2), left(2), magnitude, nearest(2), step(2), work
       integer :: iteration
+      logical :: touches
 
       magnitude = norm2(force)
       best = huge(1.0_wp)
-      place = e
+      guess = e
+      here = e
+      work = 0.0_wp
+      step = 0.0_wp
       do iteration = 1, most_iterations
          call find_overlap(pair, pin_at(e, turned), to_gradient, overlap, arc)
          associate (delta => overlap%delta, g => overlap%gradient)
-            if (.not. (delta > 0.0_wp .and. arc%n > 0)) then
-               if (best < huge(1.0_wp)) then
-                  e = 0.5_wp*(e + place)
-               else
-                  e = e + (0.5_wp*magnitude**(1.0_wp/p) - delta)*g/dot_product(g, g)
-               end if
+            touches = delta > 0.0_wp .and. arc%n > 0
+            if (.not. (touches .or. work > 0.0_wp)) then   ! no contact so far
+               e = e + (0.5_wp*magnitude**(1.0_wp/p) - delta)*g/dot_product(g, g)
                cycle
             end if
-            left = force - delta**p*g
-            is_good = norm2(left) <= close*magnitude
+            left = force
+            if (touches) left = force - delta**p*g
+            is_good = touches .and. norm2(left) <= close*magnitude
             if (is_good) return
-            if (norm2(left) >= best) then
-               e = 0.5_wp*(e + place)
+            if (.not. touches .or. dot_product(left, step) < -enough*work) then   ! too far
+               step = 0.5_wp*step
+               work = 0.5_wp*work
+               e = here + step
                cycle
             end if
-            best = norm2(left)
-            place = e
+            if (norm2(left) < best) nearest = e
+            best = min(best, norm2(left))
+            here = e
             step = newton_step(overlap, arc, p, left)
-            e = e + step*min(1.0_wp, (2.0_wp*delta + longest*norm2(e))/max(norm2(step), tiny(1.0_wp)))
+            step = step*min(1.0_wp, (2.0_wp*delta + longest*norm2(e))/max(norm2(step), tiny(1.0_wp)))
+            work = dot_product(left, step)
+            e = e + step
          end associate
       end do
-      e = place
-      call find_overlap(pair, pin_at(e, turned), to_gradient, overlap, arc)
-      is_good = overlap%delta > 0.0_wp .and. arc%n > 0
+      e = guess
+      is_good = best < huge(1.0_wp)
+      if (is_good) call find_overlap(pair, pin_at(nearest, turned), to_gradient, overlap, arc)
+      is_good = is_good .and. overlap%delta > 0.0_wp .and. arc%n > 0
    end subroutine place_pin
 
    !> Newton's step of the pin.
