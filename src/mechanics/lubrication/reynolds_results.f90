@@ -2,8 +2,10 @@
 !>
 !> With scales: forces mu L R^3/c^2, flow c R^3/(3 L), friction mu L R^3/c; P in 1/s, so that forces and flow are per unit of time.
 !> The moment of friction on the journal is -(mu L R^3/c) (w_J - w_B) J - (e x F)_z/2, J = (1/2) int d(theta) dy/h over the
-!> part of the film that is liquid: over all of it, or where there is pressure.
+!> part of the film that is liquid: over all of it, or where there is pressure. A bore that is not round adds the pressure on its
+!> slopes, f_G = (1/2) int P dG d(y), see `reynolds_grid`: the moment on the journal has c/2 mu L R^3/c^2 f_G more.
 module reynolds_results
+   use bored_gap, only: at_middle
    use kinds, only: wp
    use reynolds_grid, only: drag, reynolds_grid_t
    implicit none (type, external)
@@ -19,6 +21,7 @@ module reynolds_results
       real(wp) :: shear_wet = 0.0_wp  !! J of the part with pressure [1]
       real(wp) :: p_max = 0.0_wp !! maximum P [1/s]
       real(wp) :: h_min = 0.0_wp    !! minimum gap over c [1]
+      real(wp) :: f_bore = 0.0_wp   !! f_G [1/s]
    end type film_result_t
 
 contains
@@ -44,6 +47,10 @@ contains
                result%f = result%f - push*u
                result%f_1 = result%f_1 - push*y*u
                gap = 1.0_wp - dot_product(e + y*g, u)
+               if (self%bored%is_there) then
+                  gap = gap + self%bored%depth(j, k, at_middle)
+                  result%f_bore = result%f_bore + p(j, k)*self%weight(j)*self%bored%rise(j, k)*part
+               end if
                area = (self%y(j) - self%y(j - 1))*step*part
                result%shear_all = result%shear_all + area/gap
                if (p(j, k) > 0.0_wp) result%shear_wet = result%shear_wet + area/gap
@@ -55,6 +62,8 @@ contains
          if (.not. self%is_whole) result%f_1 = 0.0_wp
          result%p_max = maxval(p)
          result%h_min = 1.0_wp - max(norm2(e + g), norm2(e - g))
+         if (self%bored%is_there) result%h_min = min(self%bored%bore%min_gap(e + g, self%state%per_clearance), &
+                                                     self%bored%bore%min_gap(e - g, self%state%per_clearance))
       end associate
    end subroutine get_result
 
@@ -65,17 +74,14 @@ contains
       integer, intent(in) :: j                    !! row at the end
       integer, intent(in) :: k                    !! the column
 
-      real(wp) :: end, gap, middle, rest, u(2)
+      real(wp) :: end, rest
 
       end_flow = 0.0_wp
       if (.not. abs(self%film%p(j, k)) > 0.0_wp) return
       associate (theta => self%theta(k - 1:k), y => self%y(j - 1:j))
-         middle = 0.5_wp*(theta(1) + theta(2))
-         u = [cos(middle), sin(middle)]
          end = merge(y(1), y(2), j == 1 .and. self%is_whole)
-         gap = 1.0_wp - dot_product(self%state%e + end*self%state%g, u)
-         rest = self%ratio**2*drag*dot_product(self%state%v + end*self%state%w, u)*(y(2) - y(1) - self%weight(j))
-         end_flow = (gap**3*self%film%p(j, k)/(0.5_wp*(y(2) - y(1))) + rest)*(theta(2) - theta(1))
+         rest = self%ratio**2*drag*self%source_at(j, k, end)*(y(2) - y(1) - self%weight(j))
+         end_flow = (self%gap(j, k, end)**3*self%film%p(j, k)/(0.5_wp*(y(2) - y(1))) + rest)*(theta(2) - theta(1))
       end associate
    end function end_flow
 
