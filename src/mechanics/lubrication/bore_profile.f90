@@ -80,6 +80,8 @@ contains
       type(item_t), intent(in) :: item    !! the row
       type(bore_t), intent(out) :: bore   !! its bore
 
+      integer :: angles, depths
+
       allocate (bore%angle(0), bore%depth(0))
       select case (item%word("bore"))
       case ("lobes")
@@ -88,8 +90,10 @@ contains
          bore%offset = item%number("offset")
          bore%start = item%number("bore_angle")
       case ("points")
-         bore%angle = item%values(place_of(item, "bore_angles"))%table(:, 1)
-         bore%depth = item%values(place_of(item, "bore_depths"))%table(:, 1)
+         angles = place_of(item, "bore_angles")
+         depths = place_of(item, "bore_depths")
+         bore%angle = item%values(angles)%table(:, 1)
+         bore%depth = item%values(depths)%table(:, 1)
       end select
       if (item%word("dam") == "none") return
       bore%dam_start = item%number("dam_start")

@@ -6,7 +6,11 @@
 !>
 !> flow = s G_f - a b/(a + b) (P_+ - P_-),   G_f = (b G_- + a G_+)/(a + b),   s = 6 (w_J - w_B)
 !>
-!> so that a step is exact in one dimension. Source: own derivation; the conductance in series: Patankar (1980), chapter 4.
+!> so that a step is exact in one dimension. The pressure on the step counts too: P_f (G_+ - G_-), of which the cells have
+!>
+!> (a P_- + b P_+)/(a + b),   P_f = (a P_- + b P_+)/(a + b) - s (G_+ - G_-)/(a + b), not below zero where films rupture.
+!>
+!> Source: own derivation; the conductance in series: Patankar (1980), chapter 4.
 module bored_gap
    use bore_profile, only: bore_t
    use kinds, only: two_pi, wp
@@ -26,10 +30,14 @@ module bored_gap
       real(wp), allocatable, private :: dam(:)       !! (n) what the dam adds [1]
       logical, allocatable, private :: in_dam(:)     !! (m) rows that the dam reaches over
       real(wp), allocatable :: rise(:, :)            !! (m, n) G_f at the right of a cell less that at its left [1]
+      real(wp), allocatable, private :: step(:, :)   !! (m, n) G_+ - G_- at the right of a cell [1]
+      real(wp), allocatable, private :: share(:, :)  !! (m, n) a/(a + b) there; below zero: the pressure there is given [1]
+      real(wp), allocatable, private :: edge(:, :)   !! (m, n) 1/(a + b) there; where it is given, the pressure [1 or 1/s]
    contains
       procedure :: place
       procedure :: depth
       procedure :: join
+      procedure :: step_push
    end type bored_gap_t
 
 contains
@@ -43,7 +51,8 @@ contains
 
       self%bore = bore
       self%is_there = .true.
-      allocate (self%g(3, n), self%dam(n), self%rise(m, n), source=0.0_wp)
+      allocate (self%g(3, n), self%dam(n), source=0.0_wp)
+      allocate (self%rise(m, n), self%step(m, n), self%share(m, n), self%edge(m, n), source=0.0_wp)
       allocate (self%in_dam(m), source=.false.)
    end subroutine new_bored_gap
 
@@ -110,17 +119,21 @@ contains
    end function depth
 
    !> The edge between a column and the next one in a row: G_f there, or, where the pressure at the edge is given, G of each side.
-   pure subroutine join(self, j, k, next, a, b, is_given)
+   pure subroutine join(self, j, k, next, a, b, is_given, pressure)
       class(bored_gap_t), intent(inout) :: self  !! the bore on the grid
       integer, intent(in) :: j                   !! the row
       integer, intent(in) :: k, next             !! the columns
-      real(wp), intent(in) :: a, b               !! conductances of the half cells of both
+      real(wp), intent(in) :: a, b               !! conductances of the half cells of both [1]
       logical, intent(in) :: is_given            !! the pressure at the edge is given
+      real(wp), intent(in) :: pressure           !! that pressure [1/s]
 
       real(wp) :: here, there
 
       here = self%depth(j, k, at_right)
       there = self%depth(j, next, at_left)
+      self%step(j, k) = there - here
+      self%share(j, k) = merge(-1.0_wp, a/(a + b), is_given)
+      self%edge(j, k) = merge(pressure, 1.0_wp/(a + b), is_given)
       if (.not. is_given) then
          here = (b*here + a*there)/(a + b)
          there = here
@@ -128,5 +141,27 @@ contains
       self%rise(j, k) = self%rise(j, k) + here
       self%rise(j, next) = self%rise(j, next) - there
    end subroutine join
+
+   !> What the pressure on the step between two columns adds to that of both cells on their rises.
+   pure real(wp) function step_push(self, j, k, p, speed, is_full) result(push)
+      class(bored_gap_t), intent(in) :: self  !! the bore on the grid
+      integer, intent(in) :: j, k             !! row and column before the step
+      real(wp), intent(in) :: p(2)            !! (2) pressures of both cells [1/s]
+      real(wp), intent(in) :: speed           !! s times the width of the row [1/s]
+      logical, intent(in) :: is_full          !! pressures may be below zero
+
+      real(wp) :: change
+
+      push = 0.0_wp
+      associate (step => self%step(j, k), share => self%share(j, k))
+         if (.not. abs(step) > 0.0_wp) return
+         change = self%edge(j, k)
+         if (share >= 0.0_wp) then
+            change = -speed*step*self%edge(j, k)
+            if (.not. is_full) change = max(change, -(share*p(1) + (1.0_wp - share)*p(2)))
+         end if
+         push = change*step
+      end associate
+   end function step_push
 
 end module bored_gap

@@ -1,7 +1,8 @@
 !> Pressure and gap of a film on a grid at places of one's own: the unwrapped film, for files and pictures.
 !>
 !> p = (mu R^2/c^2) P, h = c (1 + G - (e + y g).u); P between the middles of cells by bilinear interpolation, zero at the ends of
-!> the bearing, mirrored where the grid has half the length. So it is second order as the grid is, and what the cells have they keep.
+!> the bearing, mirrored where the grid has half the length. So it is second order as the grid is, and what the cells have they
+!> keep.
 module reynolds_field
    use kinds, only: two_pi, wp
    use reynolds_grid, only: reynolds_grid_t

@@ -94,7 +94,7 @@ contains
       if (present(bore)) then
          call new_length(self%length, m, [self%supply%length, bore%dam_length])
       else
-         call new_length(self%length, m, supply%length)
+         call new_length(self%length, m, [supply%length])
       end if
       n_column = sum(self%ring%n_cell)
       n_row = sum(self%length%n_cell)*merge(2, 1, is_tilted)
@@ -244,7 +244,7 @@ contains
    pure subroutine set_around(self)
       class(reynolds_grid_t), intent(inout) :: self  !! the grid
 
-      real(wp) :: behind, here, there, u(2), wide, y
+      real(wp) :: behind, given, here, there, u(2), wide, y
       integer :: j, k, next
       logical :: is_given
 
@@ -261,18 +261,22 @@ contains
                if (self%bored%is_there) behind = cube_of_gap(self, j, next, at_left, y, u)*(self%y(j) - self%y(j - 1))
                film%around(j, k) = 0.0_wp
                is_given = .true.
+               given = 0.0_wp
                if (self%is_supplied(self%edge(next), j)) then
-                  call feed(film, j, k, wide/here, self%supply(self%edge(next))%pressure)
-                  call feed(film, j, next, behind/there, self%supply(self%edge(next))%pressure)
+                  given = self%supply(self%edge(next))%pressure
+                  call feed(film, j, k, wide/here, given)
+                  call feed(film, j, next, behind/there, given)
                else if (film%is_known(j, next)) then
-                  call feed(film, j, k, wide/here, film%p(j, next))
+                  given = film%p(j, next)
+                  call feed(film, j, k, wide/here, given)
                else if (film%is_known(j, k)) then
-                  call feed(film, j, next, behind/there, film%p(j, k))
+                  given = film%p(j, k)
+                  call feed(film, j, next, behind/there, given)
                else
                   film%around(j, k) = in_series(self, wide, behind, here, there)
                   is_given = .false.
                end if
-               if (self%bored%is_there) call self%bored%join(j, k, next, wide/here, behind/there, is_given)
+               if (self%bored%is_there) call self%bored%join(j, k, next, wide/here, behind/there, is_given, given)
             end do
          end do
       end associate
@@ -294,8 +298,8 @@ contains
    !> Conductance of two half cells, one behind the other.
    pure real(wp) function in_series(self, wide, behind, here, there)
       class(reynolds_grid_t), intent(in) :: self  !! the grid
-      real(wp), intent(in) :: wide, behind        !! h^3 times the width of both
-      real(wp), intent(in) :: here, there         !! their lengths
+      real(wp), intent(in) :: wide, behind        !! h^3 times the width of both [1]
+      real(wp), intent(in) :: here, there         !! their lengths [1]
 
       if (self%bored%is_there) then
          in_series = wide*behind/(here*behind + there*wide)

@@ -49,7 +49,7 @@ contains
                gap = 1.0_wp - dot_product(e + y*g, u)
                if (self%bored%is_there) then
                   gap = gap + self%bored%depth(j, k, at_middle)
-                  result%f_bore = result%f_bore + p(j, k)*self%weight(j)*self%bored%rise(j, k)*part
+                  result%f_bore = result%f_bore + part*self%weight(j)*bore_push(self, j, k)
                end if
                area = (self%y(j) - self%y(j - 1))*step*part
                result%shear_all = result%shear_all + area/gap
@@ -66,6 +66,17 @@ contains
                                                      self%bored%bore%min_gap(e - g, self%state%per_clearance))
       end associate
    end subroutine get_result
+
+   !> Pressure on the rise of the bore in a cell, and on the step behind it.
+   pure real(wp) function bore_push(self, j, k) result(push)
+      class(reynolds_grid_t), intent(in) :: self  !! the grid
+      integer, intent(in) :: j, k                 !! row and column
+
+      associate (p => self%film%p, next => modulo(k, self%film%n) + 1)
+         push = p(j, k)*self%bored%rise(j, k) &
+                + self%bored%step_push(j, k, [p(j, k), p(j, next)], 0.5_wp*drag*self%state%spin*self%weight(j), self%film%is_full)
+      end associate
+   end function bore_push
 
    !> Flow out of the end of a column, int h^3 |dP/dy| d(theta): what the end row hands on, and the part of its source that is not
    !> in it.
