@@ -246,8 +246,9 @@ contains
 
       real(wp) :: behind, given, here, there, u(2), wide, y
       integer :: j, k, next
-      logical :: is_given
+      logical :: is_bored, is_given
 
+      is_bored = self%bored%is_there
       associate (film => self%film, theta => self%theta)
          do k = 1, film%n
             next = modulo(k, film%n) + 1
@@ -256,9 +257,12 @@ contains
             u = [cos(theta(k)), sin(theta(k))]
             do j = 1, film%m
                y = 0.5_wp*(self%y(j - 1) + self%y(j))
-               wide = cube_of_gap(self, j, k, at_right, y, u)*(self%y(j) - self%y(j - 1))
+               wide = height(self%state, y, u)**3*(self%y(j) - self%y(j - 1))
                behind = wide
-               if (self%bored%is_there) behind = cube_of_gap(self, j, next, at_left, y, u)*(self%y(j) - self%y(j - 1))
+               if (is_bored) then
+                  wide = cube_of_gap(self, j, k, at_right, y, u)*(self%y(j) - self%y(j - 1))
+                  behind = cube_of_gap(self, j, next, at_left, y, u)*(self%y(j) - self%y(j - 1))
+               end if
                film%around(j, k) = 0.0_wp
                is_given = .true.
                given = 0.0_wp
@@ -273,10 +277,11 @@ contains
                   given = film%p(j, k)
                   call feed(film, j, next, behind/there, given)
                else
-                  film%around(j, k) = in_series(self, wide, behind, here, there)
+                  film%around(j, k) = wide/(here + there)
+                  if (is_bored) film%around(j, k) = in_series(wide, behind, here, there)
                   is_given = .false.
                end if
-               if (self%bored%is_there) call self%bored%join(j, k, next, wide/here, behind/there, is_given, given)
+               if (is_bored) call self%bored%join(j, k, next, wide/here, behind/there, is_given, given)
             end do
          end do
       end associate
@@ -296,16 +301,11 @@ contains
    end function cube_of_gap
 
    !> Conductance of two half cells, one behind the other.
-   pure real(wp) function in_series(self, wide, behind, here, there)
-      class(reynolds_grid_t), intent(in) :: self  !! the grid
+   pure real(wp) function in_series(wide, behind, here, there)
       real(wp), intent(in) :: wide, behind        !! h^3 times the width of both [1]
       real(wp), intent(in) :: here, there         !! their lengths [1]
 
-      if (self%bored%is_there) then
-         in_series = wide*behind/(here*behind + there*wide)
-      else
-         in_series = wide/(here + there)
-      end if
+      in_series = wide*behind/(here*behind + there*wide)
    end function in_series
 
    !> Conductances along the bearing and to its ends.
@@ -314,6 +314,9 @@ contains
 
       real(wp) :: behind, here, middle, step, there, u(2), wide
       integer :: j, k
+      logical :: is_bored
+
+      is_bored = self%bored%is_there
 
       associate (film => self%film, theta => self%theta, y => self%y)
          do k = 1, film%n
@@ -322,9 +325,12 @@ contains
             u = [cos(middle), sin(middle)]
             do j = 0, film%m
                if (j == 0 .and. .not. self%is_whole) cycle
-               wide = cube_of_gap(self, max(j, 1), k, at_middle, y(j), u)*step/self%ratio**2
+               wide = height(self%state, y(j), u)**3*step/self%ratio**2
                behind = wide
-               if (self%bored%is_there) behind = cube_of_gap(self, min(j + 1, film%m), k, at_middle, y(j), u)*step/self%ratio**2
+               if (is_bored) then
+                  wide = cube_of_gap(self, max(j, 1), k, at_middle, y(j), u)*step/self%ratio**2
+                  behind = cube_of_gap(self, min(j + 1, film%m), k, at_middle, y(j), u)*step/self%ratio**2
+               end if
                here = 0.5_wp*(y(max(j, 1)) - y(max(j, 1) - 1))
                there = 0.5_wp*(y(min(j + 1, film%m)) - y(min(j, film%m - 1)))
                if (j == film%m) then
@@ -338,7 +344,8 @@ contains
                   else if (film%is_known(j, k)) then
                      call feed(film, j + 1, k, behind/there, film%p(j, k))
                   else
-                     film%along(j, k) = in_series(self, wide, behind, here, there)
+                     film%along(j, k) = wide/(here + there)
+                     if (is_bored) film%along(j, k) = in_series(wide, behind, here, there)
                   end if
                end if
             end do

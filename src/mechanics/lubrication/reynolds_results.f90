@@ -5,7 +5,6 @@
 !> part of the film that is liquid: over all of it, or where there is pressure. A bore that is not round adds the pressure on its
 !> slopes, f_G = (1/2) int P dG d(y), see `reynolds_grid`: the moment on the journal has c/2 mu L R^3/c^2 f_G more.
 module reynolds_results
-   use bored_gap, only: at_middle
    use kinds, only: wp
    use reynolds_grid, only: drag, reynolds_grid_t
    implicit none (type, external)
@@ -47,10 +46,6 @@ contains
                result%f = result%f - push*u
                result%f_1 = result%f_1 - push*y*u
                gap = 1.0_wp - dot_product(e + y*g, u)
-               if (self%bored%is_there) then
-                  gap = gap + self%bored%depth(j, k, at_middle)
-                  result%f_bore = result%f_bore + part*self%weight(j)*bore_push(self, j, k)
-               end if
                area = (self%y(j) - self%y(j - 1))*step*part
                result%shear_all = result%shear_all + area/gap
                if (p(j, k) > 0.0_wp) result%shear_wet = result%shear_wet + area/gap
@@ -62,10 +57,33 @@ contains
          if (.not. self%is_whole) result%f_1 = 0.0_wp
          result%p_max = maxval(p)
          result%h_min = 1.0_wp - max(norm2(e + g), norm2(e - g))
+         if (self%bored%is_there) call add_bore(self, part, result)
          if (self%bored%is_there) result%h_min = min(self%bored%bore%min_gap(e + g, self%state%per_clearance), &
                                                      self%bored%bore%min_gap(e - g, self%state%per_clearance))
       end associate
    end subroutine get_result
+
+   !> Shear in the gap of a bore that is not round, and the pressure on its slopes.
+   pure subroutine add_bore(self, part, result)
+      class(reynolds_grid_t), intent(in) :: self     !! the grid
+      real(wp), intent(in) :: part                   !! of the cells in the mean over the length [1]
+      type(film_result_t), intent(inout) :: result   !! shear and f_bore are set
+
+      real(wp) :: shear
+      integer :: j, k
+
+      result%shear_all = 0.0_wp
+      result%shear_wet = 0.0_wp
+      do k = 1, self%film%n
+         do j = 1, self%film%m
+            shear = part*(self%y(j) - self%y(j - 1))*(self%theta(k) - self%theta(k - 1)) &
+                    /self%gap(j, k, 0.5_wp*(self%y(j) + self%y(j - 1)))
+            result%shear_all = result%shear_all + shear
+            if (self%film%p(j, k) > 0.0_wp) result%shear_wet = result%shear_wet + shear
+            result%f_bore = result%f_bore + part*self%weight(j)*bore_push(self, j, k)
+         end do
+      end do
+   end subroutine add_bore
 
    !> Pressure on the rise of the bore in a cell, and on the step behind it.
    pure real(wp) function bore_push(self, j, k) result(push)
