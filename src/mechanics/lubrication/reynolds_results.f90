@@ -103,14 +103,21 @@ contains
       integer, intent(in) :: j                    !! row at the end
       integer, intent(in) :: k                    !! the column
 
-      real(wp) :: end, rest
+      real(wp) :: end, gap, middle, rest, u(2)
 
       end_flow = 0.0_wp
       if (.not. abs(self%film%p(j, k)) > 0.0_wp) return
       associate (theta => self%theta(k - 1:k), y => self%y(j - 1:j))
+         middle = 0.5_wp*(theta(1) + theta(2))
+         u = [cos(middle), sin(middle)]
          end = merge(y(1), y(2), j == 1 .and. self%is_whole)
-         rest = self%ratio**2*drag*self%source_at(j, k, end)*(y(2) - y(1) - self%weight(j))
-         end_flow = (self%gap(j, k, end)**3*self%film%p(j, k)/(0.5_wp*(y(2) - y(1))) + rest)*(theta(2) - theta(1))
+         gap = 1.0_wp - dot_product(self%state%e + end*self%state%g, u)
+         rest = self%ratio**2*drag*dot_product(self%state%v + end*self%state%w, u)*(y(2) - y(1) - self%weight(j))
+         if (self%bored%is_there) then
+            gap = self%gap(j, k, end)
+            rest = self%ratio**2*drag*self%source_at(j, k, end)*(y(2) - y(1) - self%weight(j))
+         end if
+         end_flow = (gap**3*self%film%p(j, k)/(0.5_wp*(y(2) - y(1))) + rest)*(theta(2) - theta(1))
       end associate
    end function end_flow
 
