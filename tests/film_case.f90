@@ -63,6 +63,7 @@ contains
          if (info%name == "film."//name) exit
       end do
       call fill_item(info, 1, random, item)
+      item%values%given = .false.
       do k = 1, size(info%columns)
          if (allocated(info%columns(k)%choices)) item%values(k)%text = info%columns(k)%default
       end do

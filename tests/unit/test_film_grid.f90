@@ -48,6 +48,7 @@ contains
       allocate (film_grid_t :: case%law)
       info = case%law%info()
       call fill_item(info, 1, random, item)
+      item%values%given = .false.
       item%values(column_number(info, "resolution"))%text = "normal"
       item%values(column_number(info, "supply"))%text = supply
       item%values(column_number(info, "number"))%number = number

@@ -6,7 +6,7 @@ module surface_checks
    use film_places, only: film_bearing_of, place_of_film
    use item, only: item_t
    use joint_level, only: level_clearance, level_ideal, level_lubricated, level_of
-   use kind_info, only: kind_info_t
+   use kind_info, only: in_space, kind_info_t
    use kinds, only: wp
    use normal_law, only: n_law_parameter
    use scene, only: scene_t
@@ -113,6 +113,7 @@ contains
             if (bearing%is_sphere) message = "film '"//law%name//"' is for a journal in a bearing"
             if (bearing%is_sphere) help = "use a row of film.spherical"
          end if
+         if (message == "" .and. law%has_bore()) call check_bore(info, item, message, help)
       end associate
       if (message /= "") column = column_of(info, "film")
       if (message /= "" .or. bearing%is_sphere) return
@@ -123,5 +124,21 @@ contains
       message = "joint '"//item%name//"' has a heat balance, but the viscosity of its lubricant does not depend on temperature"
       help = "give the lubricant a grade and its inlet temperature"
    end subroutine check_film
+
+   !> A bore that is not round is that of a film alone between journals in the plane: surfaces that touch are round.
+   subroutine check_bore(info, item, message, help)
+      type(kind_info_t), intent(in) :: info                 !! the geometry
+      type(item_t), intent(in) :: item                      !! the row
+      character(:), allocatable, intent(inout) :: message   !! what is wrong
+      character(:), allocatable, intent(inout) :: help      !! what would be right
+
+      if (info%space == in_space) then
+         message = "film '"//item%word("film")//"' has a bore that is not round, which a spatial joint does not know"
+         help = "use a planar scene, or bore = round and dam = none"
+      else if (level_of(item) /= level_lubricated) then
+         message = "film '"//item%word("film")//"' has a bore that is not round, but the surfaces that touch are round"
+         help = "use level = lubricated, or bore = round and dam = none"
+      end if
+   end subroutine check_bore
 
 end module surface_checks

@@ -158,7 +158,7 @@ contains
    end subroutine find_eccentricity
 
    !> Add forces and moments of the films to the loads.
-   pure subroutine add_film_loads(n, law, parameters, place, films, f, s, body, n_body, omega, force, moment, power)
+   subroutine add_film_loads(n, law, parameters, place, films, f, s, body, n_body, omega, force, moment, power)
       integer, intent(in) :: n                                  !! number of bearings
       class(film_law_t), intent(in) :: law                      !! the film
       real(wp), intent(in) :: parameters(n_film_parameter, n)   !! (n_film_parameter, n) of the bearings [any]

@@ -70,8 +70,8 @@ contains
       call add_channel(info, "film_force", "N", "world", 2, "force of the film on the journal", of_film_force)
       call add_channel(info, "film_torque", "N.m", "world", 1, "shear moment of the film on the journal, as applied", &
                        of_film_torque)
-      call add_channel(info, "film_thickness", "m", "none", 1, "minimum film thickness, clearance minus eccentricity", &
-                       of_film_thickness)
+      call add_channel(info, "film_thickness", "m", "none", 1, "minimum film thickness; of a round bore clearance minus " &
+                       //"eccentricity", of_film_thickness)
       call add_channel(info, "film_pressure", "Pa", "none", 1, "maximum film pressure at mid-length, in steps of one degree; " &
                        //"for films with a pressure field: grid, squeeze, short and long", of_film_pressure)
       call add_channel(info, "eccentricity_ratio", "1", "none", 1, "eccentricity ratio", of_eccentricity_ratio)

@@ -171,7 +171,8 @@ contains
       case (of_film_torque); value(1) = state%torque
       case (of_film_pressure); value(1) = self%laws%films%max_pressure(k, film)
       case (of_eccentricity_ratio); value(1) = norm2(film%e)/self%items%pairs(k)%clearance
-      case (of_film_thickness); value(1) = max(self%items%pairs(k)%clearance - norm2(film%e), 0.0_wp)
+      case (of_film_thickness)
+         value(1) = self%laws%films%law%min_thickness(self%items%pairs(k)%clearance, film, self%laws%films%parameters(:, k))
       case (of_drag_journal); value(1) = state%drag_journal
       case (of_drag_bearing); value(1) = state%drag_bearing
       case (of_film_power); value(1) = state%power

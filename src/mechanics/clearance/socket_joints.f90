@@ -3,7 +3,7 @@
 !> Levels are those of the plane, see `clearance_revolute`. Channels of the force and of the moment are those of contacts and film
 !> together. Limits: those of both.
 module socket_joints
-   use film_law, only: film_motion_t, max_eccentricity
+   use film_law, only: film_motion_t
    use film_places, only: film_state_t
    use kinds, only: wp
    use motion, only: cross, motion_t
@@ -109,7 +109,8 @@ contains
          if (size(value) == 3) value = state%shear
       case (of_film_pressure); value(1) = self%laws%films%max_pressure(k, film)
       case (of_eccentricity_ratio); value(1) = norm2(film%e)/self%items%pairs(k)%clearance
-      case (of_film_thickness); value(1) = max(self%items%pairs(k)%clearance - max_eccentricity(film), 0.0_wp)
+      case (of_film_thickness)
+         value(1) = self%laws%films%law%min_thickness(self%items%pairs(k)%clearance, film, self%laws%films%parameters(:, k))
       case (of_drag_journal); value(1) = state%drag_journal
       case (of_drag_bearing); value(1) = state%drag_bearing
       case (of_film_power); value(1) = state%power

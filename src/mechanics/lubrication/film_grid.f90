@@ -7,24 +7,27 @@
 !> distances around the bearing, fixed in it, as grooves (length 1) or holes (length and width the same way along the surface); with
 !> `both` the line has no pressure and the fixed ones have that of the row. Published tables of grooved bearings mean `both`.
 !>
-!> A tilted journal has rows over the whole length, see `reynolds_grid`.
+!> A tilted journal has rows over the whole length, see `reynolds_grid`. A bore that is not round: `bore_profile`; the pressure on
+!> its slopes gives moments too, with Gamma = mu L R^3/c f_G of `reynolds_results` and J of the whole gap,
+!>
+!> T_J, T_B = -+ mu L R^3/c (w_J - w_B) J - (e x F)_z/2 +- Gamma/2
 !>
 !> Signs: on the journal; angles in the frame of the bearing's body. Beyond eps_max, at either end, the film has the shape that it
 !> has with e and tilt made smaller in proportion, and v as it is. Source: Reynolds (1886). Limits: any L/D; some hundred times as
 !> dear as `finite`.
 !>
-!> Grids are made when the film is fitted to a bearing, one for each L/D (with tilt, when it is first asked for), and stay as long
-!> as the program: all films with the same supplies, resolution and boundary share them, each solution starts with the wet cells of
-!> the one before and does not depend on it.
+!> Grids are made when the film is fitted to a bearing, one for each L/D, and shared, see `reynolds_pool`.
 module film_grid
+   use bore_profile, only: add_bore_columns, bore_mistake, bore_words, new_bore
    use film_law, only: basic_parameters, film_bearing_t, film_law_t, film_motion_t, max_eccentricity, n_film_parameter, &
-      own_parameters, parameter_clearance, parameter_eps_max, parameter_length, parameter_radius, parameter_viscosity
+      film_torques, own_parameters, parameter_clearance, parameter_eps_max, parameter_length, parameter_radius, parameter_viscosity
    use item, only: item_t
    use kind_info, only: add_number, add_word, dim_angle, dim_none, dim_pressure, kind_info_t
    use kinds, only: not_a_number, two_pi, wp
    use reynolds_field, only: film_field
-   use reynolds_grid, only: boundary_full, boundary_reynolds, journal_state_t, new_reynolds_grid, reynolds_grid_t
+   use reynolds_grid, only: boundary_full, boundary_reynolds, journal_state_t
    use reynolds_mesh, only: supply_t
+   use reynolds_pool, only: columns_of, find_grid, find_pool, grid_form_t, grid_pool_t, rows_of
    use reynolds_results, only: film_result_t, get_result
    use text, only: to_text
    implicit none (type, external)
@@ -34,34 +37,21 @@ module film_grid
    integer, parameter :: parameter_scale = own_parameters + 1     !! mu L R^3/c^2 [N.s]
    integer, parameter :: parameter_ratio = own_parameters + 2     !! L/D [1]
    integer, parameter :: parameter_pressure = own_parameters + 3  !! P of the supplies [1/s]
-   integer, parameter :: columns_of(3) = [80, 160, 240]           !! of the words of `resolution`
-   integer, parameter :: rows_of(3) = [10, 16, 24]                !! rows of the half length
-   real(wp), parameter :: same_ratio = 1.0e-12_wp                 !! difference of L/D that is none [1]
-
-   !> Grids that films share, and what these films are like.
-   type :: grid_pool_t
-      type(supply_t), allocatable :: supply(:)       !! where lubricant comes in, pressures in Pa
-      integer :: resolution = 2                      !! coarse, normal, fine
-      integer :: boundary = boundary_reynolds        !! where pressures end
-      type(grid_pool_t), pointer :: next => null()   !! the pool made before
-      type(reynolds_grid_t), allocatable :: grid(:)  !! the grids
-      real(wp), allocatable :: pressure(:)           !! (grids) P of the supplies in the last solution; huge: there is none [1/s]
-   end type grid_pool_t
-
-   type(grid_pool_t), pointer :: last_pool => null()  !! of all that were made: films come and go, and copies of them
 
    !> A bearing of finite length.
    type, extends(film_law_t) :: film_grid_t
       type(grid_pool_t), pointer :: pool => null()  !! grids, one for each L/D
-      type(supply_t), allocatable :: supply(:)      !! where lubricant comes in, pressures in Pa
-      integer :: resolution = 2                     !! coarse, normal, fine
-      integer :: boundary = boundary_reynolds       !! where pressures end
+      type(grid_form_t) :: form                     !! what they are like
+      character(:), allocatable :: bad_bore         !! what is wrong with it, empty: nothing
    contains
       procedure, nopass :: info => grid_info
       procedure :: prepare => grid_prepare
       procedure :: fit => grid_fit
       procedure :: force => grid_force
       procedure :: tilted_force => grid_tilted_force
+      procedure :: torques => grid_torques
+      procedure :: has_bore => grid_has_bore
+      procedure :: min_thickness => grid_min_thickness
       procedure :: side_flow => grid_side_flow
       procedure, nopass :: has_field => grid_has
       procedure, nopass :: knows_tilt => grid_has
@@ -96,6 +86,7 @@ contains
          default="1", &
                       lower=0.0_wp, upper=1.0_wp, open_lower=.true.)
       call add_number(info, "pressure", dim_pressure, "supply pressure above that at the ends", default="0 Pa", lower=0.0_wp)
+      call add_bore_columns(info)
    end function grid_info
 
    !> Take the columns.
@@ -106,61 +97,34 @@ contains
       integer :: k, n
 
       self%name = item%name
-      self%boundary = merge(boundary_full, boundary_reynolds, item%word("boundary") == "full")
-      self%resolution = findloc(["coarse", "normal", "fine  "] == item%word("resolution"), .true., dim=1)
+      self%form%boundary = merge(boundary_full, boundary_reynolds, item%word("boundary") == "full")
+      self%form%resolution = findloc(["coarse", "normal", "fine  "] == item%word("resolution"), .true., dim=1)
       select case (item%word("supply"))
       case ("widest_gap")
-         self%supply = [supply_t(pressure=item%number("pressure"), is_at_widest_gap=.true.)]
+         self%form%supply = [supply_t(pressure=item%number("pressure"), is_at_widest_gap=.true.)]
       case ("fixed", "both")
          n = nint(item%number("number"))
-         self%supply = [(supply_t(angle=item%number("angle") + two_pi*(k - 1)/n, width=item%number("width"), &
+         self%form%supply = [(supply_t(angle=item%number("angle") + two_pi*(k - 1)/n, width=item%number("width"), &
                                   length=item%number("length"), pressure=item%number("pressure")), k=1, n)]
-         if (item%word("supply") == "both") self%supply = [self%supply, supply_t(is_at_widest_gap=.true.)]
+         if (item%word("supply") == "both") self%form%supply = [self%form%supply, supply_t(is_at_widest_gap=.true.)]
       case default
-         allocate (self%supply(0))
+         allocate (self%form%supply(0))
       end select
-      call find_pool(self)
+      self%bad_bore = bore_mistake(item)
+      if (self%bad_bore == "") call new_bore(item, self%form%bore)
+      if (self%has_bore() .and. any(self%form%supply%is_at_widest_gap)) then
+         self%bad_bore = "a supply along the widest gap is that of a round bore: use supply = none or fixed"
+      end if
+      call find_pool(self%form, self%pool)
    end subroutine grid_prepare
-
-   !> The pool of films like this one; it is made if it is not there.
-   subroutine find_pool(self)
-      class(film_grid_t), intent(inout) :: self  !! the film; its pool is set
-
-      self%pool => last_pool
-      do while (associated(self%pool))
-         associate (pool => self%pool)
-            if (pool%resolution == self%resolution .and. pool%boundary == self%boundary &
-                .and. size(pool%supply) == size(self%supply)) then
-               if (all(are_equal(pool%supply, self%supply))) return
-            end if
-         end associate
-         self%pool => self%pool%next
-      end do
-      allocate (self%pool)
-      self%pool%supply = self%supply
-      self%pool%resolution = self%resolution
-      self%pool%boundary = self%boundary
-      self%pool%next => last_pool
-      allocate (self%pool%grid(0), self%pool%pressure(0))
-      last_pool => self%pool
-   end subroutine find_pool
-
-   !> Whether two supplies are one and the same.
-   elemental logical function are_equal(a, b)
-      type(supply_t), intent(in) :: a  !! one
-      type(supply_t), intent(in) :: b  !! the other
-
-      are_equal = (a%is_at_widest_gap .eqv. b%is_at_widest_gap) .and. &
-                  .not. any(abs([a%angle - b%angle, a%width - b%width, a%length - b%length, a%pressure - b%pressure]) > 0.0_wp)
-   end function are_equal
 
    !> Supplies that leave no film between them.
    function grid_mistake(self) result(message)
       class(film_grid_t), intent(in) :: self  !! the film
       character(:), allocatable :: message    !! one line, empty: all is well
 
-      message = ""
-      if (sum(self%supply%width) > 0.9_wp*two_pi) message = to_text(size(self%supply)) &
+      message = self%bad_bore
+      if (sum(self%form%supply%width) > 0.9_wp*two_pi) message = to_text(size(self%form%supply)) &
                                                             //" supplies of this width leave no film: the maximum total is 324 deg"
    end function grid_mistake
 
@@ -178,34 +142,11 @@ contains
       help = ""
       call basic_parameters(bearing, parameters)
       parameters(parameter_scale) = bearing%viscosity*bearing%length*bearing%radius**3/bearing%clearance**2
-      if (size(self%supply) > 0) parameters(parameter_pressure) = self%supply(1)%pressure*bearing%clearance**2 &
-                                                                  /(bearing%viscosity*bearing%radius**2)
+      if (size(self%form%supply) > 0) parameters(parameter_pressure) = self%form%supply(1)%pressure*bearing%clearance**2 &
+                                                                       /(bearing%viscosity*bearing%radius**2)
       parameters(parameter_ratio) = 0.5_wp*bearing%length/bearing%radius
-      call find_grid(self, parameters(parameter_ratio), .false., number)
+      call find_grid(self%pool, parameters(parameter_ratio), .false., number)
    end subroutine grid_fit
-
-   !> Number of the grid of an L/D; it is made if it is not there.
-   subroutine find_grid(self, ratio, is_tilted, number)
-      class(film_grid_t), intent(in) :: self  !! the film
-      real(wp), intent(in) :: ratio           !! L/D [1]
-      logical, intent(in) :: is_tilted        !! over the whole length
-      integer, intent(out) :: number          !! of the grid
-
-      type(reynolds_grid_t), allocatable :: grids(:)
-      integer :: n
-
-      n = size(self%pool%grid)
-      do number = 1, n
-         if (self%pool%grid(number)%is_whole .neqv. is_tilted) cycle
-         if (abs(self%pool%grid(number)%ratio - ratio) <= same_ratio*ratio) return
-      end do
-      allocate (grids(n + 1))
-      grids(:n) = self%pool%grid
-      call new_reynolds_grid(grids(number), ratio, columns_of(self%resolution), rows_of(self%resolution), self%boundary, &
-                             self%supply, is_tilted)
-      call move_alloc(grids, self%pool%grid)
-      self%pool%pressure = [self%pool%pressure, huge(1.0_wp)]
-   end subroutine find_grid
 
    !> Forces of n bearings.
    subroutine grid_force(self, n, motion, parameters, f)
@@ -270,11 +211,15 @@ contains
 
       status = 0
       state = state_of(motion, parameters)
-      call find_grid(self, parameters(parameter_ratio), any(abs([state%g, state%w]) > 0.0_wp), number)
+      if (self%has_bore()) then
+         state%spin = motion%speed_difference
+         state%per_clearance = 1.0_wp/parameters(parameter_clearance)
+      end if
+      call find_grid(self%pool, parameters(parameter_ratio), any(abs([state%g, state%w]) > 0.0_wp), number)
       associate (grid => self%pool%grid(number), solved => self%pool%pressure(number), pressure => parameters(parameter_pressure))
          if (.not. abs(solved - pressure) > 0.0_wp) then
-            if (.not. any(abs([grid%state%e - state%e, grid%state%v - state%v, grid%state%g - state%g, grid%state%w - state%w]) &
-                          > 0.0_wp)) return
+            if (.not. any(abs([grid%state%e - state%e, grid%state%v - state%v, grid%state%g - state%g, grid%state%w - state%w, &
+                            grid%state%spin - state%spin, grid%state%per_clearance - state%per_clearance]) > 0.0_wp)) return
          end if
          grid%supply%pressure = pressure
          if (size(grid%supply) > 1) where (grid%supply%is_at_widest_gap) grid%supply%pressure = 0.0_wp
@@ -282,6 +227,56 @@ contains
          solved = merge(pressure, huge(1.0_wp), status == 0)
       end associate
    end subroutine solve_one
+
+   !> Moments of the shear; of a bore that is not round with the pressure on its slopes.
+   subroutine grid_torques(self, motion, parameters, f, t_j, t_b)
+      class(film_grid_t), intent(in) :: self                !! the film
+      type(film_motion_t), intent(in) :: motion             !! motion of the bearing
+      real(wp), intent(in) :: parameters(n_film_parameter)  !! (n_film_parameter) from `fit` [any]
+      real(wp), intent(in) :: f(2)                          !! (2) force on the journal, world frame [N]
+      real(wp), intent(out) :: t_j                          !! moment on the journal [N.m]
+      real(wp), intent(out) :: t_b                          !! moment on the bearing [N.m]
+
+      type(film_result_t) :: film
+      real(wp) :: half, slip
+      integer :: number, status
+
+      if (.not. self%has_bore()) then
+         call film_torques(self, motion, parameters, f, t_j, t_b)
+         return
+      end if
+      call solve_one(self, motion, parameters, number, status)
+      call get_result(self%pool%grid(number), film)
+      half = 0.5_wp*(motion%e(1)*f(2) - motion%e(2)*f(1))
+      slip = parameters(parameter_scale)*parameters(parameter_clearance) &
+             *(motion%speed_difference*film%shear_all - 0.5_wp*film%f_bore)
+      t_j = -slip - half
+      t_b = slip - half
+   end subroutine grid_torques
+
+   !> Whether its bore is not round.
+   pure logical function grid_has_bore(self)
+      class(film_grid_t), intent(in) :: self  !! the film
+
+      grid_has_bore = .not. self%form%bore%is_round()
+   end function grid_has_bore
+
+   !> Minimum thickness, of a bore that is not round that of its gap.
+   pure real(wp) function grid_min_thickness(self, clearance, motion, parameters) result(thickness)
+      class(film_grid_t), intent(in) :: self                !! the film
+      real(wp), intent(in) :: clearance                     !! of the surfaces [m]
+      type(film_motion_t), intent(in) :: motion             !! motion of the bearing
+      real(wp), intent(in) :: parameters(n_film_parameter)  !! (n_film_parameter) from `fit` [any]
+
+      type(journal_state_t) :: state
+
+      if (self%has_bore()) then
+         state = state_of(motion, parameters)
+         thickness = max(clearance*self%form%bore%min_gap(state%e, 1.0_wp/parameters(parameter_clearance)), 0.0_wp)
+      else
+         thickness = max(clearance - max_eccentricity(motion), 0.0_wp)
+      end if
+   end function grid_min_thickness
 
    !> It has pressures, at any tilt.
    pure logical function grid_has() result(has)
@@ -345,8 +340,9 @@ contains
       real(wp), intent(in) :: parameters(n_film_parameter)  !! (n_film_parameter) from `fit` [any]
       character(:), allocatable :: words                    !! as "160 x 16 cells"
 
-      words = to_text(columns_of(self%resolution))//" x "//to_text(rows_of(self%resolution))//" cells"
-      if (size(self%supply) > 0) words = words//", supplied at "//to_text(self%supply(1)%pressure)//" Pa"
+      words = to_text(columns_of(self%form%resolution))//" x "//to_text(rows_of(self%form%resolution))//" cells"
+      if (size(self%form%supply) > 0) words = words//", supplied at "//to_text(self%form%supply(1)%pressure)//" Pa"
+      words = words//bore_words(self%form%bore)
    end function grid_description
 
 end module film_grid

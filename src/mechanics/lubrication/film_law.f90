@@ -24,7 +24,7 @@ module film_law
    implicit none (type, external)
    private
    public :: basic_parameters, film_bearing_t, film_law_t, film_motion_t, film_slopes_t, film_slot_t, gap_at, n_film_parameter
-   public :: film_halves, max_eccentricity, own_parameters
+   public :: film_halves, film_torques, max_eccentricity, own_parameters
    public :: squeezing_velocity
    public :: parameter_clearance, parameter_eps_max, parameter_length, parameter_radius, parameter_viscosity
 
@@ -82,6 +82,8 @@ module film_law
       procedure :: side_flow => film_side_flow
       procedure :: linearise => film_linearise
       procedure, nopass :: has_field => film_false
+      procedure :: has_bore => film_has_no_bore
+      procedure :: min_thickness => film_min_thickness
       procedure :: field => film_field
       procedure :: mistake => film_mistake
       procedure :: description => film_description
@@ -164,6 +166,20 @@ module film_law
          real(wp), intent(out) :: of_tilt                      !! a [1]
          real(wp), intent(out) :: of_rate                      !! b [1]
       end subroutine film_halves
+
+      !> Stiffness and damping at a motion, by differences of fourth order of the force; a film that knows them overrides this.
+      !>
+      !> Steps are 1/1000 and 1/2000 of what is left of the gap, and of the speed at which its surface would be squeezed away; the
+      !> results are those of the shorter ones, their error is reported by what both differ by. Where nothing moves the speed is
+      !> c/s: films that rupture have no derivative there, and the mean of both senses is given. Source: A. Iserles, A First Course
+      !> in the Numerical Analysis of Differential Equations (2009), section 8.1.
+      module subroutine film_linearise(self, motion, parameters, slopes)
+         implicit none (type, external)
+         class(film_law_t), intent(in) :: self                    !! the film
+         type(film_motion_t), intent(in) :: motion                !! motion of the bearing
+         real(wp), intent(in) :: parameters(n_film_parameter)     !! (n_film_parameter) from `fit` [any]
+         type(film_slopes_t), intent(out) :: slopes               !! stiffness and damping
+      end subroutine film_linearise
    end interface
 
 contains
@@ -200,6 +216,23 @@ contains
       film_false = .false.
    end function film_false
 
+   !> Whether the bore of the bearing is not round.
+   pure logical function film_has_no_bore(self)
+      class(film_law_t), intent(in) :: self  !! the film
+
+      film_has_no_bore = .false.
+   end function film_has_no_bore
+
+   !> Minimum thickness of the film of one bearing, not below zero. A film that knows its bore overrides this.
+   pure real(wp) function film_min_thickness(self, clearance, motion, parameters) result(thickness)
+      class(film_law_t), intent(in) :: self                 !! the film
+      real(wp), intent(in) :: clearance                     !! of the surfaces [m]
+      type(film_motion_t), intent(in) :: motion             !! motion of the bearing
+      real(wp), intent(in) :: parameters(n_film_parameter)  !! (n_film_parameter) from `fit` [any]
+
+      thickness = max(clearance - max_eccentricity(motion), 0.0_wp)
+   end function film_min_thickness
+
    !> The parameters that every film has; the others are zero.
    pure subroutine basic_parameters(bearing, parameters)
       type(film_bearing_t), intent(in) :: bearing            !! the bearing
@@ -220,8 +253,8 @@ contains
    !>
    !> so that T_J + T_B + (e x F)_z = 0, and with the forces the film takes 2 pi mu L R^3 (w_J - w_B)^2/(c sqrt(1 - eps^2)) - F.v.
    !> Exact for a long film all round: shear of both walls, of the drag and of the flow that pressure drives. Of the other films: a
-   !> journal that is wetted all round. A film that knows better overrides this.
-   pure subroutine film_torques(self, motion, parameters, f, t_j, t_b)
+   !> journal that is wetted all round. A film that knows better overrides this; so it is not pure, as `force`.
+   subroutine film_torques(self, motion, parameters, f, t_j, t_b)
       class(film_law_t), intent(in) :: self                    !! the film
       type(film_motion_t), intent(in) :: motion                !! motion of the bearing
       real(wp), intent(in) :: parameters(n_film_parameter)     !! (n_film_parameter) from `fit` [any]
@@ -269,75 +302,6 @@ contains
 
       v = motion%e_dot - 0.5_wp*motion%speed_sum*[-motion%e(2), motion%e(1)]
    end function squeezing_velocity
-
-   !> Stiffness and damping at a motion, by differences of fourth order of the force; a film that knows them overrides this.
-   !>
-   !> Steps are 1/1000 and 1/2000 of what is left of the gap, and of the speed at which its surface would be squeezed away; the
-   !> results are those of the shorter ones, their error is reported by what both differ by. Where nothing moves the speed is c/s:
-   !> films that rupture have no derivative there, and the mean of both senses is given. Source: A. Iserles, A First Course in the
-   !> Numerical Analysis of Differential Equations (2009), section 8.1.
-   subroutine film_linearise(self, motion, parameters, slopes)
-      class(film_law_t), intent(in) :: self                    !! the film
-      type(film_motion_t), intent(in) :: motion                !! motion of the bearing
-      real(wp), intent(in) :: parameters(n_film_parameter)     !! (n_film_parameter) from `fit` [any]
-      type(film_slopes_t), intent(out) :: slopes               !! stiffness and damping
-
-      real(wp), parameter :: part = 1.0e-3_wp  ! of the longer step [1]
-      real(wp) :: coarse(2, 2, 2), gap, speed, v(2)
-      integer :: k
-
-      associate (c => parameters(parameter_clearance))
-         gap = c - min(norm2(motion%e), c*parameters(parameter_eps_max))
-         v = squeezing_velocity(motion)
-         speed = max(norm2(v), 0.05_wp*c*abs(motion%speed_sum))
-         if (.not. speed > 0.0_wp) speed = c
-         speed = speed*gap/c
-      end associate
-      do k = 1, 2
-         coarse(:, k, 1) = film_slope(self, motion, parameters, k, part*gap, 0.0_wp)
-         coarse(:, k, 2) = film_slope(self, motion, parameters, k, 0.0_wp, part*speed)
-         slopes%stiffness(:, k) = -film_slope(self, motion, parameters, k, 0.5_wp*part*gap, 0.0_wp)
-         slopes%damping(:, k) = -film_slope(self, motion, parameters, k, 0.0_wp, 0.5_wp*part*speed)
-      end do
-      slopes%error = max(difference(coarse(:, :, 1), slopes%stiffness), difference(coarse(:, :, 2), slopes%damping))
-
-   contains
-
-      !> What two results differ by, as a part of the maximum entry; one of them has the other sign.
-      pure real(wp) function difference(a, b)
-         real(wp), intent(in) :: a(2, 2), b(2, 2)  !! (2, 2) the results [any]
-
-         difference = maxval(abs(a + b))/max(maxval(abs(b)), tiny(1.0_wp))
-      end function difference
-
-   end subroutine film_linearise
-
-   !> Derivative of the force over one component of the eccentricity, or of its rate.
-   function film_slope(self, motion, parameters, component, step_e, step_e_dot) result(slope)
-      class(film_law_t), intent(in) :: self                    !! the film
-      type(film_motion_t), intent(in) :: motion                !! motion of the bearing
-      real(wp), intent(in) :: parameters(n_film_parameter)     !! (n_film_parameter) from `fit` [any]
-      integer, intent(in) :: component                         !! 1: x; 2: y
-      real(wp), intent(in) :: step_e                           !! step of the eccentricity, or zero [m]
-      real(wp), intent(in) :: step_e_dot                       !! step of its rate, or zero [m/s]
-      real(wp) :: slope(2)                                     !! (2) derivative [N/m or N.s/m]
-
-      real(wp), parameter :: place(4) = [-2.0_wp, -1.0_wp, 1.0_wp, 2.0_wp]  ! in steps [1]
-      real(wp), parameter :: weight(4) = [1.0_wp, -8.0_wp, 8.0_wp, -1.0_wp]/12.0_wp  ! of the forces there [1]
-      type(film_motion_t) :: moved(1)
-      real(wp) :: f(2, 1)
-      integer :: k
-
-      slope = 0.0_wp
-      do k = 1, size(place)
-         moved(1) = motion
-         moved(1)%e(component) = moved(1)%e(component) + place(k)*step_e
-         moved(1)%e_dot(component) = moved(1)%e_dot(component) + place(k)*step_e_dot
-         call self%force(1, moved, reshape(parameters, [n_film_parameter, 1]), f)
-         slope = slope + weight(k)*f(:, 1)
-      end do
-      slope = slope/(step_e + step_e_dot)
-   end function film_slope
 
    !> Pressure and gap of one bearing at places of one's own. A film without pressures gives the gap, and pressures that are no
    !> numbers. Not pure, as `force`.

@@ -1,7 +1,8 @@
 !> Pressure and gap of a film on a grid at places of one's own: the unwrapped film, for files and pictures.
 !>
-!> p = (mu R^2/c^2) P, h = c (1 - (e + y g).u); P between the middles of cells by bilinear interpolation, zero at the ends of the
-!> bearing, mirrored where the grid has half the length. So it is second order as the grid is, and what the cells have they keep.
+!> p = (mu R^2/c^2) P, h = c (1 + G - (e + y g).u); P between the middles of cells by bilinear interpolation, zero at the ends of
+!> the bearing, mirrored where the grid has half the length. So it is second order as the grid is, and what the cells have they
+!> keep.
 module reynolds_field
    use kinds, only: two_pi, wp
    use reynolds_grid, only: reynolds_grid_t
@@ -33,9 +34,22 @@ contains
             p(j, k) = (1.0_wp - around)*((1.0_wp - along)*left(1) + along*left(2)) &
                       + around*((1.0_wp - along)*right(1) + along*right(2))
             h(j, k) = 1.0_wp - dot_product(grid%state%e + y(j)*grid%state%g, [cos(theta(k)), sin(theta(k))])
+            if (grid%bored%is_there) h(j, k) = h(j, k) + bore_depth(grid, theta(k), y(j))
          end do
       end do
    end subroutine film_field
+
+   !> What the bore adds to the gap at a place; where it jumps, what it has behind it.
+   pure real(wp) function bore_depth(grid, theta, y) result(depth)
+      type(reynolds_grid_t), intent(in) :: grid  !! the grid
+      real(wp), intent(in) :: theta              !! the angle [rad]
+      real(wp), intent(in) :: y                  !! the place along it [1]
+
+      associate (bore => grid%bored%bore, part => grid%state%per_clearance)
+         depth = bore%depth_at(theta, theta, part)
+         if (bore%in_dam(theta) .and. abs(y) <= bore%dam_length) depth = depth + part*bore%dam_depth
+      end associate
+   end function bore_depth
 
    !> The column whose middle is the last before an angle, and how far the angle is on the way to the next.
    pure subroutine column_at(grid, theta, column, share)

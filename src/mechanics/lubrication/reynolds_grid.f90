@@ -14,9 +14,18 @@
 !> integral of u over the cell. So, without supplies, f = -grad over v of P.A P/24, convex and homogeneous of degree 2: f.v <= 0
 !> exactly, on every grid. The row at an end counts 5/6 of its width, as source and for the force: with equal rows a parabola over
 !> the length has its exact mean then, and the error in the rows is a tenth of what it would be. Without tilt the half length is
-!> enough. All is finite at e = 0 and v = 0; no allocation after set-up. Source: Reynolds (1886); Patankar, Numerical heat
+!> enough. All is finite at e = 0 and v = 0; no allocation after set-up.
+!>
+!> A bore that is not round, fixed in the bearing's body, adds G(theta, y) to h. In the inertial frame it turns with w_B, so that
+!> dh/dt has -w_B dG/dtheta, and the right-hand side gets 6 (w_J + w_B) dG/dtheta - 12 w_B dG/dtheta = 6 (w_J - w_B) dG/dtheta:
+!> what turns as one body has no pressure, as without it. With the pressure on its slopes, f_G = (1/2) int P dG, the film takes
+!> -f.v - (w_J - w_B) f_G/2, which is not negative, on every grid too (`bored_gap`).
+!>
+!> Source: Reynolds (1886); Patankar, Numerical heat
 !> transfer and fluid flow (1980), chapter 4. Limits: isoviscous, no inertia, h < 1/1000 R and h > 0.
 module reynolds_grid
+   use bore_profile, only: bore_t
+   use bored_gap, only: at_left, at_middle, at_right, bored_gap_t, new_bored_gap, with_edges
    use complementarity, only: complementarity_t, new_complementarity
    use kinds, only: wp
    use reynolds_mesh, only: divide_length, divide_ring, new_length, new_ring, section_list_t, supply_t
@@ -35,6 +44,8 @@ module reynolds_grid
       real(wp) :: v(2) = 0.0_wp  !! (2) e' - (w_J + w_B)/2 z x e [1/s]
       real(wp) :: g(2) = 0.0_wp  !! (2) what the tilt adds to e at the end y = 1 [1]
       real(wp) :: w(2) = 0.0_wp  !! (2) g' - (w_J + w_B)/2 z x g [1/s]
+      real(wp) :: spin = 0.0_wp  !! w_J - w_B, where the bore is not round [rad/s]
+      real(wp) :: per_clearance = 0.0_wp  !! 1/c, where the bore is not round [1/m]
    end type journal_state_t
 
    !> A bearing, its grid and the film of the last solution.
@@ -47,6 +58,7 @@ module reynolds_grid
       real(wp), allocatable :: y(:)             !! (0:m) edges of the rows, in half lengths from the middle [1]
       real(wp), allocatable :: weight(:)        !! (m) what the rows count in sources and forces, of the half length [1]
       type(journal_state_t) :: state               !! that of the solution
+      type(bored_gap_t) :: bored                !! the bore, where it is not round
       type(section_list_t), private :: ring     !! sections of the ring
       type(section_list_t), private :: length   !! sections of the half length
       integer, allocatable :: column(:)         !! (n) supply that a column is in, 0: none
@@ -55,12 +67,14 @@ module reynolds_grid
    contains
       procedure :: solve
       procedure :: is_supplied
+      procedure :: gap
+      procedure :: source_at
    end type reynolds_grid_t
 
 contains
 
    !> Make the grid: about n columns and m rows of the half length.
-   subroutine new_reynolds_grid(self, ratio, n, m, boundary, supply, is_tilted)
+   subroutine new_reynolds_grid(self, ratio, n, m, boundary, supply, is_tilted, bore)
       type(reynolds_grid_t), intent(out) :: self  !! the grid
       real(wp), intent(in) :: ratio               !! L/D [1]
       integer, intent(in) :: n                    !! columns, about
@@ -68,14 +82,20 @@ contains
       integer, intent(in) :: boundary             !! boundary_reynolds or boundary_full
       type(supply_t), intent(in) :: supply(:)     !! where lubricant comes in, by angle, apart from one another
       logical, intent(in) :: is_tilted            !! g and w may be other than zero
+      type(bore_t), intent(in), optional :: bore  !! not round, whose supplies are all fixed; absent: it is round
 
       integer :: done, k, n_column, n_row
 
       self%ratio = ratio
       self%is_whole = is_tilted
       self%supply = supply
-      call new_ring(self%ring, n, supply)
-      call new_length(self%length, m, supply)
+      if (present(bore)) self%supply = with_edges(bore, supply)
+      call new_ring(self%ring, n, self%supply)
+      if (present(bore)) then
+         call new_length(self%length, m, [self%supply%length, bore%dam_length])
+      else
+         call new_length(self%length, m, [supply%length])
+      end if
       n_column = sum(self%ring%n_cell)
       n_row = sum(self%length%n_cell)*merge(2, 1, is_tilted)
       allocate (self%theta(0:n_column), self%y(0:n_row), self%weight(n_row), source=0.0_wp)
@@ -93,6 +113,7 @@ contains
       end do
       self%fixed_edge = self%edge
       call new_complementarity(self%film, n_row, n_column, boundary == boundary_full)
+      if (present(bore)) call new_bored_gap(self%bored, bore, n_row, n_column)
    end subroutine new_reynolds_grid
 
    !> The film of a state.
@@ -122,8 +143,10 @@ contains
       self%weight = self%y(1:m) - self%y(0:m - 1)
       self%weight(m) = end_weight*self%weight(m)
       if (self%is_whole) self%weight(1) = end_weight*self%weight(1)
+      if (self%bored%is_there) call self%bored%place(self%theta, self%y, state%per_clearance)
       call set_prescribed(self)
       call set_around(self)
+      if (self%bored%is_there) call add_bore_source(self)
       call set_along(self)
       call self%film%solve(status)
    end subroutine solve
@@ -149,6 +172,44 @@ contains
       is_supplied = .false.
       if (supply > 0) is_supplied = 0.5_wp*abs(self%y(j - 1) + self%y(j)) < self%supply(supply)%length
    end function is_supplied
+
+   !> Sources of the bore.
+   pure subroutine add_bore_source(self)
+      class(reynolds_grid_t), intent(inout) :: self  !! the grid
+
+      integer :: k
+
+      do k = 1, self%film%n
+         self%film%source(:, k) = self%film%source(:, k) - 0.5_wp*drag*self%state%spin*self%bored%rise(:, k)*self%weight
+      end do
+   end subroutine add_bore_source
+
+   !> The gap in the middle of a column, at a place along the bearing in a row.
+   pure real(wp) function gap(self, j, k, y)
+      class(reynolds_grid_t), intent(in) :: self  !! the grid
+      integer, intent(in) :: j, k                 !! row and column
+      real(wp), intent(in) :: y                   !! the place [1]
+
+      real(wp) :: middle
+
+      middle = 0.5_wp*(self%theta(k) + self%theta(k - 1))
+      gap = height(self%state, y, [cos(middle), sin(middle)])
+      if (self%bored%is_there) gap = gap + self%bored%depth(j, k, at_middle)
+   end function gap
+
+   !> Source over the drag in the middle of a column, of an area, at a place along the bearing in a row.
+   pure real(wp) function source_at(self, j, k, y)
+      class(reynolds_grid_t), intent(in) :: self  !! the grid
+      integer, intent(in) :: j, k                 !! row and column
+      real(wp), intent(in) :: y                   !! the place [1]
+
+      real(wp) :: middle
+
+      middle = 0.5_wp*(self%theta(k) + self%theta(k - 1))
+      source_at = dot_product(self%state%v + y*self%state%w, [cos(middle), sin(middle)])
+      if (self%bored%is_there) source_at = source_at - 0.5_wp*self%state%spin*self%bored%rise(j, k) &
+                                                      /(self%theta(k) - self%theta(k - 1))
+   end function source_at
 
    !> Which cells lie in supplies, their pressures, and the sources of all.
    pure subroutine set_prescribed(self)
@@ -179,13 +240,15 @@ contains
       u = 2.0_wp*sin(0.5_wp*(to - from))*[cos(0.5_wp*(from + to)), sin(0.5_wp*(from + to))]
    end function integral_of_u
 
-   !> Conductances around the bearing.
+   !> Conductances around the bearing, and what a bore drags through the edges.
    pure subroutine set_around(self)
       class(reynolds_grid_t), intent(inout) :: self  !! the grid
 
-      real(wp) :: here, there, u(2), wide
+      real(wp) :: behind, given, here, there, u(2), wide, y
       integer :: j, k, next
+      logical :: is_bored, is_given
 
+      is_bored = self%bored%is_there
       associate (film => self%film, theta => self%theta)
          do k = 1, film%n
             next = modulo(k, film%n) + 1
@@ -193,51 +256,96 @@ contains
             there = 0.5_wp*(theta(next) - theta(next - 1))
             u = [cos(theta(k)), sin(theta(k))]
             do j = 1, film%m
-               wide = height(self%state, 0.5_wp*(self%y(j - 1) + self%y(j)), u)**3*(self%y(j) - self%y(j - 1))
+               y = 0.5_wp*(self%y(j - 1) + self%y(j))
+               wide = height(self%state, y, u)**3*(self%y(j) - self%y(j - 1))
+               behind = wide
+               if (is_bored) then
+                  wide = cube_of_gap(self, j, k, at_right, y, u)*(self%y(j) - self%y(j - 1))
+                  behind = cube_of_gap(self, j, next, at_left, y, u)*(self%y(j) - self%y(j - 1))
+               end if
                film%around(j, k) = 0.0_wp
+               is_given = .true.
+               given = 0.0_wp
                if (self%is_supplied(self%edge(next), j)) then
-                  call feed(film, j, k, wide/here, self%supply(self%edge(next))%pressure)
-                  call feed(film, j, next, wide/there, self%supply(self%edge(next))%pressure)
+                  given = self%supply(self%edge(next))%pressure
+                  call feed(film, j, k, wide/here, given)
+                  call feed(film, j, next, behind/there, given)
                else if (film%is_known(j, next)) then
-                  call feed(film, j, k, wide/here, film%p(j, next))
+                  given = film%p(j, next)
+                  call feed(film, j, k, wide/here, given)
                else if (film%is_known(j, k)) then
-                  call feed(film, j, next, wide/there, film%p(j, k))
+                  given = film%p(j, k)
+                  call feed(film, j, next, behind/there, given)
                else
                   film%around(j, k) = wide/(here + there)
+                  if (is_bored) film%around(j, k) = in_series(wide, behind, here, there)
+                  is_given = .false.
                end if
+               if (is_bored) call self%bored%join(j, k, next, wide/here, behind/there, is_given, given)
             end do
          end do
       end associate
    end subroutine set_around
 
+   !> h^3 of a cell, in the middle of its column or at an edge.
+   pure real(wp) function cube_of_gap(self, j, k, at, y, u) result(wide)
+      class(reynolds_grid_t), intent(in) :: self  !! the grid
+      integer, intent(in) :: j, k                 !! row and column
+      integer, intent(in) :: at                   !! at_left, at_middle or at_right
+      real(wp), intent(in) :: y                   !! place along the bearing in the row [1]
+      real(wp), intent(in) :: u(2)                !! (2) direction of the place around it [1]
+
+      wide = height(self%state, y, u)
+      if (self%bored%is_there) wide = wide + self%bored%depth(j, k, at)
+      wide = wide**3
+   end function cube_of_gap
+
+   !> Conductance of two half cells, one behind the other.
+   pure real(wp) function in_series(wide, behind, here, there)
+      real(wp), intent(in) :: wide, behind        !! h^3 times the width of both [1]
+      real(wp), intent(in) :: here, there         !! their lengths [1]
+
+      in_series = wide*behind/(here*behind + there*wide)
+   end function in_series
+
    !> Conductances along the bearing and to its ends.
    pure subroutine set_along(self)
       class(reynolds_grid_t), intent(inout) :: self  !! the grid
 
-      real(wp) :: here, middle, there, u(2), wide
+      real(wp) :: behind, here, middle, step, there, u(2), wide
       integer :: j, k
+      logical :: is_bored
+
+      is_bored = self%bored%is_there
 
       associate (film => self%film, theta => self%theta, y => self%y)
          do k = 1, film%n
+            step = theta(k) - theta(k - 1)
             middle = 0.5_wp*(theta(k - 1) + theta(k))
             u = [cos(middle), sin(middle)]
             do j = 0, film%m
                if (j == 0 .and. .not. self%is_whole) cycle
-               wide = height(self%state, y(j), u)**3*(theta(k) - theta(k - 1))/self%ratio**2
+               wide = height(self%state, y(j), u)**3*step/self%ratio**2
+               behind = wide
+               if (is_bored) then
+                  wide = cube_of_gap(self, max(j, 1), k, at_middle, y(j), u)*step/self%ratio**2
+                  behind = cube_of_gap(self, min(j + 1, film%m), k, at_middle, y(j), u)*step/self%ratio**2
+               end if
                here = 0.5_wp*(y(max(j, 1)) - y(max(j, 1) - 1))
                there = 0.5_wp*(y(min(j + 1, film%m)) - y(min(j, film%m - 1)))
                if (j == film%m) then
                   call feed(film, j, k, wide/here, 0.0_wp)
                else if (j == 0) then
-                  call feed(film, 1, k, wide/there, 0.0_wp)
+                  call feed(film, 1, k, behind/there, 0.0_wp)
                else
                   film%along(j, k) = 0.0_wp
                   if (film%is_known(j + 1, k)) then
                      call feed(film, j, k, wide/here, film%p(j + 1, k))
                   else if (film%is_known(j, k)) then
-                     call feed(film, j + 1, k, wide/there, film%p(j, k))
+                     call feed(film, j + 1, k, behind/there, film%p(j, k))
                   else
                      film%along(j, k) = wide/(here + there)
+                     if (is_bored) film%along(j, k) = in_series(wide, behind, here, there)
                   end if
                end if
             end do

@@ -23,7 +23,7 @@ module reynolds_mesh
    type :: supply_t
       real(wp) :: angle = 0.0_wp            !! of its middle, in the bearing's frame [rad]
       real(wp) :: width = 0.0_wp            !! around the bearing; 0: a line [rad]
-      real(wp) :: length = 1.0_wp           !! part of the bearing's length that it takes; 1: all of it [1]
+      real(wp) :: length = 1.0_wp           !! part of the bearing's length that it takes; 1: all of it; 0: an edge only [1]
       real(wp) :: pressure = 0.0_wp         !! p c^2/(mu R^2), not below zero [1/s]
       logical :: is_at_widest_gap = .false. !! the line lies where the gap is widest, whatever the angle says
    end type supply_t
@@ -78,10 +78,10 @@ contains
    end subroutine new_ring
 
    !> Sections of the half length, from the middle on.
-   pure subroutine new_length(self, n_cell, supply)
+   pure subroutine new_length(self, n_cell, length)
       type(section_list_t), intent(out) :: self  !! the sections
       integer, intent(in) :: n_cell              !! cells of the half length, about
-      type(supply_t), intent(in) :: supply(:)    !! the supplies
+      real(wp), intent(in) :: length(:)          !! (n) parts of the length that supplies and a dam take [1]
 
       real(wp) :: from, next
       integer :: k
@@ -91,8 +91,8 @@ contains
       from = 0.0_wp
       do while (from < 1.0_wp)
          next = 1.0_wp
-         do k = 1, size(supply)
-            if (supply(k)%length > from) next = min(next, supply(k)%length)
+         do k = 1, size(length)
+            if (length(k) > from) next = min(next, length(k))
          end do
          self%start = [self%start, next]
          self%n_cell = [self%n_cell, max(2, nint(n_cell*(next - from)))]
