@@ -208,8 +208,8 @@ contains
       end do
    end function quadrature
 
-   !> Half the cell, a quarter of the error of full films: a lemon bore, and offset halves. A film that ruptures at the step of offset
-   !> halves is of first order at last.
+   !> Half the cell, a quarter of the error of full films: a lemon bore, and offset halves. A film that ruptures at the step of
+   !> offset halves is of first order at last.
    subroutine test_order(error)
       type(error_t), allocatable, intent(out) :: error  !! what failed
 
