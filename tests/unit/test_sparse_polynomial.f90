@@ -33,12 +33,13 @@ contains
       type(error_t), allocatable, intent(out) :: error  !! what failed
 
       integer, parameter :: n = 1024
-      integer :: counts(n, most_dimensions), d, k
+      integer, allocatable :: counts(:, :)
+      integer :: d, k
       real(wp) :: first(most_dimensions), u(most_dimensions)
       type(sobol_t) :: other, points
 
       call points%begin(most_dimensions, 5, 2)
-      counts = 0
+      allocate (counts(n, most_dimensions), source=0)
       do k = 0, n - 1
          call points%point(int(k, i8), u)
          if (k == 0) first = u
@@ -207,13 +208,15 @@ contains
 
       integer, parameter :: m = 150, n_repeat = 50
       integer :: hits(6), k
-      real(wp) :: exact(6), first(3, 3), missed, p(0:max_degree, 3, m), total(3, 3), v1, v13, v2, y(m)
+      real(wp), allocatable :: p(:, :, :)
+      real(wp) :: exact(6), first(3, 3), missed, total(3, 3), v1, v13, v2, y(m)
       type(polynomial_t) :: found
 
       v1 = 0.5_wp*(1.0_wp + 0.1_wp*pi**4/5.0_wp)**2
       v2 = 49.0_wp/8.0_wp
       v13 = 0.01_wp*pi**8*8.0_wp/225.0_wp
       exact = [v1, v2, 0.0_wp, v1 + v13, v2, v13]/(v1 + v2 + v13)
+      allocate (p(0:max_degree, 3, m))
       hits = 0
       missed = 0.0_wp
       do k = 1, n_repeat
@@ -233,8 +236,11 @@ contains
       type(error_t), allocatable, intent(out) :: error  !! what failed
 
       integer, parameter :: m = 400
-      real(wp) :: p(0:max_degree, 3, m), y(m)
+      real(wp), allocatable :: p(:, :, :)
+      real(wp) :: y(m)
       type(polynomial_t) :: found
+
+      allocate (p(0:max_degree, 3, m))
 
       call draw(m, 4, p, y, 3)
       call fit_polynomial(p, [max_degree, max_degree, max_degree], y, found)
