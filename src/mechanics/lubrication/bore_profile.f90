@@ -107,9 +107,9 @@ contains
       type(item_t), intent(in) :: item      !! the row
       character(:), allocatable :: message  !! one line, empty: all is well
 
-      message = unused(item, "bore", "lobes", of_lobes)
+      message = unused(item, "bore", "lobes", of_lobes, [2.0_wp, 0.0_wp, 0.5_wp, 0.0_wp])
       if (message == "") message = unused(item, "bore", "points", of_points)
-      if (message == "") message = unused(item, "dam", "step", of_dam)
+      if (message == "") message = unused(item, "dam", "step", of_dam, [0.0_wp, 0.0_wp, 0.0_wp, 1.0_wp])
       if (message /= "") return
       if (item%word("bore") == "lobes" .and. .not. item%is_given("preload")) message = "bore = lobes needs column preload"
       if (item%word("bore") == "points") message = points_mistake(item)
@@ -121,21 +121,25 @@ contains
       end if
    end function bore_mistake
 
-   !> The first column that is given though the word that it belongs to is not.
-   function unused(item, column, word, names) result(message)
-      type(item_t), intent(in) :: item           !! the row
-      character(*), intent(in) :: column         !! of words
-      character(*), intent(in) :: word           !! to which the columns belong
-      character(*), intent(in) :: names(:)       !! (n) the columns
-      character(:), allocatable :: message       !! one line, empty: there is none
+   !> A column that is given, and has not its default, though the word that it belongs to is not.
+   function unused(item, column, word, names, defaults) result(message)
+      type(item_t), intent(in) :: item                !! the row
+      character(*), intent(in) :: column              !! of words
+      character(*), intent(in) :: word                !! to which the columns belong
+      character(*), intent(in) :: names(:)            !! (n) the columns
+      real(wp), intent(in), optional :: defaults(:)   !! (n) of numbers; absent: lists [any]
+      character(:), allocatable :: message            !! one line, empty: there is none
 
       integer :: k
+      logical :: is_changed
 
       message = ""
       if (item%word(column) == word) return
       do k = 1, size(names)
-         if (item%is_given(trim(names(k)))) message = "column "//trim(names(k))//" belongs to "//column//" = "//word//", but " &
-                                                      //column//" = "//item%word(column)
+         is_changed = item%is_given(trim(names(k)))
+         if (is_changed .and. present(defaults)) is_changed = abs(item%number(trim(names(k))) - defaults(k)) > 0.0_wp
+         if (is_changed) message = "column "//trim(names(k))//" belongs to "//column//" = "//word//", but "//column//" = " &
+                                   //item%word(column)
       end do
    end function unused
 
