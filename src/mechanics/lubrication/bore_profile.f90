@@ -35,7 +35,7 @@ module bore_profile
       real(wp) :: start = 0.0_wp           !! theta_0 [rad]
       real(wp) :: dam_start = 0.0_wp       !! where the dam starts [rad]
       real(wp) :: dam_arc = 0.0_wp         !! how far it reaches, counter-clockwise, below a turn [rad]
-      real(wp) :: dam_depth = 0.0_wp       !! its depth, 0: there is none [m]
+      real(wp) :: dam_depth = 0.0_wp       !! its depth, 0: no dam [m]
       real(wp) :: dam_length = 1.0_wp      !! part of the bearing's length, in the middle; 1: from end to end [1]
       real(wp), allocatable :: angle(:)    !! (samples) of the measured gap, increasing, within a turn; none: not measured [rad]
       real(wp), allocatable :: depth(:)    !! (samples) G c there [m]
@@ -128,7 +128,7 @@ contains
       character(*), intent(in) :: word                !! to which the columns belong
       character(*), intent(in) :: names(:)            !! (n) the columns
       real(wp), intent(in), optional :: defaults(:)   !! (n) of numbers; absent: lists [any]
-      character(:), allocatable :: message            !! one line, empty: there is none
+      character(:), allocatable :: message            !! one line, empty: all is well
 
       integer :: k
       logical :: is_changed

@@ -20,7 +20,7 @@ module bored_gap
    public :: at_left, at_middle, at_right, bored_gap_t, new_bored_gap, with_edges
 
    integer, parameter :: at_left = 1, at_middle = 2, at_right = 3  !! places in a column
-   real(wp), parameter :: same_angle = 1.0e-9_wp                   !! difference of angles that is none [rad]
+   real(wp), parameter :: same_angle = 1.0e-9_wp                   !! angles that differ by less are equal [rad]
 
    !> The bore on a grid of m rows and n columns.
    type :: bored_gap_t

@@ -14,7 +14,7 @@ module reynolds_pool
 
    integer, parameter :: columns_of(3) = [80, 160, 240]           !! of the words of `resolution`
    integer, parameter :: rows_of(3) = [10, 16, 24]                !! rows of the half length
-   real(wp), parameter :: same_ratio = 1.0e-12_wp                 !! difference of L/D that is none [1]
+   real(wp), parameter :: same_ratio = 1.0e-12_wp                 !! ratios L/D that differ by less are equal [1]
 
    !> What grids are like.
    type :: grid_form_t
@@ -29,7 +29,7 @@ module reynolds_pool
       type(grid_form_t) :: form                      !! what they are like
       type(grid_pool_t), pointer :: next => null()   !! the pool made before
       type(reynolds_grid_t), allocatable :: grid(:)  !! the grids
-      real(wp), allocatable :: pressure(:)           !! (grids) P of the supplies in the last solution; huge: there is none [1/s]
+      real(wp), allocatable :: pressure(:)           !! (grids) P of the supplies in the last solution; huge: no solution [1/s]
    end type grid_pool_t
 
    type(grid_pool_t), pointer :: last_pool => null()  !! of all that were made: films come and go, and copies of them

@@ -27,7 +27,7 @@ module sparse_polynomial
    integer, parameter :: n_fold = 5                         !! parts of the members, each predicted by the others
    real(wp), parameter :: most_values = 4.0e6_wp            !! of candidates at members
    real(wp), parameter :: fits = 1.0e-13_wp                 !! remainder at which a fit is exact, of the values [1]
-   real(wp), parameter :: round_off = 1.0e-14_wp            !! share of a variance that is none [1]
+   real(wp), parameter :: round_off = 1.0e-14_wp            !! shares of a variance below it are round-off [1]
 
    !> A polynomial.
    type :: polynomial_t
