@@ -53,13 +53,15 @@ contains
       type(error_t), allocatable, intent(out) :: error  !! what failed
 
       type(precision_t) :: study
+      type(reference_t) :: runs(4)
       integer :: other, own
 
       call new_study(study)
-      associate (runs => [run_of("verner", 1.0e-6_wp, 1.0e-6_wp), run_of("dop853", 1.0e-6_wp, 1.000001e-6_wp), &
-                          run_of("ida", 1.0e-12_wp, 1.0e-11_wp), run_of("bdf", 1.0e-13_wp, 1.0e-12_wp)])
-         call choose_pair(study, runs, own, other)
-      end associate
+      runs(1) = run_of("verner", 1.0e-6_wp, 1.0e-6_wp)
+      runs(2) = run_of("dop853", 1.0e-6_wp, 1.000001e-6_wp)
+      runs(3) = run_of("ida", 1.0e-12_wp, 1.0e-11_wp)
+      runs(4) = run_of("bdf", 1.0e-13_wp, 1.0e-12_wp)
+      call choose_pair(study, runs, own, other)
       call check_equal(error, own, 4, "the tightest run")
       call check_equal(error, other, 3, "what goes with it")
    end subroutine test_tightest_of_any_integrator
@@ -69,13 +71,14 @@ contains
       type(error_t), allocatable, intent(out) :: error  !! what failed
 
       type(precision_t) :: study
+      type(reference_t) :: runs(3)
       integer :: other, own
 
       call new_study(study)
-      associate (runs => [run_of("adams", 1.0e-13_wp, 1.0e-5_wp), run_of("ida", 1.0e-12_wp, 1.0e-11_wp), &
-                          run_of("bdf", 1.0e-12_wp, 1.0e-12_wp)])
-         call choose_pair(study, runs, own, other)
-      end associate
+      runs(1) = run_of("adams", 1.0e-13_wp, 1.0e-5_wp)
+      runs(2) = run_of("ida", 1.0e-12_wp, 1.0e-11_wp)
+      runs(3) = run_of("bdf", 1.0e-12_wp, 1.0e-12_wp)
+      call choose_pair(study, runs, own, other)
       call check_equal(error, own, 2, "not the one that goes elsewhere")
       call check_equal(error, other, 3, "what goes with it")
    end subroutine test_alike_as_tight
@@ -85,12 +88,13 @@ contains
       type(error_t), allocatable, intent(out) :: error  !! what failed
 
       type(precision_t) :: study
+      type(reference_t) :: runs(2)
       integer :: other, own
 
       call new_study(study)
-      associate (runs => [run_of("verner", 1.0e-9_wp, 1.0e-9_wp), run_of("verner", 1.0e-12_wp, 1.0e-12_wp)])
-         call choose_pair(study, runs, own, other)
-      end associate
+      runs(1) = run_of("verner", 1.0e-9_wp, 1.0e-9_wp)
+      runs(2) = run_of("verner", 1.0e-12_wp, 1.0e-12_wp)
+      call choose_pair(study, runs, own, other)
       call check_equal(error, own, 2, "the tighter one")
       call check_equal(error, other, 0, "no other integrator")
    end subroutine test_one_integrator_only

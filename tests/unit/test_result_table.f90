@@ -41,12 +41,14 @@ contains
    subroutine make_table(table)
       type(result_table_t), intent(out) :: table  !! the table
 
-      type(text_t) :: names(2), parts(2)
+      type(text_t) :: names(2), parts(2), states(2)
 
       names(1)%s = "pin, upper"
       names(2)%s = "a ""slot"""
       parts(1)%s = "force_x"
       parts(2)%s = "force_y"
+      states(1)%s = names(2)%s
+      states(2)%s = names(1)%s
       call table%start("joints", "extremes/joints", 2)
       call table%fact("method", "radau")
       call table%fact("tolerance", 1.0e-6_wp)
@@ -60,7 +62,7 @@ contains
       call table%put("is_open", "1", "not in contact", logicals=[.false., .true.])
       call table%put("force", "N N.m", "maximum force and moment", [1.0_wp, 2.0_wp, 3.0_wp, 4.0_wp], shape=[2], parts=parts)
       call table%put("ladder", "1", "number", integers=[1, 2], formats=in_hdf5)
-      call table%put("state", "1", "in words", texts=names([2, 1]), formats=in_text_files)
+      call table%put("state", "1", "in words", texts=states, formats=in_text_files)
       call table%put("count", "1", "evaluations", counts=[5000000000_i8, 2_i8], formats=in_hdf5)
    end subroutine make_table
 

@@ -9,9 +9,9 @@ module test_sensitivity
    use kinds, only: pi, wp
    use parameter_source, only: parameter_source_t
    use scene_fixture, only: nl
-   use sensitivity_results, only: asked_t, result_duration, result_impact_speed, result_names, result_onset, &
+   use sensitivity_results, only: result_duration, result_impact_speed, result_names, result_onset, &
       result_peak_force, result_peak_penetration, result_release_speed, sensitivity_plan_t, sensitivity_t
-   use text, only: exact_text, text_t
+   use text, only: exact_text
    implicit none (type, external)
    private
    public :: run_test_sensitivity
@@ -98,7 +98,6 @@ contains
       type(sensitivity_t), intent(out) :: study           !! what is found
       type(error_t), allocatable, intent(out) :: error    !! what failed
 
-      type(asked_t) :: asked
       type(ball_t), target :: ball
       type(job_t) :: job
       type(sensitivity_plan_t) :: plan
@@ -108,20 +107,23 @@ contains
       ball%most = most
       call job_of(values, method, job, error)
       if (allocated(error)) return
-      plan%parameters = [text_t("height"), text_t("stiffness"), text_t("mass")]
+      allocate (plan%parameters(3), plan%results(size(kinds_asked)))
+      plan%parameters(1)%s = "height"
+      plan%parameters(2)%s = "stiffness"
+      plan%parameters(3)%s = "mass"
       plan%units = plan%parameters
       plan%values = values
       plan%tolerance = 1.0e-11_wp
       plan%end = 0.15_wp
-      allocate (plan%results(0))
       do k = 1, size(kinds_asked)
-         asked%word = trim(result_names(kinds_asked(k)))
-         asked%unit = ""
-         asked%kind = kinds_asked(k)
-         asked%first = 1
-         asked%last = 1
-         asked%ordinal = 1
-         plan%results = [plan%results, asked]
+         associate (asked => plan%results(k))
+            asked%word = trim(result_names(kinds_asked(k)))
+            asked%unit = ""
+            asked%kind = kinds_asked(k)
+            asked%first = 1
+            asked%last = 1
+            asked%ordinal = 1
+         end associate
       end do
       call find_sensitivities(job, ball, plan, study, error)
    end subroutine derive

@@ -6,6 +6,7 @@ module life_tables
    use life_state, only: measure_arc, measure_depth, measure_names, measure_units, measure_volume, n_measure
    use result_table, only: in_csv, in_hdf5, result_table_t
    use text, only: text_t
+   use worn_surface, only: worn_surface_t
    implicit none (type, external)
    private
    public :: table_of_budget, table_of_jumps, table_of_life, tables_of_life_profiles, table_of_surfaces_at_end
@@ -222,10 +223,11 @@ contains
       real(wp), intent(out) :: depths(:)        !! (cells) depths [m]
       real(wp), intent(out) :: volumes(:)       !! (cells) volumes [m^3]
 
-      associate (surfaces => life%state%worn(node%x))
-         depths = surfaces(k)%depths()
-         volumes = surfaces(k)%volume
-      end associate
+      type(worn_surface_t), allocatable :: surfaces(:)
+
+      surfaces = life%state%worn(node%x)
+      depths = surfaces(k)%depths()
+      volumes = surfaces(k)%volume
    end subroutine profile_of
 
    !> Nodes whose profiles are kept: the first, the last, and some between, evenly in their number.

@@ -86,7 +86,8 @@ contains
 
       integer, parameter :: most_rows = 20     ! cases shown
       integer, parameter :: most_columns = 5   ! numbers shown
-      integer, allocatable :: at(:), chosen(:)
+      integer, allocatable :: chosen(:)
+      type(text_t) :: texts(results%sweep%n_cases())
       real(wp) :: mean(results%sweep%n_cases()), spread(n_spread)
       integer :: done(results%sweep%n_cases()), i, k, n_with_number
 
@@ -96,8 +97,8 @@ contains
       if (allocated(results%sweep%parameters)) then
          do i = 1, size(results%sweep%parameters)
             associate (parameter => results%sweep%parameters(i))
-               at = [(results%sweep%value_number(i, k), k=1, size(done))]
-               call table%put(parameter%name, "1", "", texts=parameter%texts(at), heading=parameter%name)
+               texts = parameter%texts([(results%sweep%value_number(i, k), k=1, size(done))])
+               call table%put(parameter%name, "1", "", texts=texts, heading=parameter%name)
             end associate
          end do
       end if
@@ -124,13 +125,15 @@ contains
       type(sweep_t), intent(in) :: sweep                !! the parameters
       integer, intent(in) :: cases(:)                   !! (n) the case of each row
 
+      type(text_t) :: texts(size(cases))
       integer :: at(size(cases)), i, k
 
       do k = 1, size(sweep%parameters)
          at = [(sweep%value_number(k, cases(i)), i=1, size(cases))]
          associate (parameter => sweep%parameters(k))
             if (parameter%unit == "") then
-               call table%put(parameter%name, "1", "", texts=parameter%texts(at), formats=in_text_files)
+               texts = parameter%texts(at)
+               call table%put(parameter%name, "1", "", texts=texts, formats=in_text_files)
             else
                call table%put(parameter%name, parameter%unit, "", parameter%numbers(at), formats=in_text_files)
             end if
