@@ -462,13 +462,20 @@ $(B)/tests/many_decks: $(call object,$(FUZZ_MAIN) $(COVERAGE)) $(OBJECTS) $(B)/o
 	@$(LINK_PROGRAM)
 
 # What runs once takes longer to optimise than it can gain: the reading of decks, the verbs, the studies and the figures; and the tests,
-# not what they test: with -O1 or -Og some take three times as long to compile.
+# not what they test: with -O1 or -Og some take three times as long to compile. The verbs, and the files that copy whole scenes, take
+# twice as long with -O1 or -Og as without: a copy of a scene is thousands of statements.
+COPIES_SCENES := $(patsubst %,src/%.f90,analysis/assembly/driver_conflict analysis/dynamic/subsystems input/builder/scene_groups \
+  input/scene/read_scene input/scene/scene results/writers/precision_file studies/accuracy/accuracy_search \
+  studies/accuracy/accuracy_trial studies/life/life_rates studies/orbit/campbell studies/orbit/linear_state \
+  studies/orbit/orbit_source studies/orbit/period_map studies/precision/reference_search studies/runs/jobs \
+  studies/sensitivity/varied_system studies/tolerance/sensitivities)
+ONCE := $(call object,$(filter $(call of_folders,app),$(SOURCES))) $(call named_objects,$(COPIES_SCENES))
 ifeq ($(MODE),release)
-RUNS_ONCE := input/scene input/adams studies results/figures results/comparison app
-$(call object,$(filter $(call of_folders,$(RUNS_ONCE)),$(SOURCES))) \
-  $(call named_objects,src/analysis/assembly/driver_conflict.f90): private FFLAGS += -O1
+RUNS_ONCE := input/scene input/adams studies results/figures results/comparison
+$(filter-out $(ONCE),$(call object,$(filter $(call of_folders,$(RUNS_ONCE)),$(SOURCES)))): private FFLAGS += -O1
 endif
 ifneq ($(MODE),sanitize)
+$(ONCE): private FFLAGS += -O0
 $(TEST_OBJECTS): private FFLAGS += -O0 $(if $(filter release,$(MODE)),-ffrontend-optimize)
 endif
 
