@@ -187,6 +187,34 @@ def test_horizon(gudgeon):
     assert_close(exponent * 60 / 8000, logs[0], absolute=1e-4, what="exponent of a period")
 
 
+@pytest.mark.parametrize("deck, changes, periods, n, close", [
+    ("shaken_ball", ["gamma=1.045"], 1, 400, 1e-4), ("shaken_ball", ["gamma=1.5"], 1, 400, 1e-4),
+    ("shaken_ball", ["e=0.6", "gamma=1.31"], 1, 400, 1e-4), ("shaken_ball", ["gamma=1.53"], 2, 400, 1e-4),
+    ("impact_pair", ["amplitude=0.72 m"], 1, 1000, 1e-3)])
+def test_exponents_of_periodic_windows(gudgeon, deck, changes, periods, n, close):
+    """Impacts of stiff contacts: the exponent of --horizon is the logarithm of the greatest multiplier. The bodies are guided, so that
+    no direction is neutral. Multipliers of the ball are real, those of the pair complex: there a change swings beside its decay, and
+    what that adds goes with 1/n."""
+    text = (ROOT / "inputs" / f"{deck}.deck").read_text()
+    text = "\n".join(line for line in text.splitlines() if not line.startswith(ONLY))
+    guide = next(line for line in text.splitlines() if line.startswith("guide "))
+    text = text.replace(guide, f"{guide}\nhold origin centre y")
+    text = text.replace("[orbit]", f"[orbit]\nperiods = {periods}\nsettle = 200")
+    rate = 100 if deck == "shaken_ball" else 1
+    period = 2 * math.pi / rate * periods
+    lines = [f"end = {period * n!r} s" if line.startswith("end ") else line for line in text.splitlines()]
+    lines = [f"every = {period!r} s" if line.startswith("every ") else line for line in lines]
+    place = written(scratch(), "\n".join(lines) + "\n")
+    out = place.parent / "out"
+    sets = [word for change in changes for word in ("--set", change)]
+    call(gudgeon, "orbit", place, *sets, "--out", out, "--quiet")
+    orbit = json.loads((out / "summary.json").read_text())["orbit"]
+    assert orbit["stable"] and len(orbit["events"]) in (periods, 2 * periods)
+    call(gudgeon, "run", place, *sets, "--out", out, "--quiet", "--horizon", "--write", "numbers", "--tolerance", "1e-11")
+    exponent = json.loads((out / "summary.json").read_text())["exponent"]
+    assert_close(exponent * period, math.log(math.hypot(*orbit["multipliers"][0])), absolute=close, what="exponent of a period")
+
+
 @pytest.mark.parametrize("old, new, message", [
     ("parameter   = gamma", "parameter = gama", "did you mean 'gamma'?"),
     ("contact     = impact", "contact = impakt", "'impakt' is not a joint with clearance"),

@@ -47,6 +47,8 @@ contains
       allocate (history%is_output(size(history%time)), source=.true.)
       if (find_column_of(table, row_kind) > 0) then  ! of a run: some rows are of contacts
          spec = spec_t()
+         spec%channel = row_kind
+         spec%unit = ""
          call take_column(table, spec, row_kind, "1", kinds, error)
          if (allocated(error)) return
          history%is_output = kinds < 0.5_wp

@@ -21,7 +21,8 @@ module tangent
    private
    public :: tangent_t
 
-   real(wp), parameter :: nearness = 1.0e-9_wp   !! of the states beside the motion, of the scales [1]
+   real(wp), parameter :: nearness = 1.0e-9_wp   !! of the positions beside the motion, of the scales [1]
+   real(wp), parameter :: rate_nearness = 1.0e-5_wp  !! of the rates there: while a stiff contact lasts, rates change most [1]
    real(wp), parameter :: allowed = 1.0e-5_wp    !! error of w over a step, of its length [1]
    integer, parameter :: most_parts = 64         !! of a step
    real(wp), parameter :: edge = 1.0e-3_wp       !! of a step, at both ends: no states beside are looked at there [1]
@@ -52,6 +53,7 @@ module tangent
       procedure :: lengths
       procedure :: pace
       procedure :: beside
+      procedure :: part_of
       procedure :: take_speeds
       procedure :: give_speeds
    end type tangent_t
@@ -169,7 +171,7 @@ contains
          if (method%events%n_happened > 0) inside = min(inside, method%t - clear)
          time = inside - self%t_event
          if (method%events%n_happened > 0) time = min(time, method%t - inside)
-         near = max(nearest, min(nearness, slow*self%pace(system)*time))
+         near = self%part_of(system, direction, slow*self%pace(system)*time)
          call method%state_at(system, inside, self%y)
          call self%beside(system, inside, self%y, direction, near, self%plus, status)
          if (status == 0) call self%beside(system, inside, self%y, direction, -near, self%minus, status)
@@ -179,6 +181,22 @@ contains
       end subroutine slope
 
    end subroutine go
+
+   !> How far to go along a direction: as far as positions or rates allow, whose changes round-off must not hide.
+   pure real(wp) function part_of(self, system, direction, most)
+      class(tangent_t), intent(in) :: self          !! the direction, for the scales
+      type(mechanism_t), intent(in) :: system       !! the system
+      real(wp), intent(in) :: direction(:)          !! (n) the direction [any]
+      real(wp), intent(in) :: most                  !! maximum change of positions and rates, as an event is near [1]
+
+      real(wp) :: position, rate
+
+      associate (nq => system%linkage%n_position, n => size(self%scale))
+         position = maxval(abs(direction(:nq))/self%scale(:nq))
+         rate = maxval(abs(direction(nq + 1:n))/self%scale(nq + 1:))/self%pace(system)
+      end associate
+      part_of = 1.0_wp/max(position/max(nearest, min(nearness, most)), rate/max(nearest, min(rate_nearness, most)), tiny(1.0_wp))
+   end function part_of
 
    !> The right-hand side beside the motion, with the impact speeds there.
    subroutine beside(self, system, t, y, direction, part, ydot, status)

@@ -73,20 +73,23 @@ contains
       real(wp), intent(out) :: aside                     !! time in which a contact comes out of round-off [s]
       real(wp), intent(out) :: shift                     !! how much later it does; of a change of length one [s]
 
+      real(wp), parameter :: most_aside = 1.0e-7_wp   ! change of rates at which event functions are looked at [1]
       real(wp), dimension(part%system%n_event) :: g, minus, plus, rate, unused
+      real(wp) :: near
 
       aside = 0.0_wp
       shift = 0.0_wp
       associate (system => part%system, method => part%method, event => part%method%events%happened(1))
          if (method%events%n_happened > 1) tangent%n_together = tangent%n_together + 1
+         near = tangent%part_of(system, tangent%w, most_aside)
          call tangent%take_speeds(system)
-         call tangent%give_speeds(system, nearness)
-         call system%events(method%t, method%step%y1 + nearness*tangent%w, plus, unused)
-         call tangent%give_speeds(system, -nearness)
-         call system%events(method%t, method%step%y1 - nearness*tangent%w, minus, unused)
+         call tangent%give_speeds(system, near)
+         call system%events(method%t, method%step%y1 + near*tangent%w, plus, unused)
+         call tangent%give_speeds(system, -near)
+         call system%events(method%t, method%step%y1 - near*tangent%w, minus, unused)
          call tangent%give_speeds(system, 0.0_wp)
          call system%events(method%t, method%step%y1, g, rate)
-         if (rate(event) > 0.0_wp) shift = -(plus(event) - minus(event))/(2.0_wp*nearness*rate(event))
+         if (rate(event) > 0.0_wp) shift = -(plus(event) - minus(event))/(2.0_wp*near*rate(event))
          if (.not. rate(event) > 0.0_wp .or. abs(shift)*tangent%pace(system) > latest) then
             tangent%n_grazed = tangent%n_grazed + 1
             shift = 0.0_wp
