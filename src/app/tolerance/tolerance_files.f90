@@ -19,7 +19,8 @@ module tolerance_files
    use tolerance_results, only: tolerance_study_t
    use tolerance_rows, only: measured_lists
    use tolerance_tables, only: table_of_contributors, table_of_derivatives, table_of_histograms, table_of_requests, &
-      table_of_splits, table_of_times, table_of_widths, table_of_worst
+      table_of_splits, table_of_times, table_of_widths
+   use worst_members_table, only: table_of_worst
    implicit none (type, external)
    private
    public :: write_study

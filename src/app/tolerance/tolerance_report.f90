@@ -23,7 +23,8 @@ module tolerance_report
    use tolerance_plan, only: level_dynamic
    use tolerance_results, only: tolerance_study_t
    use tolerance_study, only: is_accurate
-   use tolerance_tables, only: table_of_contributors, table_of_requests, table_of_splits, table_of_widths, table_of_worst
+   use tolerance_tables, only: table_of_contributors, table_of_requests, table_of_splits, table_of_widths
+   use worst_members_table, only: table_of_worst
    implicit none (type, external)
    private
    public :: note_members, note_runs, report_tolerances

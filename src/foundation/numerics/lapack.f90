@@ -25,12 +25,12 @@ module lapack
          integer, intent(in) :: n                 !! columns of A
          real(wp), intent(in) :: alpha            !! factor [1]
          integer, intent(in) :: lda               !! leading dimension of A
-         real(wp), intent(in) :: a(lda, *)        !! the matrix A [any]
+         real(wp), intent(in) :: a(lda, *)        !! (lda, n) the matrix A [any]
          integer, intent(in) :: incx              !! distance of the elements of x
-         real(wp), intent(in) :: x(*)             !! a vector [any]
+         real(wp), intent(in) :: x(*)             !! (n, or m) a vector [any]
          real(wp), intent(in) :: beta             !! factor; 0: y need not be set [1]
          integer, intent(in) :: incy              !! distance of the elements of y
-         real(wp), intent(inout) :: y(*)          !! the other vector [any]
+         real(wp), intent(inout) :: y(*)          !! (m, or n) the other vector [any]
       end subroutine dgemv
 
       !> Least-norm least-squares solution by singular values, with the rank.

@@ -1,14 +1,14 @@
 !> The results of a study of tolerances as tables: channels, contributors, everything over the output times, histograms.
 module tolerance_tables
    use dimension_text, only: unit_text
-   use kinds, only: i8, not_a_number, wp
+   use kinds, only: not_a_number, wp
    use result_table, only: in_csv, in_hdf5, only_shown, result_table_t
-   use text, only: append_text, join, text_t
+   use text, only: text_t
    use tolerance_results, only: tolerance_study_t
    implicit none (type, external)
    private
    public :: table_of_contributors, table_of_derivatives, table_of_histograms, table_of_requests, table_of_splits, &
-      table_of_times, table_of_widths, table_of_worst
+      table_of_times, table_of_widths
 
    integer, parameter :: in_files = in_csv + in_hdf5   !! for programs, but not in JSON, which has objects of its own
 
@@ -206,71 +206,6 @@ contains
       call table%put("total_low", "1", "lower end of its interval of 95 %", x(:, 8), formats=in_files)
       call table%put("total_high", "1", "upper end of it", x(:, 9), formats=in_files)
    end function table_of_contributors
-
-   !> The members with the lowest and the highest value of each channel, at the time that is shown of it.
-   function table_of_worst(study) result(table)
-      type(tolerance_study_t), intent(in) :: study   !! the study
-      type(result_table_t) :: table                  !! two rows for each channel
-
-      character(*), parameter :: axes(2) = ["x", "y"]
-      integer, parameter :: most_shown = 12          ! parts that people see in a row
-      type(text_t), allocatable :: channels(:), names(:)
-      integer(i8), allocatable :: numbers(:)
-      character(:), allocatable :: heading, units
-      real(wp), allocatable :: deviations(:, :), shares(:, :), values(:)
-      real(wp) :: half
-      integer :: i, k, m, n, n_all, r
-
-      n = size(study%plan%parameters)
-      n_all = n + 2*size(study%pins)
-      m = 2*size(study%requests)
-      allocate (channels(m), names(n_all), numbers(m), table%units(m), values(m))
-      allocate (deviations(n_all, m), shares(n_all, m), source=not_a_number())
-      units = ""
-      do k = 1, n
-         names(k)%s = study%plan%parameters(k)%name
-         units = units//" "//unit_text(study%plan%parameters(k)%dimension)
-      end do
-      do k = n + 1, n_all
-         names(k)%s = study%pins((k - n + 1)/2)%joint//"."//axes(2 - modulo(k - n, 2))
-         units = units//" m"
-      end do
-      do m = 1, size(channels)
-         r = (m + 1)/2
-         i = 2 - modulo(m, 2)
-         channels(m)%s = study%requests(r)%name
-         table%units(m)%s = study%requests(r)%unit
-         numbers(m) = study%members%worst(i, r)%number
-         values(m) = not_a_number()
-         if (numbers(m) == 0_i8) cycle
-         values(m) = study%members%worst(i, r)%value
-         deviations(:n, m) = study%members%worst_deviations(:, i, r)
-         deviations(n + 1:, m) = reshape(study%members%worst_pins(:, :, i, r), [n_all - n])
-         do k = 1, n
-            associate (parameter => study%plan%parameters(k))
-               half = 0.5_wp*(parameter%upper - parameter%lower)
-               if (half > 0.0_wp) shares(k, m) = (deviations(k, m) - 0.5_wp*(parameter%upper + parameter%lower))/half
-            end associate
-         end do
-         do k = n + 1, n_all
-            half = study%pins((k - n + 1)/2)%clearance
-            if (half > 0.0_wp) shares(k, m) = deviations(k, m)/half
-         end do
-      end do
-      if (n_all <= most_shown) heading = "of its tolerance"
-      call table%start("worst", "tolerance_worst", size(channels), title="Members with the lowest and the highest value", &
-                       elsewhere="tolerance.h5")
-      call table%fact("parts", join(names, " "), formats=in_hdf5)
-      call table%put("request", "1", "channel", texts=channels, heading="channel", formats=in_files)
-      call table%put("member", "1", "number of the member; 0: none has a value", counts=numbers, heading="member", formats=in_files)
-      call table%put("value", "rows", "its value; NaN: none has one", values, heading="value", digits=6, formats=in_files)
-      call table%put("deviation", units(2:), "deviations of the parameters, displacements of the pins; NaN: there is no member", &
-                     [deviations], shape=[n_all], parts=names, formats=in_hdf5)
-      call table%put("share", "1", "these, from the middle of the tolerance in half its width, pins in nominal clearances; "// &
-                     "NaN: no width", [shares], shape=[n_all], parts=names, heading=heading, digits=3, formats=in_hdf5)
-      if (allocated(heading)) call append_text(table%notes, "parameters: -1 to 1 between the limits of their tolerances; "// &
-                                               "pins: displacement in clearances")
-   end function table_of_worst
 
    !> Order of numbers, largest first.
    pure function descending(x) result(order)
