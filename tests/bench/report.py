@@ -38,6 +38,10 @@ PARTS = (
      "Every deck of inputs/ and inputs/hard with a dynamic analysis at a tolerance, and tests/bench/grip.deck. `error`: of positions or angles, the "
      "maximum over their range, at the deck's tolerance by `method = auto`. `best_ms`: processor time of the best named method (verner, dop853, radau, "
      "bdf, rock4, adams, ida) for the same error, between its tolerances by a power law; empty: none of them is as accurate. `auto`: the steps that were made, where the method changed, and h lambda there."),
+    ("tolerance_cost.csv", None, "Studies of tolerances",
+     "Processor time of whole studies, one process after the other. Runs are those of the dry slider-crank, with 13 runs beside the members. "
+     "`motions_s`: of all motions with their output times; `ratio`: `study_s` over it; `solution_s`: of as many motions without output times, "
+     "by single runs; `us_per_member`: of the members alone."),
     ("peers/peers_ratio.csv", None, "Other programs on the same scenes (`make bench-peers`)",
      "Time of Simbody (Runge-Kutta-Merson and -Fehlberg; Adams of CPODES for chains), MuJoCo (RK4, implicitfast) and Exudyn (kinematic "
      "tree with DOPRI5 for chains, index-2 trapezoidal rule for loops) over gudgeon's (verner, in space dop853 too, for the governor "

@@ -269,3 +269,85 @@ def test_fit(package):
     assert package.fit(deck, ROOT / "inputs" / "fit_restitution.csv", out="again", write="numbers").equals(frame), "through a pipe"
     with pytest.raises(package.GudgeonError, match="cannot read"):
         package.fit(ROOT / "inputs" / "fit_restitution.deck", "nowhere.csv")
+
+
+def test_tolerances_of_positions(package):
+    """Frames of a four-bar: derivatives in closed form, parts of the variance, yields, and worst members that are assembled again."""
+    pandas = pytest.importorskip("pandas")
+    deck = package.Deck.read(ROOT / "inputs" / "tolerance_four_bar.deck")
+    study = package.tolerance(deck, out="four_bar")
+    a, b, c, d, theta = 0.02, 0.06, 0.05, 0.07, np.radians(30)
+    x, y = a*np.cos(theta), a*np.sin(theta)
+    e = np.hypot(d - x, y)
+    along = (b*b - c*c + e*e)/(2*e)
+    across = np.sqrt(b*b - along*along)
+    head = x + ((d - x)*along + y*across)/e, y + (-y*along + (d - x)*across)/e
+    coupler, rocker = np.arctan2(head[1] - y, head[0] - x), np.arctan2(head[1], head[0] - d)
+    size = c*np.sin(rocker - coupler)
+    exact = {"a": -np.cos(theta - coupler)/size, "b": -1/size, "c": np.cos(rocker - coupler)/size, "d": np.cos(coupler)/size,
+             "theta": a*np.sin(theta - coupler)/size}
+    found = study.contributors.loc["request.rocker"]
+    assert set(found.index) == set(exact) and found["linear"].is_monotonic_decreasing and abs(found["linear"].sum() - 1) < 1e-12
+    assert all(abs(found.loc[name, "derivative"]/slope - 1) < 1e-10 for name, slope in exact.items())
+    assert (found["first_low"] < found["linear"]).all() and (found["linear"] < found["first_high"]).all()
+    assert list(study.requests.index) == ["request.rocker"] and study.requests.loc["request.rocker", "unit"] == "rad"
+    assert abs(study.requests["nominal"].iloc[0]/rocker - 1) < 1e-12
+    assert len(study.times) == 2 and len(study.derivatives) == 10 and study.histogram["members"].sum() == 10000
+    assert list(study.yields.index) == ["all", "request.rocker"] and (study.yields["low"] < study.yields["value"]).all()
+    lowest, highest = study.times["lowest"].iloc[0], study.times["highest"].iloc[0]
+    assert list(study.worst["value"]) == [lowest, highest] and isinstance(study.worst, pandas.DataFrame)
+    for _, row in study.worst.iterrows():
+        values = {name: nominal + row[name] for name, nominal in {"a": a, "b": b, "c": c, "d": d, "theta": theta}.items()}
+        again = package.tolerance(deck, out="again", set={name: f"{value!r} {'rad' if name == 'theta' else 'm'}"
+                                                          for name, value in values.items()})
+        assert abs(again.requests["nominal"].iloc[0] - row["value"]) < 1e-7, "that of the expansion"
+    with pytest.raises(ValueError, match="not kept"):
+        study.members
+    assert package.Tolerances("four_bar").requests.equals(study.requests)
+    with pytest.raises(FileNotFoundError, match="no study of tolerances"):
+        package.Tolerances("nowhere")
+    with pytest.raises(package.GudgeonError, match="tolerance"):
+        package.tolerance(written(".", plain_deck(SHORT)), out="none")
+
+
+THROW = """deck = 1
+[scene]
+title   = "Throw"
+gravity = 0 -10 m/s^2
+[parameters]
+h = 1 m
+v = 4 m/s
+[bodies]
+name   mass[kg]   inertia[kg.m^2]   y     vy
+ball   1          0.1               {h}   {v}
+[tolerance]
+name   plus_minus   distribution
+h      0.1m         uniform
+v      0.5m/s       truncated
+[tolerance.limit]
+name   channel               lower   upper
+high   ball.position.y.max   1.6m    2m
+[tolerance.study]
+members = 30
+points  = 10
+[analysis.dynamic]
+start = given
+end   = 1 s
+[output]
+every = 0.01 s
+"""
+
+
+def test_tolerances_of_runs(package):
+    """Heights of throws, h + v^2/(2 g): members and the worst of them, in closed form."""
+    pytest.importorskip("pandas")
+    study = package.tolerance(package.Deck(THROW, name="throw"), jobs=1)
+    members = study.members
+    assert len(members) == 30
+    np.testing.assert_allclose(members["ball.position.y.max"], members["h"] + members["v"]**2/20, rtol=1e-9)
+    np.testing.assert_allclose(study.contributors.loc["ball.position.y.max"].loc[["v", "h"], "derivative"], [0.4, 1.0], rtol=1e-8)
+    for row, at in zip(study.worst.to_dict("records"), (members["ball.position.y.max"].idxmin(), members["ball.position.y.max"].idxmax())):
+        assert row["member"] == at + 1 and row["value"] == members["ball.position.y.max"][at]
+        np.testing.assert_allclose([1 + row["h"], 4 + row["v"]], members.loc[at, ["h", "v"]].astype(float), rtol=1e-14)
+    good = members["ball.position.y.max"].between(1.6, 2).sum()
+    assert study.yields.loc["all", "good"] == good and study.yields.loc["all", "value"] == good/30

@@ -2,6 +2,7 @@
 
 import functools
 import json
+import re
 import sys
 
 import h5py
@@ -166,6 +167,20 @@ def test_page_of_a_study_of_tolerances(gudgeon):
         channel = summary["tolerance"][row[0]]
         for column, wanted in ((3, channel["nominal"]["value"][0]), (4, channel["band"]["low"][0]), (6, channel["sigma"]["value"][0])):
             assert abs(float(row[column]) / factor[row[1]] - wanted) <= 1e-5 * abs(wanted), (row, column, wanted)
+    with h5py.File(directory / "still" / "tolerance.h5") as file:
+        worst = {name: file[f"tolerance_worst/{name}"][()] for name in ("member", "value", "share")}
+    rows = page.tables["worst"]
+    assert rows[0][:4] == ["channel", "unit", "member", "value"] and rows[0][4:] == ["r", "l", "gudgeon.x", "gudgeon.y"]
+    for row, member, value, share in zip(rows[1:], worst["member"], worst["value"], worst["share"], strict=True):
+        assert int(row[2]) == member and abs(float(row[3]) / factor[row[1]] - value) <= 1e-5 * abs(value)
+        assert row[4:6] == ["-", "-"] and [float(cell) for cell in row[6:]] == pytest.approx(share[2:], rel=1e-2), "parts without tolerance"
+    limits = "\n[tolerance.limit]\nname channel lower upper\nx slider.position.x 108.9mm 109.4mm\n"
+    (directory / "limited.deck").write_text(changed(text, "output", report="on") + limits, encoding="utf-8")
+    call(gudgeon, "tolerance", directory / "limited.deck", "--out", directory / "limited", "--quiet")
+    found = json.loads((directory / "limited" / "summary.json").read_text(encoding="utf-8"))["tolerance_study"]["yield"]
+    status = (directory / "limited" / "report.html").read_text(encoding="utf-8").split('<p class="status complete">')[1].split("</p>")[0]
+    told = re.search(r"yield: ([\d.]+), 95 %: ([\d.]+) to ([\d.]+) within all limits$", status)
+    assert [float(number) for number in told.groups()] == pytest.approx([found["value"], found["low"], found["high"]], abs=1e-6)
     (directory / "moving.deck").write_text(f'''deck = 1
 include "{ROOT / "inputs" / "studies" / "tolerance_study.deck"}"
 [tolerance.study]

@@ -179,6 +179,28 @@ def test_intervals_and_yield(gudgeon):
     assert rocker["yield"]["low"] < 0.5 * math.erfc(-far / math.sqrt(2)) < rocker["yield"]["high"]
 
 
+@pytest.mark.parametrize("pin", ["disc", "circle", "force", "worst"])
+@pytest.mark.parametrize("plan", ["monte_carlo", "latin_hypercube", "sobol"])
+def test_worst_members(gudgeon, pin, plan):
+    """Lowest and highest members: those of the range, at the place that the pin and the parts give in closed form."""
+    text = SLIDER_CRANK.replace("requests = slider", f"members = 256\nmethod = exact\nplan = {plan}\nrequests = slider")
+    summary, out = study(gudgeon, text, pin=pin, part="0.05mm", theta="60deg")
+    of = summary["tolerance"]["slider.position.x"]
+    with h5py.File(out / "tolerance.h5") as file:
+        table = file["tolerance_worst"]
+        assert table.attrs["parts"] == "r l gudgeon.x gudgeon.y" and (table["member"][()] >= 1).all()
+        assert (table["member"][()] <= 256).all() and table["member"][0] != table["member"][1]
+        values, deviations, shares = table["value"][()], table["deviation"][()], table["share"][()]
+    assert list(values) == [of["range"]["low"][0], of["range"]["high"][0]]
+    np.testing.assert_allclose(shares, deviations / [5e-5, 5e-5, 5e-4, 5e-4], rtol=1e-12)
+    for value, (dr, dl, x, y) in zip(values, deviations):
+        assert {"disc": math.hypot(x, y) < 5.0001e-4, "circle": math.hypot(x, y) == pytest.approx(5e-4, rel=1e-12),
+                "force": math.hypot(x, y) == pytest.approx(5e-4, rel=1e-12), "worst": x == y == 0}[pin]
+        height = (0.05 + dr) * math.sin(math.pi / 3)
+        places = [(0.05 + dr) * 0.5 + math.sqrt((0.12 + dl) ** 2 - (height + side * y) ** 2) + side * x for side in (-1, 1)]
+        assert min(abs(value - place) for place in places) < 1e-13
+
+
 def test_latin_hypercube(gudgeon):
     """The mean of a hypercube is next to the exact one, far closer than its interval."""
     text = FOUR_BAR + "\n[tolerance.study]\nplan = latin_hypercube\nmembers = 2000\npoints = 50\n"

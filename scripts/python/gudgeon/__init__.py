@@ -14,6 +14,7 @@ Runs need nothing but the program (`gudgeon.program()` says which), arrays h5py 
 from .call import GudgeonError, program
 from .deck import Deck
 from .result import Run, read
+from .tolerances import Tolerances, tolerance
 from .verbs import fit, life, precision, run, sweep
 
-__all__ = ["Deck", "GudgeonError", "Run", "fit", "life", "precision", "program", "read", "run", "sweep"]
+__all__ = ["Deck", "GudgeonError", "Run", "Tolerances", "fit", "life", "precision", "program", "read", "run", "sweep", "tolerance"]

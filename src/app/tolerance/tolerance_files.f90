@@ -20,6 +20,7 @@ module tolerance_files
    use tolerance_rows, only: measured_lists
    use tolerance_tables, only: table_of_contributors, table_of_derivatives, table_of_histograms, table_of_requests, &
       table_of_splits, table_of_times, table_of_widths
+   use worst_members_table, only: table_of_worst
    implicit none (type, external)
    private
    public :: write_study
@@ -44,6 +45,7 @@ contains
       if (.not. allocated(error)) then
          tables = list_of(table_of_requests(study), table_of_contributors(study), table_of_times(study), &
                           table_of_derivatives(study), table_of_histograms(study))
+         call append_tables(tables, list_of(table_of_worst(study)))
          if (allocated(study%allocations)) call append_tables(tables, list_of(table_of_widths(study)))
          if (allocated(study%splits)) call append_tables(tables, list_of(table_of_splits(study)))
          call write_table_file("tolerance.h5", "gudgeon tolerance", plan, status_complete, tables, error)

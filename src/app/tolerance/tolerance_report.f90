@@ -24,6 +24,7 @@ module tolerance_report
    use tolerance_results, only: tolerance_study_t
    use tolerance_study, only: is_accurate
    use tolerance_tables, only: table_of_contributors, table_of_requests, table_of_splits, table_of_widths
+   use worst_members_table, only: table_of_worst
    implicit none (type, external)
    private
    public :: note_members, note_runs, report_tolerances
@@ -91,19 +92,21 @@ contains
       type(error_t), allocatable, intent(out) :: error       !! a file cannot be written
       type(sweep_results_t), intent(in), optional :: results !! of the runs, where there are some
 
-      character(:), allocatable :: files, object, page, text
+      character(:), allocatable :: files, first, object, page, text
       type(kept_histories_t) :: histories
 
       files = "tolerance.h5, tolerance.csv, tolerance_derivatives.csv"
       if (study%plan%level == level_dynamic) files = files//", sweep.csv (runs)"
       if (loaded%scene%settings%output%flag("report")) then
          files = files//", "//report_name
+         first = headline(study)//"; members: "//words_of_members(study)
+         if (any(study%requests%is_limited)) first = first//"; yield: "//words_of_yield(study)
          if (present(results)) then
             call no_histories(histories)
-            page = study_page_text(plan, status_complete, headline(study), warnings, tables_of(study), pictures, results, &
+            page = study_page_text(plan, status_complete, first, warnings, tables_of(study), pictures, results, &
                                    requested(study), histories)
          else
-            page = study_page_text(plan, status_complete, headline(study), warnings, tables_of(study), pictures)
+            page = study_page_text(plan, status_complete, first, warnings, tables_of(study), pictures)
          end if
          call replace_file(plan%directory//"/"//report_name, page, error)
          if (allocated(error)) return
@@ -133,7 +136,7 @@ contains
 
       tables = list_of(table_of_requests(study))
       if (allocated(study%splits)) call append_tables(tables, list_of(table_of_splits(study)))
-      call append_tables(tables, list_of(table_of_contributors(study)))
+      call append_tables(tables, list_of(table_of_contributors(study), table_of_worst(study)))
       if (allocated(study%allocations)) call append_tables(tables, list_of(table_of_widths(study)))
    end function tables_of
 
@@ -151,6 +154,32 @@ contains
       end if
    end function headline
 
+   !> How many members there are, and how they were made.
+   function words_of_members(study) result(words)
+      type(tolerance_study_t), intent(in) :: study           !! the study
+      character(:), allocatable :: words                     !! one line
+
+      associate (members => study%members)
+         if (study%plan%level == level_dynamic) then
+            words = to_text(members%n)//" run, "//to_text(members%open)//" failed"
+         else
+            words = to_text(members%n)//trim(merge(" assembled       ", " by the expansion", members%is_exact))//", "// &
+                    to_text(members%open)//" cannot be assembled; "//to_text(study%n_checked)//" checked"
+         end if
+      end associate
+   end function words_of_members
+
+   !> The yield within all limits, with its interval.
+   function words_of_yield(study) result(words)
+      type(tolerance_study_t), intent(in) :: study           !! the study, with limits
+      character(:), allocatable :: words                     !! one line
+
+      associate (yield => study%members%yield)
+         words = real_text(real(yield%good, wp)/real(yield%n, wp), 6)//", 95 %: "//real_text(yield%low, 6)//" to "// &
+                 real_text(yield%high, 6)//" within all limits"
+      end associate
+   end function words_of_yield
+
    !> The summary for people.
    function text_of(plan, study, files, pictures, warnings) result(text)
       type(output_plan_t), intent(in) :: plan                !! what files say
@@ -166,21 +195,8 @@ contains
 
       call lines%line(plan%title)
       call lines%line(headline(study))
-      associate (members => study%members)
-         if (study%plan%level == level_dynamic) then
-            call lines%line("members    "//to_text(members%n)//" run, "//to_text(members%open)//" failed")
-         else
-            call lines%line("members    "//to_text(members%n)//trim(merge(" assembled       ", " by the expansion", &
-                            members%is_exact))//", "//to_text(members%open)//" cannot be assembled; "// &
-                            to_text(study%n_checked)//" checked")
-         end if
-         if (any(study%requests%is_limited)) then
-            associate (yield => members%yield)
-               call lines%line("yield      "//real_text(real(yield%good, wp)/real(yield%n, wp), 6)//", 95 %: "// &
-                               real_text(yield%low, 6)//" to "//real_text(yield%high, 6)//" within all limits")
-            end associate
-         end if
-      end associate
+      call lines%line("members    "//words_of_members(study))
+      if (any(study%requests%is_limited)) call lines%line("yield      "//words_of_yield(study))
       tables = tables_of(study)
       do k = 1, size(tables)
          call add_table(lines, tables(k))

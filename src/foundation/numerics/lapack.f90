@@ -3,7 +3,8 @@ module lapack
    use kinds, only: wp
    implicit none (type, external)
    private
-   public :: ddot, dgeev, dgels, dgelsd, dgeqp3, dgeqrf, dgesc2, dgesvd, dgetc2, dgetrf, dgetrs, dormqr, dpbtrf, dpbtrs, dsyev
+   public :: ddot, dgeev, dgels, dgelsd, dgemv, dgeqp3, dgeqrf, dgesc2, dgesvd, dgetc2, dgetrf, dgetrs, dormqr, dpbtrf, dpbtrs, &
+      dsyev
    public :: dsygv, dtrtrs, zgetrf, zgetrs
 
    interface
@@ -15,6 +16,22 @@ module lapack
          real(wp), intent(in) :: x(*)                        !! (n) first factors [any]
          real(wp), intent(in) :: y(*)                        !! (n) second factors [any]
       end function ddot
+
+      !> y = alpha A x + beta y, or with the transpose of A.
+      pure subroutine dgemv(trans, m, n, alpha, a, lda, x, incx, beta, y, incy)
+         import :: wp
+         character, intent(in) :: trans           !! N: A, T: its transpose
+         integer, intent(in) :: m                 !! rows of A
+         integer, intent(in) :: n                 !! columns of A
+         real(wp), intent(in) :: alpha            !! factor [1]
+         integer, intent(in) :: lda               !! leading dimension of A
+         real(wp), intent(in) :: a(lda, *)        !! (lda, n) the matrix A [any]
+         integer, intent(in) :: incx              !! distance of the elements of x
+         real(wp), intent(in) :: x(*)             !! (n, or m) a vector [any]
+         real(wp), intent(in) :: beta             !! factor; 0: y need not be set [1]
+         integer, intent(in) :: incy              !! distance of the elements of y
+         real(wp), intent(inout) :: y(*)          !! (m, or n) the other vector [any]
+      end subroutine dgemv
 
       !> Least-norm least-squares solution by singular values, with the rank.
       subroutine dgelsd(m, n, nrhs, a, lda, b, ldb, s, rcond, rank, work, lwork, iwork, info)

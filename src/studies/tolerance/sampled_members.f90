@@ -11,6 +11,7 @@ module sampled_members
    use sample_moments, only: capability_of, sample_t
    use tolerance_plan, only: pin_worst
    use tolerance_results, only: members_t, tolerance_study_t, yield_t
+   use worst_members, only: find_worst, keep_worst
    implicit none (type, external)
    private
    public :: begin_members, end_members, find_capabilities, inside_limits, sample_members, take_block
@@ -50,6 +51,7 @@ contains
       end do
       call end_members(samples, study%members)
       call find_capabilities(study)
+      call find_worst(study, draw)
       call cpu_time(now)
       study%cpu_members = now - start
    end subroutine sample_members
@@ -67,6 +69,7 @@ contains
          members%n = study%plan%sampling%members
          allocate (members%yields(n_request), members%at(n_request), members%edges(0:bins, n_request))
          allocate (members%counts(bins, n_request), source=0_i8)
+         allocate (members%worst(2, n_request))
          allocate (samples(n_request, size(study%sigma, 2)))
          samples%reference = study%derivatives%values
          do r = 1, n_request
@@ -114,14 +117,17 @@ contains
             else
                call samples(r, at)%add(values)
             end if
-            if (at == study%members%at(r)) call count_bins(values, some%is_open(:some%n), study%members%edges(:, r), &
-                                                           study%members%counts(:, r))
+            if (at == study%members%at(r)) then
+               call count_bins(values, some%is_open(:some%n), study%members%edges(:, r), study%members%counts(:, r))
+               call keep_worst(values, some%is_open(:some%n), study%members%taken, study%members%worst(:, r))
+            end if
             if (study%requests(r)%is_limited) is_within = is_within .and. is_between(some, study, r, at, values)
          end do
          study%members%yields(r)%good = study%members%yields(r)%good + count(is_within)
          is_good = is_good .and. is_within
       end do
       study%members%yield%good = study%members%yield%good + count(is_good)
+      study%members%taken = study%members%taken + some%n
    end subroutine take_block
 
    !> Which members of a block have a channel between its limits at all times; one that cannot be assembled has not.

@@ -10,6 +10,7 @@ module simulated_study
    use first_order, only: combine_derivatives
    use kinds, only: i8, not_a_number, wp
    use lapack, only: dgelsd
+   use member_draws, only: draw_t
    use member_values, only: block_t
    use polynomial_study, only: take_polynomials
    use run_design, only: run_design_t
@@ -19,6 +20,7 @@ module simulated_study
    use tolerance_results, only: tolerance_study_t
    use tolerance_study, only: compare_plans
    use variance_split, only: split_variance
+   use worst_members, only: find_worst
    implicit none (type, external)
    private
    public :: take_runs
@@ -150,6 +152,7 @@ contains
       logical, intent(in) :: is_failed(:)               !! (cases) failed
 
       type(block_t) :: some
+      type(draw_t) :: draw
       type(sample_t), allocatable :: samples(:, :)
       real(wp) :: high, low
       integer :: bin, k, m, r
@@ -175,6 +178,8 @@ contains
          call take_block(some, study, samples)
          call end_members(samples, study%members)
          call find_capabilities(study)
+         call draw%begin(study)
+         call find_worst(study, draw)
          study%n_checked = size(good)
          study%n_open = size(cases) - size(good)
          allocate (study%errors(size(values, 1)), source=0.0_wp)

@@ -16,6 +16,7 @@
 !> Limits: smooth results. In chaotic motion it misses most of the variance.
 module sparse_polynomial
    use kinds, only: wp
+   use lapack, only: dgemv
    use normal_distribution, only: normal_95
    use orthogonal_polynomials, only: max_degree
    implicit none (type, external)
@@ -139,16 +140,18 @@ contains
       real(wp), intent(inout) :: inverse(:, :)     !! (n, n) inverse of the triangle R [1]
       real(wp), intent(out) :: error(:)            !! (n) sum of the squares of what is predicted with so many terms [any]
 
-      real(wp) :: column(size(order)), rest(size(y))
+      real(wp) :: column(size(order)), rest(size(y)), sizes(size(psi, 2))
       integer :: n, pass, t
 
       rest = y
+      sizes = sqrt(matmul(weights, psi**2))   ! weights are 0 or 1
       inverse = 0.0_wp
       order = 0
       do n = 1, size(order)
-         order(n) = next_term(psi, weights*rest, weights, order(:n - 1))
+         order(n) = next_term(psi, weights*rest, sizes)
          if (order(n) == 0) exit
          column = 0.0_wp
+         sizes(order(n)) = huge(1.0_wp)   ! it is taken
          q(:, n) = psi(:, order(n))
          do pass = 1, 2
             do t = 1, n - 1
@@ -172,27 +175,21 @@ contains
       error(n + 1:) = error(n)
    end subroutine pursue
 
-   !> The candidate that fits the remainder best; 0: none does.
-   pure integer function next_term(psi, rest, weights, taken) result(best)
+   !> The candidate that fits the remainder best, the constant first; 0: none does.
+   pure integer function next_term(psi, rest, sizes) result(best)
       real(wp), intent(in) :: psi(:, :)     !! (members, candidates) values [1]
       real(wp), intent(in) :: rest(:)       !! (members) the remainder of those that are fitted, of the others 0 [any]
-      real(wp), intent(in) :: weights(:)    !! (members) 1: it is fitted [1]
-      integer, intent(in) :: taken(:)       !! (any) terms that are taken
+      real(wp), intent(in) :: sizes(:)      !! (candidates) root sum square of those that are fitted; huge: it is taken [1]
 
-      real(wp) :: gain, most
-      integer :: k
+      real(wp) :: gains(size(psi, 2))
 
-      best = 0
-      if (size(taken) == 0) best = 1
-      if (size(taken) == 0) return
-      most = 0.0_wp
-      do k = 2, size(psi, 2)
-         if (any(taken == k)) cycle
-         gain = abs(dot_product(psi(:, k), rest))/max(norm2(weights*psi(:, k)), tiny(1.0_wp))
-         if (gain <= most) cycle
-         most = gain
-         best = k
-      end do
+      best = 1
+      if (sizes(1) < huge(1.0_wp)) return
+      call dgemv("T", size(psi, 1), size(psi, 2), 1.0_wp, psi, size(psi, 1), rest, 1, 0.0_wp, gains, 1)
+      gains = abs(gains)/max(sizes, tiny(1.0_wp))
+      where (sizes >= huge(1.0_wp)) gains = 0.0_wp
+      best = maxloc(gains, dim=1)
+      if (.not. gains(best) > 0.0_wp) best = 0
    end function next_term
 
    !> What each member changes, by the fit without it.

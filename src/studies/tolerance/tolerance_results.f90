@@ -7,7 +7,7 @@ module tolerance_results
    use varied_mechanism, only: instant_t
    implicit none (type, external)
    private
-   public :: allocation_t, found_pin_t, indices_t, members_t, request_t, sensitivities_t, tolerance_study_t, yield_t
+   public :: allocation_t, found_pin_t, indices_t, members_t, request_t, sensitivities_t, tolerance_study_t, worst_t, yield_t
 
    !> A channel that is studied.
    type :: request_t
@@ -53,6 +53,12 @@ module tolerance_results
       real(wp) :: high = 1.0_wp              !! [1]
    end type yield_t
 
+   !> A member with an extreme value.
+   type :: worst_t
+      integer(i8) :: number = 0              !! of the member, from 1; 0: none has a value
+      real(wp) :: value = 0.0_wp             !! of the channel, at the time that is shown of it [any]
+   end type worst_t
+
    !> What the members give.
    !> Components: moments, yields and histograms of the same members.
    type :: members_t
@@ -71,6 +77,10 @@ module tolerance_results
       real(wp), allocatable :: capability(:, :)            !! (3, requests) Cpk, ends of its interval; NaN: no limits [1]
       real(wp), allocatable :: failures(:, :)              !! (3, requests) rare failures, ends of the interval; NaN: no limits [1]
       integer, allocatable :: at(:)                        !! (requests) number of the time that is shown, see `shown_time`
+      integer(i8) :: taken = 0                             !! members taken so far
+      type(worst_t), allocatable :: worst(:, :)            !! (2, requests) those with the lowest and the highest value then
+      real(wp), allocatable :: worst_deviations(:, :, :)   !! (parameters, 2, requests) deviations of these; NaN: there is none [any]
+      real(wp), allocatable :: worst_pins(:, :, :, :)      !! (2, pins, 2, requests) displacements x, y of their pins [m]
       real(wp), allocatable :: edges(:, :)                 !! (0:bins, requests) of the histograms [any]
       integer(i8), allocatable :: counts(:, :)             !! (bins, requests) members between them
    end type members_t
