@@ -4,8 +4,8 @@
 !>
 !> with p the centre of the pin and q the nearest place of the centreline: a straight one from the point of i along the axis, an arc
 !> about that point from the axis on, counter-clockwise, or a smooth curve through points. A last end that is open has a mouth with
-!> two sharp corners instead of a half circle; a pin whose centre is neither in the slot nor near a corner is free. See `curve_contacts`; forces:
-!> `point_contacts`.
+!> two sharp corners instead of a half circle; a pin whose centre is neither in the slot nor near a corner is free.
+!> See `curve_contacts`; forces: `point_contacts`.
 !>
 !> Signs: the reported force is that on the pin, world frame; the friction force is its component along t = R90 n, n into the wall.
 !> Source: Flores et al. (2008), sections 4.2 and 4.3. Limits: laws see a circle of the pin's radius on a plane, at the ends too,

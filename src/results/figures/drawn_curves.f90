@@ -1,8 +1,8 @@
 !> Profiles of cams and slots, and flat faces, as rows of clearance joints have them.
 !>
 !> A profile is the outline of its cam. A slot is its walls, a line on both sides of the centreline, with half circles about its
-!> ends that are round. A flat face is as long as the cam is wide. They are fixed in the bodies of the row, the ground included; a body that rows
-!> of [shapes] draw has no profile beside them.
+!> ends that are round. A flat face is as long as the cam is wide. They are fixed in the bodies of the row, the ground included; a
+!> body that rows of [shapes] draw has no profile beside them.
 module drawn_curves
    use drawing, only: add_part, add_stroke, drawing_t, in_both, part_t, start_part
    use item, only: find_place, item_t
