@@ -1,4 +1,4 @@
-!> Planar: a round pin of body j with clearance in a slot of body i: between both walls and the round ends, or through an open mouth.
+!> Planar: a round pin of body j with clearance in a slot of body i: between both walls and the round ends, or an open mouth.
 !>
 !> delta = |p - q| - c,   c = width/2 - radius,   n = (p - q)/|p - q|
 !>
