@@ -38,6 +38,7 @@ contains
       call give(info, "x", k == 3, item)
       call give(info, "y", k == 3, item)
       item%values(column_number(info, "closed"))%flag = .false.
+      item%values(column_number(info, "open_end"))%flag = k == 1
       c = column_number(info, "x")
       item%values(c)%table(:, 1) = [(0.02_wp*n, n=1, size(item%values(c)%table, 1))]
       c = column_number(info, "y")

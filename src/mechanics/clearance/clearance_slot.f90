@@ -1,10 +1,11 @@
-!> Planar: a round pin of body j with clearance in a slot of body i: between both walls and the round ends.
+!> Planar: a round pin of body j with clearance in a slot of body i: between both walls and the round ends, or an open mouth.
 !>
 !> delta = |p - q| - c,   c = width/2 - radius,   n = (p - q)/|p - q|
 !>
 !> with p the centre of the pin and q the nearest place of the centreline: a straight one from the point of i along the axis, an arc
-!> about that point from the axis on, counter-clockwise, or a smooth curve through points. See `curve_contacts`; forces:
-!> `point_contacts`.
+!> about that point from the axis on, counter-clockwise, or a smooth curve through points. A last end that is open has a mouth with
+!> two sharp corners instead of a half circle; a pin whose centre is neither in the slot nor near a corner is free.
+!> See `curve_contacts`; forces: `point_contacts`.
 !>
 !> Signs: the reported force is that on the pin, world frame; the friction force is its component along t = R90 n, n into the wall.
 !> Source: Flores et al. (2008), sections 4.2 and 4.3. Limits: laws see a circle of the pin's radius on a plane, at the ends too,
@@ -56,6 +57,8 @@ contains
                       lower=0.0_wp, upper=2.0_wp*pi)
       call add_point_columns(info, "centreline")
       call add_flag(info, "closed", "points are those of a closed groove", default="off")
+      call add_flag(info, "open_end", "the last end of the centreline is an open mouth with sharp corners, through which the pin " &
+                    //"comes and goes", default="off")
       call add_number(info, "width", dim_length, "width of the slot", lower=0.0_wp, open_lower=.true.)
       call add_number(info, "radius", dim_length, "radius of the pin", lower=0.0_wp, open_lower=.true.)
       call add_reference(info, "material", "material", "material of slot and pin")
@@ -119,6 +122,9 @@ contains
          call fault%set(merge("arc_radius", "arc       ", item%is_given("arc_radius")), "an arc has a radius and an angle", one)
       else if (item%flag("closed") .and. .not. is_given(3)) then
          call fault%set("closed", "only a groove through points is closed by this column", "an arc of 360 deg is closed")
+      else if (item%flag("open_end") .and. is_endless(item)) then
+         call fault%set("open_end", "the centreline of slot '"//item%name//"' has no end that could be open", &
+                        "give a length, an arc of less than 360 deg, or points with closed = off")
       else if (.not. 2.0_wp*item%number("radius") < item%number("width")) then
          call fault%set("radius", "the pin has a diameter of "//real_text(2.0e3_wp*item%number("radius"), 6)//" mm, the slot is " &
                         //real_text(1.0e3_wp*item%number("width"), 6)//" mm wide", "a pin is thinner than its slot")
@@ -131,6 +137,18 @@ contains
       message = fault%message
       help = fault%help
    end subroutine slot_mistake
+
+   !> Whether a centreline has no last end: a point, a circle, or a closed groove.
+   pure logical function is_endless(item)
+      type(item_t), intent(in) :: item   !! the row
+
+      type(profile_t) :: profile
+
+      is_endless = item%flag("closed")
+      if (has_points(item)) return
+      call slot_profile(item, profile)
+      is_endless = profile%is_closed .or. .not. profile%range(2) > profile%range(1)
+   end function is_endless
 
    !> The inner wall must not fold: half the width is less than the radius of curvature of the centreline.
    subroutine check_bend(item, fault)

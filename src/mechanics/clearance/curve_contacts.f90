@@ -3,9 +3,10 @@
 !> p is the centre of the circle of radius R, q the nearest place of the curve of i (`profile_curve`), n into the material of i:
 !> cam    delta = R + n . (p - q),   n to the inside of the closed curve,       b = -kappa/(1 + kappa |p - q|) outside
 !> slot   delta = |p - q| - c,       n = (p - q)/|p - q|, c half the width of the slot less R,   b = kappa_n/(1 + kappa_n |p - q|)
+!> corner delta = R - |p - q|,       n = (q - p)/|p - q|, q of the mouth of a slot,              b = -1/|p - q|
 !>
 !> with kappa the curvature of the curve, kappa_n that which counts on the side of n (positive where it bends away from n), and
-!> b = 1/|p - q| at the end of a slot. With w = p' as body i sees it and t = R90 n:
+!> b = 1/|p - q| at the round end of a slot. With w = p' as body i sees it and t = R90 n:
 !> rate = n . w,   delta'' = n . p'' as body i sees it + b (t . w)^2,   n turns with omega_i + b t . w
 !>
 !> A face of j through the point P has the unit normal n out of j, q is the place of the curve that is farthest against n:
@@ -31,7 +32,7 @@ module curve_contacts
    use normal_law, only: n_law_parameter, normal_law_t
    use planar_points, only: planar_points_t
    use point_contact, only: point_contact_t
-   use profile_curve, only: curvature_at, find_nearest, find_support, foot_t, profile_t
+   use profile_curve, only: at_corner, curvature_at, find_nearest, find_support, foot_t, profile_t
    implicit none (type, external)
    private
    public :: curve_contacts_t, curved_t, meets_cam, meets_face, meets_slot
@@ -170,8 +171,10 @@ contains
          n = [-foot%tangent(2), foot%tangent(1)]
          distance = norm2(e)
          if (curved%meets == meets_slot .and. foot%end /= 0 .and. distance > tiny(1.0_wp)) then
-            n = e/distance
-            meeting%b = 1.0_wp/distance
+            side = merge(-1.0_wp, 1.0_wp, foot%end == at_corner)
+            n = side*e/distance
+            meeting%b = side/distance
+            distance = side*distance
          else
             side = 1.0_wp
             if (curved%meets == meets_slot) side = sign(1.0_wp, dot_product(n, e))
@@ -181,7 +184,7 @@ contains
             meeting%b = -side*foot%curvature/sign(max(abs(bend), epsilon(1.0_wp)), bend)
          end if
          meeting%n = matmul(rot_i, n)
-         meeting%delta = distance + curved%offset
+         meeting%delta = distance + merge(curved%radius, curved%offset, foot%end == at_corner)
       end associate
    end subroutine meet
 

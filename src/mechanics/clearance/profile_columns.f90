@@ -99,6 +99,7 @@ contains
          if (abs(item%number("axis_angle")) <= 0.0_wp) profile%axis = merge([1.0_wp, 0.0_wp], [0.0_wp, 1.0_wp], &
                                                                             item%word("axis") == "x")
       end if
+      if (item%flag("open_end")) profile%mouth = 0.5_wp*item%number("width")
       call place_nodes(profile)
    end subroutine slot_profile
 

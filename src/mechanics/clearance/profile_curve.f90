@@ -9,6 +9,10 @@
 !> Curvature kappa = (q' x q'')/|q'|^3, positive where the curve turns to the left: where a closed one, which runs
 !> counter-clockwise, is convex. A closed curve has its outside on the right.
 !>
+!> A slot about an open curve may end in a mouth of half width h: corners q_e +- h f, q_e the last end, f normal to the curve there.
+!> A p beyond that end, or farther than h from the curve, has the nearer corner as its place. |p - q| of the wall, h less the
+!> distance from the curve, goes over into that of the corner with its slope.
+!>
 !> The nearest place to p has (p - q) . q' = 0 (`find_nearest`), the one that is farthest against n has n . q' = 0
 !> (`find_support`). Both are found without memory: nodes first, then Newton's iteration within a bracket, in each interval that
 !> can hold the best place.
@@ -21,13 +25,14 @@ module profile_curve
    use kinds, only: pi, wp
    implicit none (type, external)
    private
-   public :: curvature_at, find_nearest, find_support, foot_t, place_nodes, place_on, profile_arc, profile_line, profile_points
-   public :: profile_polar, profile_t
+   public :: at_corner, curvature_at, find_nearest, find_support, foot_t, place_nodes, place_on, profile_arc, profile_line
+   public :: profile_points, profile_polar, profile_t
 
    integer, parameter :: profile_line = 1     !! forms of a curve
    integer, parameter :: profile_arc = 2      !! the same
    integer, parameter :: profile_polar = 3    !! the same
    integer, parameter :: profile_points = 4   !! the same
+   integer, parameter :: at_corner = 2        !! `end` of a place that is a corner of the mouth
    integer, parameter :: n_interval = 512    !! intervals between nodes
    integer, parameter :: most_steps = 80      !! of an iteration
    real(wp), parameter :: done = 2.0_wp*epsilon(1.0_wp)  !! step that ends it, of the range of u [1]
@@ -39,6 +44,7 @@ module profile_curve
       real(wp) :: range(2) = [0.0_wp, 2.0_wp*pi] !! (2) u at its start and end [any]
       real(wp) :: radius = 0.0_wp                !! r of an arc [m]
       real(wp) :: axis(2) = [1.0_wp, 0.0_wp]     !! (2) a of a line [1]
+      real(wp) :: mouth = 0.0_wp                 !! h where its last end is open; 0: it is not [m]
       type(expression_t) :: polar                !! r(u) of a polar curve [m]
       type(curve_t) :: x                         !! x(u) through points [m]
       type(curve_t) :: y                         !! y(u) [m]
@@ -54,7 +60,7 @@ module profile_curve
       real(wp) :: tangent(2) = [1.0_wp, 0.0_wp]  !! (2) unit tangent, towards greater u [1]
       real(wp) :: curvature = 0.0_wp             !! kappa [1/m]
       real(wp) :: pace = 1.0_wp                  !! |q'| [m/any]
-      integer :: end = 0                         !! -1: the start of an open curve, 1: its end, and p is beyond; else 0
+      integer :: end = 0                         !! -1: the start of an open curve, 1: its end, p beyond; `at_corner`; else 0
    end type foot_t
 
 contains
@@ -154,7 +160,23 @@ contains
       case default
          call search(profile, .false., p, foot)
       end select
+      if (.not. profile%mouth > 0.0_wp) return
+      if (foot%end == 1 .or. norm2(p - foot%q) > profile%mouth) call take_corner(profile, p, foot)
    end subroutine find_nearest
+
+   !> The nearer corner of the mouth; tangent and curvature are those of the last end.
+   pure subroutine take_corner(profile, p, foot)
+      type(profile_t), intent(in) :: profile  !! the curve
+      real(wp), intent(in) :: p(2)            !! (2) the point, in the frame of the curve [m]
+      type(foot_t), intent(inout) :: foot     !! the place
+
+      real(wp) :: across(2)
+
+      call take_foot(profile, profile%range(2), foot)
+      across = [-foot%tangent(2), foot%tangent(1)]
+      foot%q = foot%q + sign(profile%mouth, dot_product(across, p - foot%q))*across
+      foot%end = at_corner
+   end subroutine take_corner
 
    !> The place of a closed curve that is farthest against a direction.
    pure subroutine find_support(profile, n, foot)

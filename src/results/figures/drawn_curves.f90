@@ -1,8 +1,8 @@
 !> Profiles of cams and slots, and flat faces, as rows of clearance joints have them.
 !>
 !> A profile is the outline of its cam. A slot is its walls, a line on both sides of the centreline, with half circles about its
-!> ends. A flat face is as long as the cam is wide. They are fixed in the bodies of the row, the ground included; a body that rows
-!> of [shapes] draw has no profile beside them.
+!> ends that are round. A flat face is as long as the cam is wide. They are fixed in the bodies of the row, the ground included; a
+!> body that rows of [shapes] draw has no profile beside them.
 module drawn_curves
    use drawing, only: add_part, add_stroke, drawing_t, in_both, part_t, start_part
    use item, only: find_place, item_t
@@ -116,8 +116,14 @@ contains
          call add_outline(q - across, .true., body, origin, drawing)
          return
       end if
-      last = half_circle(q(n, :), -across(n, :))
       first = half_circle(q(1, :), across(1, :))
+      if (profile%mouth > 0.0_wp) then  ! from corner to corner
+         call add_outline(reshape([q(n:1:-1, 1) + across(n:1:-1, 1), first(:, 1), q(:, 1) - across(:, 1), &
+                                   q(n:1:-1, 2) + across(n:1:-1, 2), first(:, 2), q(:, 2) - across(:, 2)], &
+                                  [2*n + n_end, 2]), .false., body, origin, drawing)
+         return
+      end if
+      last = half_circle(q(n, :), -across(n, :))
       call add_outline(reshape([q(:, 1) - across(:, 1), last(:, 1), q(n:1:-1, 1) + across(n:1:-1, 1), first(:, 1), &
                                 q(:, 2) - across(:, 2), last(:, 2), q(n:1:-1, 2) + across(n:1:-1, 2), first(:, 2)], &
                                [2*n + 2*n_end, 2]), .true., body, origin, drawing)
