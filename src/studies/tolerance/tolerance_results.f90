@@ -79,7 +79,7 @@ module tolerance_results
       integer, allocatable :: at(:)                        !! (requests) number of the time that is shown, see `shown_time`
       integer(i8) :: taken = 0                             !! members taken so far
       type(worst_t), allocatable :: worst(:, :)            !! (2, requests) those with the lowest and the highest value then
-      real(wp), allocatable :: worst_deviations(:, :, :)   !! (parameters, 2, requests) deviations of these; NaN: there is none [any]
+      real(wp), allocatable :: worst_deviations(:, :, :)   !! (parameters, 2, requests) their deviations; NaN: none [any]
       real(wp), allocatable :: worst_pins(:, :, :, :)      !! (2, pins, 2, requests) displacements x, y of their pins [m]
       real(wp), allocatable :: edges(:, :)                 !! (0:bins, requests) of the histograms [any]
       integer(i8), allocatable :: counts(:, :)             !! (bins, requests) members between them
