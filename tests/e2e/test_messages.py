@@ -50,6 +50,21 @@ r b1 e "0 0 1" "0 0 1"
 end = 0.1 s
 """
 
+PENDULUM = """deck = 1
+[bodies]
+name mass[kg] inertia[kg.m^2] x[m]
+rod 1 0.1 0.5
+[points]
+name body xi[m]
+o ground 0
+end rod -0.5
+[joint.revolute]
+name i j
+pivot o end
+[analysis.dynamic]
+end = 0.1 s
+"""
+
 
 @pytest.mark.parametrize("deck, joint, bodies", [(DOOR, "lower", "ground and 'door'"), (LINKS, "q", "'a' and 'b'")])
 @pytest.mark.parametrize("axis, degrees", [("0 0.02 1", 1.146), ("0 1 1", 45.0)])
@@ -114,6 +129,22 @@ end = 0.1 s
 def test_nearest_unit(gudgeon, unit, meant):
     said = call(gudgeon, "check", written(scratch(), PIN.replace("60rpm*t", f"60{unit}*t")), expect=3).stderr
     assert f"unknown unit '{unit}': did you mean '{meant}'?" in said, said
+
+
+@pytest.mark.parametrize("word, meant", [("hinge", "revolute"), ("prismatic", "translational"), ("weld", "rigid"), ("revolut", "revolute")])
+def test_joints_of_other_programs(gudgeon, word, meant):
+    """A joint by the name that other programs give it."""
+    text = PENDULUM.replace("[joint.revolute]", f"[joint.{word}]")
+    assert text != PENDULUM
+    said = call(gudgeon, "check", written(scratch(), text), expect=3).stderr
+    assert f"did you mean [joint.{meant}]?" in said, said
+
+
+def test_mobility_is_told(gudgeon):
+    """A joint that was forgotten shows: two rows less. With clearance the ideal twin has its own."""
+    assert "2 constraint rows (mobility 1), 0 joints" in call(gudgeon, "check", written(scratch(), PENDULUM)).stdout
+    deck = ROOT / "inputs/slider_crank_dry.deck"
+    assert "(mobility 2, 0 with all joints ideal), 1 joint with" in call(gudgeon, "check", deck).stdout
 
 
 def test_power_of_ten_with_a_unit(gudgeon):

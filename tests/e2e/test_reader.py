@@ -56,6 +56,10 @@ def test_vectors_and_parameters_of_space(gudgeon, reader):
     np.testing.assert_allclose(run["ball.position.x"], 3 * run["time"], atol=1e-12)
     np.testing.assert_allclose(abs(run["ball.orientation.e3"]), abs(np.sin(run["time"])), atol=1e-5)
     assert "ball.velocity.x" in run and "stone.velocity.z" in run, "a quantity is kept for all items"
+    with pytest.raises(KeyError, match="did you mean ball.position.x"):
+        run["ball.positon.x"]
+    with pytest.raises(KeyError, match="nothing: no such channel"):
+        run.peak("nothing")
 
 
 def test_every_dimension_of_a_history_has_a_name(gudgeon):

@@ -25,9 +25,11 @@ from __future__ import annotations
 
 import argparse
 import csv
+import difflib
 import os
 import pathlib
 import sys
+from collections.abc import Iterable
 from typing import TYPE_CHECKING, Any, NamedTuple
 
 import h5py
@@ -122,8 +124,18 @@ class Run(dict[str, np.ndarray]):
                 for component, letter in enumerate(COMPONENTS[values.shape[2]]):
                     self._put(f"{name}.{quantity}.{letter}", data, values[:, item, component])
 
+    def __missing__(self, name: str) -> np.ndarray:
+        raise KeyError(self._unknown(name, self))
+
+    def _unknown(self, name: str, known: Iterable[str]) -> str:
+        """What is said of a channel that is not there."""
+        near = difflib.get_close_matches(name, list(known), n=3, cutoff=0.5)
+        return f"{name}: no such channel" + (f"; did you mean {' or '.join(near)}?" if near else "")
+
     def peak(self, name: str) -> tuple[float, float]:
         """The greatest magnitude of a channel, and when: that of the summary, `compare` and the statistics of the whole run."""
+        if name not in self.extremes:
+            raise KeyError(self._unknown(name, self.extremes))
         of = self.extremes[name]
         if abs(of.least) > abs(of.greatest):
             return abs(of.least), of.least_time

@@ -127,7 +127,7 @@ contains
       call find_notes(scene, system, assembly, notes)
       if (size(notes) == 0) return
       call say("")
-      call say("unusual values (the run is not affected)")
+      call say("unusual values, taken as they are")
       do k = 1, size(notes)
          call say(notes(k)%s, 2)
       end do

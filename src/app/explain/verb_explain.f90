@@ -28,7 +28,7 @@ module verb_explain
    use scene, only: analysis_dynamic, analysis_kinematic, analysis_names, analysis_static, n_analysis, scene_t
    use start_state, only: find_start
    use static, only: equilibrium_t, find_equilibrium
-   use text, only: counted, real_text, replace, text_t
+   use text, only: counted, real_text, replace, text_t, to_text
    implicit none (type, external)
    private
    public :: check_deck, explain_deck
@@ -49,12 +49,25 @@ contains
       if (.not. allocated(error)) call find_begin(loaded, y, assembly, error)
       if (allocated(error)) return
       call say(loaded%path//": no errors; "//counted(loaded%system%linkage%bodies%n, "body", "bodies")//", "// &
-               counted(loaded%system%linkage%rows%n, "constraint row", "constraint rows")//", "// &
+               counted(loaded%system%linkage%rows%n, "constraint row", "constraint rows")//" ("//mobility_text(loaded)//"), "// &
                counted(loaded%system%clearance_joints%n, "joint with clearance", "joints with clearance")//"; assembled to "// &
                real_text(assembly%residual, 2)//" m or rad, maximum displacement of a body "//real_text(assembly%moved, 3)//" m"// &
                sweep_text(loaded)//comparison_text(loaded))
       call explain_notes(loaded%scene, loaded%system, assembly)
    end subroutine check_deck
+
+   !> Velocities minus rows, those of drivers included, as the deck is written and with ideal joints.
+   function mobility_text(loaded) result(words)
+      type(loaded_t), intent(in) :: loaded     !! the deck
+      character(:), allocatable :: words       !! as `mobility 3, 1 with all joints ideal`
+
+      type(mechanism_t) :: twin
+
+      words = "mobility "//to_text(size(loaded%system%linkage%mass) - loaded%system%linkage%rows%n)
+      if (loaded%system%clearance_joints%n == 0) return
+      call new_system(loaded%scene, levels_ideal, twin)
+      words = words//", "//to_text(size(twin%linkage%mass) - twin%linkage%rows%n)//" with all joints ideal"
+   end function mobility_text
 
    !> How many cases and runs a sweep of the deck has; blank if it has none.
    function sweep_text(loaded) result(words)

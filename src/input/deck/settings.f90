@@ -229,6 +229,9 @@ contains
       type(kind_info_t), intent(in) :: kinds(:)       !! (n) all kinds of sections
       type(diagnostics_t), intent(inout) :: mistakes  !! collects what is wrong
 
+      character(*), parameter :: other_words(7) = [character(9) :: "hinge", "pin", "prismatic", "slider", "ball", "weld", "fixed"]
+      character(*), parameter :: joint_words(7) = [character(13) :: "revolute", "revolute", "translational", "translational", &
+                                                   "spherical", "rigid", "rigid"]   ! what other programs call otherwise
       type(text_t), allocatable :: groups(:), names(:), relatives(:)
       character(:), allocatable :: group, help, name
       integer :: dot, k
@@ -247,6 +250,9 @@ contains
          if (starts_with(kinds(k)%name, name(1:dot))) call append_text(relatives, kinds(k)%name)
       end do
       help = nearest_word(name, names)
+      do k = 1, size(other_words)
+         if (name == "joint."//trim(other_words(k))) help = "joint."//trim(joint_words(k))
+      end do
       if (len(help) > 0) help = "did you mean ["//help//"]? "
       if (size(relatives) == 0) relatives = groups
       call mistakes%add(deck%sections(i)%location, "unknown section '"//name//"'", "not a section", &

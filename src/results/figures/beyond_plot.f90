@@ -114,14 +114,28 @@ contains
                          number((of_reference%value - of_reference%half)*unit%factor)//" to graph 1, first "// &
                          number((of_reference%value + of_reference%half)*unit%factor)// &
                          " behind fillcolor rgb '#e8e8e8' fillstyle solid noborder")
-         if (s == statistic_rate) call lines%line("set yrange [0:*]")
+         call lines%line(trim(merge("set yrange [0:*]  ", "set yrange [0<*:*]", s == statistic_rate)))
          call lines%line("plot "//number(of_reference%value*unit%factor)//" with lines linewidth 1.5 linecolor rgb '#606060', \")
       end associate
       do k = 1, size(study%tol_sweeps)
-         call lines%line("     '"//data_name//"' index "//to_text(k - 1)//" using 1:($2 == 1 ? $"//to_text(2*s + 1)// &
-                         "*f : NaN):($"//to_text(2*s + 2)//"*f) "//drawn(k)//trim(merge(", \", "   ", k < size(study%tol_sweeps))))
+         call lines%line("     '"//data_name//"' index "//to_text(k - 1)//" using ($1*"//beside(k)//"):($2 == 1 ? $"// &
+                         to_text(2*s + 1)//"*f : NaN):($"//to_text(2*s + 2)//"*f) "//drawn(k)// &
+                         trim(merge(", \", "   ", k < size(study%tol_sweeps))))
       end do
       call lines%line("set yrange [*:*]")
+
+   contains
+
+      !> Factor of the tolerance by which runs of a setting stand beside those of others.
+      function beside(k) result(factor)
+         integer, intent(in) :: k                 !! number of the setting, from 1
+         character(:), allocatable :: factor      !! as text
+
+         real(wp), parameter :: room = 0.2_wp     ! for all of them, of a decade; tolerances are a quarter apart
+
+         factor = real_text(10.0_wp**(room*((real(k, wp) - 0.5_wp)/real(size(study%tol_sweeps), wp) - 0.5_wp)), 6)
+      end function beside
+
    end subroutine add_panel
 
    !> A panel with the legend alone.

@@ -25,8 +25,8 @@ contains
          names(k)%s = accuracy%extremes(k)%name
          units(k)%s = accuracy%extremes(k)%unit
       end do
-      call table%start("extremes", "accuracy", n, "accuracy", "extremes", "summary.json and in run.h5, /accuracy")
-      if (accuracy%claim == claim_window) table%title = "extremes up to t = "//real_text(accuracy%until, 6)//" s"
+      call table%start("extremes", "accuracy", n, "accuracy", "extremes with intervals", "summary.json and in run.h5, /accuracy")
+      if (accuracy%claim == claim_window) table%title = "extremes with intervals up to t = "//real_text(accuracy%until, 6)//" s"
       if (.not. all(ieee_is_finite(accuracy%extremes%minimum))) then
          call append_text(table%notes, "-: undefined; a contact point is defined only during contact")
       end if

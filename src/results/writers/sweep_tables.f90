@@ -114,6 +114,9 @@ contains
          end do
          call table%put(results%names(chosen(i))%s, results%units(chosen(i))%s, "", mean, heading=results%names(chosen(i))%s)
       end do
+      if (results%n_member > 1) then
+         call append_text(table%notes, "means over the runs of a case; deviations, minima and maxima in cases.csv")
+      end if
       if (size(chosen) > most_columns .or. size(results%names) > size(chosen)) then
          call append_text(table%notes, counted(size(results%names), "number", "numbers")//" of each case in cases.csv")
       end if
