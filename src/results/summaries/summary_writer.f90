@@ -121,8 +121,9 @@ contains
       type(display_unit_t) :: unit
 
       unit = choose_unit("s", max(abs(summary%time_start), abs(summary%time_end)))
-      line = summary%status//": "//to_text(unit%factor*summary%time_start)//" to "// &
-             to_text(unit%factor*summary%time_end)//" "//unit%symbol
+      line = summary%status//": at "
+      if (summary%time_end > summary%time_start) line = summary%status//": "//to_text(unit%factor*summary%time_start)//" to "
+      line = line//to_text(unit%factor*summary%time_end)//" "//unit%symbol
       if (len(summary%method%integrator) > 0) line = line//", "//summary%method%integrator
       if (summary%method%tolerance > 0.0_wp) line = line//" at tolerance "//to_text(summary%method%tolerance)
       if (len(summary%method%solver) > 0) line = line//", solver "//summary%method%solver
