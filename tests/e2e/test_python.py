@@ -298,7 +298,7 @@ def test_tolerances_of_positions(package):
     assert list(study.worst["value"]) == [lowest, highest] and isinstance(study.worst, pandas.DataFrame)
     for _, row in study.worst.iterrows():
         values = {name: nominal + row[name] for name, nominal in {"a": a, "b": b, "c": c, "d": d, "theta": theta}.items()}
-        again = package.tolerance(deck, out="again", set={name: f"{value!r} {'rad' if name == 'theta' else 'm'}"
+        again = package.tolerance(deck, out="again", set={name: f"{float(value)!r} {'rad' if name == 'theta' else 'm'}"
                                                           for name, value in values.items()})
         assert abs(again.requests["nominal"].iloc[0] - row["value"]) < 1e-7, "that of the expansion"
     with pytest.raises(ValueError, match="not kept"):
