@@ -118,7 +118,7 @@ def test_extremes_are_those_of_the_rows(gudgeon):
         assert list(run.read(f"accuracy/{key}")) == [row[key] for row in found.values()]
     assert list(run.read("accuracy/names")) == list(found)
     head, line = next(pair for pair in pairwise(run.done.stdout.splitlines()) if "slider.velocity.x [m/s]" in pair[1])
-    assert head.split() == ["extremes", "min", "max", "+-"]  # the table of the accuracy comes first
+    assert head.split() == ["extremes", "with", "intervals", "min", "max", "+-"]  # the table of the accuracy comes first
     assert_close(float(line.split()[2]), velocity.min(), relative=1e-9, what=line)
 
 
