@@ -22,7 +22,29 @@ if TYPE_CHECKING:
 USE = "reading run.h5"
 
 
-class Run:
+class Results:
+    """A directory of results: what its summary says."""
+
+    directory: pathlib.Path
+
+    @functools.cached_property
+    def summary(self) -> dict[str, Any]:
+        """summary.json (docs/reference/output.md)."""
+        summary: dict[str, Any] = json.loads((self.directory / "summary.json").read_text(encoding="utf-8"))
+        return summary
+
+    @property
+    def warnings(self) -> list[str]:
+        """What the run or study warned of."""
+        return list(self.summary["warnings"])
+
+    @property
+    def figures(self) -> list[pathlib.Path]:
+        """Paths of the figures and animations."""
+        return [self.directory / name for name in self.summary["figures"]]
+
+
+class Run(Results):
     """What a run left behind: `directory`, `file` (its run.h5), and what the properties say."""
 
     def __init__(self, path: str | os.PathLike[str]):
@@ -35,10 +57,8 @@ class Run:
     @functools.cached_property
     def summary(self) -> dict[str, Any]:
         """summary.json (docs/reference/output.md); of a run that has not ended, what run.h5 has so far."""
-        path = self.directory / "summary.json"
-        if path.exists():
-            summary: dict[str, Any] = json.loads(path.read_text(encoding="utf-8"))
-            return summary
+        if (self.directory / "summary.json").exists():
+            return super().summary
         of = self.arrays()
         return {**of.summary, "status": of.attributes["status"], "message": of.attributes["status_message"],
                 "warnings": of.warnings, "figures": [], "loose_joints": []}
@@ -47,16 +67,6 @@ class Run:
     def status(self) -> str:
         """`complete`, `stopped`, `failed` or `running`."""
         return str(self.summary["status"])
-
-    @property
-    def warnings(self) -> list[str]:
-        """What the run warned of."""
-        return list(self.summary["warnings"])
-
-    @property
-    def figures(self) -> list[pathlib.Path]:
-        """Paths of the figures and animations."""
-        return [self.directory / name for name in self.summary["figures"]]
 
     def arrays(self, rows: str = "instants") -> reader.Run:
         """Channels as a dictionary of arrays, `rows`: "instants", equally spaced, or "all", with those at contacts."""

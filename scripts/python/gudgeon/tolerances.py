@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import functools
-import json
 import os
 import pathlib
 from collections.abc import Mapping
@@ -11,6 +10,7 @@ from typing import TYPE_CHECKING, Any
 
 from .call import GudgeonError, Progress, call, needed
 from .deck import Deck
+from .result import Results
 from .verbs import table
 
 if TYPE_CHECKING:
@@ -19,7 +19,7 @@ if TYPE_CHECKING:
 KEYS = ["request", "contributor"]
 
 
-class Tolerances:
+class Tolerances(Results):
     """What `gudgeon tolerance` left in a directory. Values are SI; column `unit` has the unit of the request."""
 
     def __init__(self, path: str | os.PathLike[str]):
@@ -30,19 +30,8 @@ class Tolerances:
 
     @functools.cached_property
     def summary(self) -> dict[str, Any]:
-        """summary.json (docs/reference/output.md)."""
-        summary: dict[str, Any] = json.loads((self.directory / "summary.json").read_text(encoding="utf-8"))
-        return {**summary, "directory": str(self.directory)}
-
-    @property
-    def warnings(self) -> list[str]:
-        """What the study warned of."""
-        return list(self.summary["warnings"])
-
-    @property
-    def figures(self) -> list[pathlib.Path]:
-        """Paths of the figures."""
-        return [self.directory / name for name in self.summary["figures"]]
+        """summary.json (docs/reference/output.md); `directory` is the one that is read."""
+        return {**super().summary, "directory": str(self.directory)}
 
     def _table(self, name: str) -> pandas.DataFrame:
         """A table of tolerance.h5, with the unit of each request."""

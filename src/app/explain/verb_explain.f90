@@ -61,12 +61,12 @@ contains
       type(loaded_t), intent(in) :: loaded     !! the deck
       character(:), allocatable :: words       !! as `mobility 3, 1 with all joints ideal`
 
-      type(mechanism_t) :: twin
+      type(mechanism_t) :: ideal
 
       words = "mobility "//to_text(size(loaded%system%linkage%mass) - loaded%system%linkage%rows%n)
       if (loaded%system%clearance_joints%n == 0) return
-      call new_system(loaded%scene, levels_ideal, twin)
-      words = words//", "//to_text(size(twin%linkage%mass) - twin%linkage%rows%n)//" with all joints ideal"
+      call new_system(loaded%scene, levels_ideal, ideal)
+      words = words//", "//to_text(size(ideal%linkage%mass) - ideal%linkage%rows%n)//" with all joints ideal"
    end function mobility_text
 
    !> How many cases and runs a sweep of the deck has; blank if it has none.

@@ -18,7 +18,7 @@ module forces_table
    public :: is_ranked, largest_forces, magnitudes_of_forces
 
    integer, parameter :: most_rows = 1000          !! of the table
-   real(wp), parameter :: same = 1.0e-6_wp         !! difference of forces that are as large: each is located by itself [1]
+   real(wp), parameter :: same = 1.0e-9_wp         !! relative difference of equal maxima, each located to 1e-11 [1]
 
 contains
 
